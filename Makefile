@@ -1,0 +1,24 @@
+# make fig_3_2 | make test | make setup | make TARGET TIER=quick
+PYTHON ?= python3
+CORES ?= 2
+READY := .venv/.ready
+SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
+
+.PHONY: setup test help
+help: $(READY)
+	@$(SNAKEMAKE)
+
+setup: $(READY)
+
+$(READY): environment.txt pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed")'
+	$(PYTHON) -m venv .venv
+	.venv/bin/python -m pip install --quiet --disable-pip-version-check -r environment.txt
+	touch $@
+
+test: $(READY)
+	.venv/bin/python -m pytest
+
+Makefile environment.txt pyproject.toml: ;
+%: $(READY)
+	$(SNAKEMAKE) $@ $(if $(TIER),--config tier=$(TIER))

@@ -1,0 +1,21 @@
+# What can be made. `snakemake` alone lists it.
+include: "workflow/rules/common.smk"
+
+
+rule targets:
+    localrule: True
+    input: list_targets
+
+
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/present.smk"
+
+
+rule all:
+    input: all_figures
+
+
+rule unknown_target:
+    output: "{name}"
+    wildcard_constraints: name=r"[A-Za-z0-9_]+"
+    input: refuse_target

@@ -1,0 +1,6 @@
+"""Contact of rough and smooth elastic solids on periodic grids."""
+
+from contactsim.api import press
+from contactsim.errors import SceneError
+
+__all__ = ["SceneError", "press"]

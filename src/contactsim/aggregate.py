@@ -1,0 +1,209 @@
+"""From the runs of a study to one dataset: ensemble means, standard errors, grid errors and fits.
+
+Unconverged solutions are left out of means and fits, and counted. The grid error is the change of the mean on halving
+the number of points, over the members for which both were computed: for a first-order quantity it bounds the error
+that remains, for a higher order generously so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from scipy.optimize import least_squares
+from scipy.stats import t as student
+
+from contactsim import analytic, dataset
+from contactsim.errors import SceneError
+from contactsim.grid import Array
+from contactsim.observables import proportionality
+from contactsim.solvers.base import Status
+
+APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
+"""What stays with the runs."""
+
+AVERAGED = (
+    "relative_contact_area",
+    "kappa",
+    "kappa_r",
+    "kappa_r_bond",
+    "rms_gradient_contact",
+    "rms_gradient_contact_bond",
+    "reduced_pressure_contact",
+    "mean_gap",
+)
+LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
+
+
+def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
+    """One dataset of a study: dims (varied keys, member, load).
+
+    runs: path, coordinates, member and companion of each; settings: of the study; source: digest of the code.
+    """
+    fine = _derived(_combined([run for run in runs if not run["companion"]]))
+    coarse = [run for run in runs if run["companion"]]
+    if "contact_ratio" in fine.dims:
+        fine["half_width_exact"] = fine.contact_ratio * settings["surface"]["radius"]
+    data = fine.merge(_ensemble(fine))
+    if coarse:
+        data = data.merge(_grid_error(fine, _derived(_combined(coarse))))
+    if settings["fit_limits"] is not None:
+        data = data.merge(fits(fine, settings["fit_limits"]))
+    return dataset.stamped(dataset.described(data), settings["title"], settings, source)
+
+
+def load_name(data: xr.Dataset) -> str:
+    """The dimension along which the load varies."""
+    return next(name for name in LOADS if name in data.dims)
+
+
+def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
+    """Values with NaN where the solution did not converge."""
+    return values.where(data.status == Status.CONVERGED.value[0])
+
+
+def left_out(data: xr.Dataset) -> tuple[int, int]:
+    """How many solutions did not converge, and how many there are."""
+    return int((data.status != Status.CONVERGED.value[0]).sum()), data.status.size
+
+
+def _combined(runs: list[dict]) -> xr.Dataset:
+    parts = []
+    for run in runs:
+        data = dataset.read(run["path"]).drop_vars(APART)
+        places = run["coordinates"] | {"member": run["member"]}
+        fixed = {name: data[name] for name in ("points", "length", "contact_modulus", "seed")}
+        parts.append(data.drop_vars(fixed).expand_dims({name: [value] for name, value in places.items()}))
+    return xr.combine_by_coords(parts, combine_attrs="drop").assign(fixed)
+
+
+def _derived(data: xr.Dataset) -> xr.Dataset:
+    modulus, area, pressure = data.contact_modulus, data.relative_contact_area, data.mean_pressure
+    contact = data.rms_gradient_contact
+    data = data.assign(
+        kappa_r=area.copy(data=proportionality(*xr.broadcast(area, pressure, contact), modulus.item())),
+        kappa_r_bond=area.copy(
+            data=proportionality(*xr.broadcast(area, pressure, data.rms_gradient_contact_bond), modulus.item())
+        ),
+        reduced_pressure_contact=pressure / (contact * modulus),
+    )
+    if "reduced_pressure" in data.dims:
+        data["kappa"] = area / data.reduced_pressure
+    if "contact_ratio" in data.dims:
+        data["half_width"] = area * data.length / 2
+    return data
+
+
+def _ensemble(data: xr.Dataset) -> xr.Dataset:
+    found = {}
+    for name in AVERAGED:
+        if name in data:
+            values = converged(data[name], data)
+            count = values.notnull().sum("member")
+            found[f"{name}_mean"] = values.mean("member")
+            found[f"{name}_standard_error"] = (values.std("member", ddof=1) if data.member.size > 1 else values.isel(
+                member=0) * np.nan) / np.sqrt(count)
+    return xr.Dataset(found)
+
+
+def _grid_error(fine: xr.Dataset, coarse: xr.Dataset) -> xr.Dataset:
+    same = fine.sel(member=coarse.member)
+    return xr.Dataset(
+        {
+            f"{name}_grid_error": abs((converged(same[name], same) - converged(coarse[name], coarse)).mean("member"))
+            for name in AVERAGED
+            if name in fine
+        }
+    )
+
+
+@dataclass(frozen=True)
+class Departure:
+    """A difference of two means: its size, its standard error, and the two places."""
+
+    difference: float
+    standard_error: float
+    places: tuple[dict[str, float], dict[str, float]]
+
+    @property
+    def in_errors(self) -> float:
+        """The difference over its standard error."""
+        return self.difference / self.standard_error
+
+
+def departure(data: xr.Dataset, name: str, along: str) -> Departure:
+    """The most significant difference of a quantity between two values of `along`, all else being equal.
+
+    Members are the same profiles along the load, so differences are taken member by member there; different Hurst
+    exponents are independent. Needs two members or more.
+    """
+    if data.member.size < 2:
+        raise SceneError("members", data.member.size, "2 or more: without a spread nothing is significant")
+    values = converged(data[name], data)
+    others = [dim for dim in values.dims if dim not in ("member", along)]
+    best = None
+    for (i, first), (j, second) in ((a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]):
+        one, two = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
+        paired = along in LOADS
+        gap = abs((one - two).mean("member")) if paired else abs(one.mean("member") - two.mean("member"))
+        square = (one - two).var("member", ddof=1) if paired else one.var("member", ddof=1) + two.var("member", ddof=1)
+        error = np.sqrt(square / data.member.size)
+        place = (gap / error).argmax(...)
+        found = Departure(float(gap[place]), float(error[place]), tuple(
+            {dim: float(data[dim][place[dim]]) for dim in others} | {along: float(end)} for end in (first, second)))
+        if best is None or found.in_errors > best.in_errors:
+            best = found
+    return best
+
+
+WEIGHTINGS = ("area", "logarithm")
+
+
+def fits(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
+    """Eq. 3.11 fitted to each Hurst exponent and to all, two weightings, each up to each limit of p*.
+
+    Returns b1 and b2 with half-widths of their 95 % confidence intervals by the jackknife over members: dims
+    (fitted, weighting, fit_limit).
+    """
+    area = converged(data.relative_contact_area, data).transpose("hurst", "member", "reduced_pressure").values
+    pressure = data.reduced_pressure.values
+    sets = [[row] for row in range(data.hurst.size)] + [list(range(data.hurst.size))]
+    names = [f"{value:g}" for value in data.hurst.values] + ["all"]
+    values = np.full((4, len(sets), len(WEIGHTINGS), len(limits)), np.nan)
+    for s, rows in enumerate(sets):
+        for w, weighting in enumerate(WEIGHTINGS):
+            for k, limit in enumerate(limits):
+                below = pressure <= limit * (1 + 1e-9)
+                chosen = area[rows][:, :, below]
+                best = fit_line_area(pressure[below], chosen, weighting)
+                values[:2, s, w, k] = best
+                values[2:, s, w, k] = _jackknife(pressure[below], chosen, weighting)
+    dims = ("fitted", "weighting", "fit_limit")
+    kinds = ("fit_b1", "fit_b2", "fit_b1_half_width", "fit_b2_half_width")
+    variables = {name: (dims, block) for name, block in zip(kinds, values, strict=True)}
+    return xr.Dataset(variables, {"fitted": names, "weighting": list(WEIGHTINGS), "fit_limit": limits})
+
+
+def fit_line_area(pressure: Array, area: Array, weighting: str) -> tuple[float, float]:
+    """b1 and b2 of Eq. 3.11 by least squares; pressure (k,), area (..., k), NaN left out.
+
+    weighting: "area" weighs the area itself, so the largest loads decide; "logarithm" weighs all alike.
+    """
+    known = np.isfinite(area) & (area > 0)
+
+    def misfit(logarithms: Array) -> Array:
+        model = np.broadcast_to(analytic.line_area(pressure, *np.exp(logarithms)), area.shape)[known]
+        return model - area[known] if weighting == "area" else np.log(model) - np.log(area[known])
+
+    found = least_squares(misfit, np.log([0.7, 1.0]), bounds=(np.log([1e-2, 1e-4]), np.log([1e1, 1e4])), x_scale="jac")
+    return tuple(np.exp(found.x))
+
+
+def _jackknife(pressure: Array, area: Array, weighting: str) -> Array:
+    members = area.shape[1]
+    if members < 3:
+        return np.full(2, np.nan)
+    parts = [fit_line_area(pressure, np.delete(area, member, axis=1), weighting) for member in range(members)]
+    error = np.sqrt((members - 1) / members * np.sum((parts - np.mean(parts, axis=0)) ** 2, axis=0))
+    return error * student.ppf(0.975, members - 1)

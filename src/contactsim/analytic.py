@@ -1,0 +1,66 @@
+"""Exact answers, for tests and figures alike.
+
+Line contacts without adhesion on a half-space: a parabolic cylinder (Hertz), a sinusoid (Westergaard), and the
+complete contact of any profile; Persson's estimate of the contact area of rough surfaces. Loads are per unit thickness;
+units nm, GPa, N/m, in which E* times a length is a line load without further factors.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.special import erf
+
+from contactsim.grid import Array, Grid
+
+
+def cylinder_load(half_width: Array, radius: float, contact_modulus: float) -> Array:
+    """Line load π E* c²/(4R) that gives contact half-width c (Eq. 3.5); nm, GPa to N/m."""
+    return np.pi * contact_modulus * np.asarray(half_width) ** 2 / (4 * radius)
+
+
+def cylinder_pressure(position: Array, half_width: float, radius: float, contact_modulus: float) -> Array:
+    """Hertz's pressure E*/(2R) √(c² - x²), zero outside; nm, GPa (Johnson 1985, doi:10.1017/CBO9781139171731)."""
+    inside = np.maximum(half_width**2 - np.asarray(position) ** 2, 0.0)
+    return contact_modulus / (2 * radius) * np.sqrt(inside)
+
+
+def cylinder_rms_gradient(half_width: Array, radius: float) -> Array:
+    """Rms gradient c/(R√3) over the contact of a cylinder (Eq. 3.6)."""
+    return np.asarray(half_width) / (radius * np.sqrt(3))
+
+
+CYLINDER_KAPPA_R = 8 / (np.pi * np.sqrt(3))
+"""Proportionality of area and reduced pressure for a cylinder, 1.470 (Eq. 3.7)."""
+
+HERTZ_KAPPA_R = float(3 * np.pi / (4 * np.sqrt(2)))
+"""The same for a sphere: πc²·ḡ_r E*/L with L = 4E*c³/(3R) and ḡ_r = c/(R√2), 1.666 (Table 3.1)."""
+
+
+def full_contact_pressure(amplitude: float, length: float, contact_modulus: float) -> float:
+    """Mean pressure π E* h₀/L above which a sinusoid of amplitude h₀ is in complete contact (Westergaard 1939)."""
+    return np.pi * contact_modulus * amplitude / length
+
+
+def sinusoid_area(pressure_ratio: Array) -> Array:
+    """Relative contact area (2/π) asin √(p/p_c) of a sinusoid at p/p_c ≤ 1 (Westergaard 1939)."""
+    return 2 / np.pi * np.arcsin(np.sqrt(np.clip(pressure_ratio, 0.0, 1.0)))
+
+
+def complete_contact(heights: Array, length: float, contact_modulus: float) -> Array:
+    """Pressure E*|q|h/2, with zero mean, that flattens heights (n,) out completely; nm, GPa.
+
+    A mean pressure of at least minus its least value keeps every point in contact.
+    """
+    grid = Grid((len(heights),), (length,))
+    return grid.backward(grid.forward(heights) * (contact_modulus * grid.wavenumber / 2))
+
+
+def persson_area(reduced_pressure: Array) -> Array:
+    """Relative contact area erf(√2 p*) of a rough surface (J. Chem. Phys. 115, 3840, doi:10.1063/1.1388626)."""
+    return erf(np.sqrt(2) * np.asarray(reduced_pressure))
+
+
+def line_area(reduced_pressure: Array, b1: float, b2: float) -> Array:
+    """Relative contact area erf(√2 p*/Ψ), Ψ = b1 + (1 - b1) erf(b2 p*), of a rough line (Eq. 3.11)."""
+    pressure = np.asarray(reduced_pressure)
+    return persson_area(pressure / (b1 + (1 - b1) * erf(b2 * pressure)))

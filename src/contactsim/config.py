@@ -1,0 +1,185 @@
+"""Reading settings strictly.
+
+Every mapping in a config file is read against a table of keys. An unknown, missing or ill-typed key is a `SceneError`
+that names the file, the key, the value and what is allowed; nothing is ever silently ignored. A tier's overrides are
+laid over a study before it is read, so they are checked by the same table.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from contactsim.errors import SceneError
+
+REQUIRED = object()
+
+
+@dataclass(frozen=True)
+class Key:
+    """One allowed key: kind converts and checks a value or raises ValueError; allowed says what it wants."""
+
+    kind: Callable[[object], object]
+    allowed: str
+    default: object = REQUIRED
+
+
+class _Loader(yaml.SafeLoader):
+    """Safe YAML in which a key given twice is an error."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
+        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise yaml.MarkedYAMLError(problem=f"key {key!r} is given twice", problem_mark=node.start_mark)
+        return super().construct_mapping(node, deep)
+
+
+def load_yaml(path: str | Path) -> dict:
+    """The mapping in a YAML file."""
+    try:
+        content = yaml.load(Path(path).read_text(encoding="utf-8"), _Loader)
+    except OSError as error:
+        raise SceneError("file", str(path), "a file that can be read", path) from error
+    except yaml.YAMLError as error:
+        raise SceneError("YAML", " ".join(str(error).split()), "valid YAML with each key once", path) from error
+    if content is None:
+        return {}
+    if not isinstance(content, dict):
+        raise SceneError("top level", content, "a mapping of keys to values", path)
+    return content
+
+
+def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:
+    """The section with every value checked and every default filled in."""
+    if not isinstance(section, dict):
+        raise SceneError(prefix or "top level", section, f"a mapping with keys {', '.join(keys)}", file)
+    dotted = f"{prefix}." if prefix else ""
+    for name in section:
+        if name not in keys:
+            raise SceneError(f"{dotted}{name}", section[name], f"no such key; known keys: {', '.join(keys)}", file)
+    values = {}
+    for name, key in keys.items():
+        if name not in section:
+            if key.default is REQUIRED:
+                raise SceneError(f"{dotted}{name}", "nothing", f"{key.allowed} (the key is missing)", file)
+            values[name] = key.default
+            continue
+        try:
+            values[name] = key.kind(section[name])
+        except ValueError as error:
+            hint = f" ({error})" if str(error) else ""
+            raise SceneError(f"{dotted}{name}", section[name], f"{key.allowed}{hint}", file) from error
+    return values
+
+
+def number(value: object) -> float:
+    """A finite number; text that only looks like one is refused."""
+    if isinstance(value, str):
+        try:
+            float(value)
+        except ValueError:
+            raise ValueError from None
+        raise ValueError(f"this is text to YAML, which wants a decimal point and a signed exponent: {_with_point(value)}")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+        raise ValueError
+    return float(value)
+
+
+def _with_point(text: str) -> str:
+    mantissa, mark, exponent = text.lower().partition("e")
+    mantissa = mantissa if "." in mantissa else f"{mantissa}.0"
+    return f"{mantissa}{mark}{exponent if not mark or exponent[:1] in '+-' else '+' + exponent}"
+
+
+def positive(value: object) -> float:
+    """A number above zero."""
+    if number(value) <= 0:
+        raise ValueError
+    return number(value)
+
+
+def whole(least: int) -> Callable[[object], int]:
+    """A whole number of at least `least`."""
+
+    def kind(value: object) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or value < least:
+            raise ValueError
+        return value
+
+    return kind
+
+
+def text(value: object) -> str:
+    """A piece of text."""
+    if not isinstance(value, str):
+        raise ValueError
+    return value
+
+
+def choice(options: Mapping[str, object] | tuple[str, ...]) -> Callable[[object], str]:
+    """One of the names in `options`."""
+
+    def kind(value: object) -> str:
+        if value not in tuple(options):
+            raise ValueError
+        return value
+
+    return kind
+
+
+def mapping(value: object) -> dict:
+    """A mapping, read further by whoever knows its keys."""
+    if not isinstance(value, dict):
+        raise ValueError
+    return value
+
+
+def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
+    """A list with at least one entry, each of the given kind, none twice."""
+
+    def whole_list(value: object) -> list:
+        if not isinstance(value, list) or not value:
+            raise ValueError
+        entries = [kind(entry) for entry in value]
+        if len({repr(entry) for entry in entries}) < len(entries):
+            raise ValueError("an entry is given twice")
+        return entries
+
+    return whole_list
+
+
+_TYPES = {
+    float: (number, "a number"),
+    int: (whole(0), "a whole number"),
+    str: (text, "text"),
+    float | None: (number, "a number, or leave the key out"),
+    str | None: (text, "text, or leave the key out"),
+}
+
+
+def keys_of(kind: type, leave_out: tuple[str, ...] = ()) -> dict[str, Key]:
+    """The keys of a dataclass: its fields, with their types and defaults."""
+    hints = typing.get_type_hints(kind)
+    keys = {}
+    for entry in dataclasses.fields(kind):
+        if entry.init and entry.name not in leave_out:
+            convert, allowed = _TYPES[hints[entry.name]]
+            default = REQUIRED if entry.default is dataclasses.MISSING else entry.default
+            keys[entry.name] = Key(convert, allowed, default)
+    return keys
+
+
+def overlaid(base: dict, over: dict) -> dict:
+    """`base` with the entries of `over` in their place; mappings are merged, everything else replaced."""
+    merged = dict(base)
+    for name, value in over.items():
+        both = isinstance(value, dict) and isinstance(merged.get(name), dict)
+        merged[name] = overlaid(merged[name], value) if both else value
+    return merged

@@ -1,0 +1,30 @@
+"""What runs cost: times, kept apart from results because they are not reproducible."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pandas as pd
+
+from contactsim import dataset
+
+
+def table(runs: list[dict]) -> pd.DataFrame:
+    """One row for each solved load: where it stands, transforms, seconds, status.
+
+    runs: path, costs, coordinates, member and companion of each, as `Plan.study_settings` lists them.
+    """
+    rows = []
+    for run in runs:
+        data = dataset.read(run["path"])
+        seconds = json.loads(Path(run["costs"]).read_text())["seconds"]
+        load = data.status.dims[0]
+        for row in range(data.status.size):
+            here = data.isel({load: row})
+            rows.append(
+                {"run": run["path"], **run["coordinates"], "member": run["member"], "companion": run["companion"]}
+                | {load: here[load].item(), "points": here.points.item(), "transforms": here.transforms.item()}
+                | {"seconds": seconds[str(here.point.item())], "status": here.status.item()}
+            )
+    return pd.DataFrame(rows)

@@ -1,0 +1,135 @@
+"""Result datasets: dimensions, units, attributes, provenance; the only reader and writer of netCDF.
+
+Everything written is reproducible bit for bit, so times and memory are kept elsewhere. A file appears under its name
+only when it is complete.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from contactsim.errors import SceneError
+from contactsim.provenance import canonical, versions
+from contactsim.solvers.base import Status
+
+VARIABLES = {
+    "hurst": ("1", "Hurst exponent"),
+    "member": ("1", "member of the ensemble"),
+    "reduced_pressure": ("1", "reduced pressure p* = p/(rms gradient × E*), over the whole surface"),
+    "mean_pressure": ("GPa", "mean pressure"),
+    "approach": ("nm", "approach beyond coincidence of the mean planes' zero"),
+    "contact_ratio": ("1", "exact contact half-width of the cylinder over its radius"),
+    "reduced_pressure_contact": ("1", "reduced pressure p_r* = p/(rms gradient in contact × E*)"),
+    "relative_contact_area": ("1", "relative contact area"),
+    "rms_height": ("nm", "rms height of the profile"),
+    "rms_gradient": ("1", "rms gradient of the profile (Eqs 3.8-3.9 over all points)"),
+    "rms_curvature": ("1/nm", "rms curvature of the profile"),
+    "rms_gradient_contact": ("1", "rms gradient over the contact (Eqs 3.8-3.9)"),
+    "rms_gradient_contact_bond": ("1", "rms gradient over pairs of neighbours in contact"),
+    "mean_gap": ("nm", "mean gap"),
+    "approach_found": ("nm", "approach at which the load is carried"),
+    "approach_first_touch": ("nm", "approach of first touch"),
+    "kappa": ("1", "proportionality of area and pressure, gradient over all of the surface"),
+    "kappa_r": ("1", "proportionality of area and pressure, gradient over the contact (Eq. 3.8)"),
+    "kappa_r_bond": ("1", "proportionality of area and pressure, gradient over pairs in contact"),
+    "half_width_exact": ("nm", "half-width of the contact, exact (Eq. 3.5)"),
+    "half_width": ("nm", "half-width of the contact"),
+    "iterations": ("1", "outer iterations of the solver"),
+    "transforms": ("1", "real transforms, in equivalents of one on the finest grid"),
+    "non_uniformity": ("1", "largest gap in contact, in grid steps (recomputed)"),
+    "penetration": ("1", "largest overlap outside the contact, in grid steps (recomputed)"),
+    "smallest_pressure": ("GPa", "smallest pressure"),
+    "load_error": ("1", "relative error of the load"),
+    "status": ("1", "status of the solution"),
+    "seed": ("1", "root of the random numbers"),
+    "point": ("1", "digest of the code and settings that made the point"),
+    "contact_points": ("1", "number of points in contact"),
+    "contact_bits": ("1", "contact set, eight points a byte, first point in the highest bit"),
+    "contact_pressure": ("GPa", "pressure on the points in contact, load by load"),
+    "points": ("1", "grid points"),
+    "length": ("nm", "period"),
+    "contact_modulus": ("GPa", "contact modulus E*"),
+    "fit_b1": ("1", "parameter b1 of Eq. 3.11"),
+    "fit_b2": ("1", "parameter b2 of Eq. 3.11"),
+    "fitted": ("1", "profiles that a fit uses: one Hurst exponent, or all"),
+    "weighting": ("1", "weighting of a fit: of the area itself or of its logarithm"),
+    "fit_limit": ("1", "largest reduced pressure that a fit uses"),
+    "profile_real": ("nm", "real part of the profile's Fourier coefficients"),
+    "profile_imag": ("nm", "imaginary part of the profile's Fourier coefficients"),
+}
+"""Unit and long name of every variable that a dataset may hold."""
+
+
+def described(data: xr.Dataset) -> xr.Dataset:
+    """The dataset with units and long_name on every variable; a derived one inherits those of its base name."""
+    for name in data.variables:
+        base, kind = base_name(str(name))
+        unit, text = VARIABLES[base]
+        data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
+    if "status" in data:
+        values = [status.value[0] for status in Status]
+        meanings = " ".join(status.name.lower() for status in Status)
+        data["status"].attrs.update(flag_values=np.array(values, np.int8), flag_meanings=meanings)
+    return data
+
+
+SUFFIXES = {
+    "_mean": ": mean over members",
+    "_standard_error": ": standard error of the mean over members",
+    "_grid_error": ": change of the mean on halving the grid",
+    "_half_width": ": half-width of the 95 % confidence interval",
+}
+"""What aggregation adds to a variable's name, and to its long name."""
+
+
+def base_name(name: str) -> tuple[str, str]:
+    """A variable's name without what aggregation has added, and how that is put in words."""
+    for suffix, text in SUFFIXES.items():
+        if name.endswith(suffix):
+            return name.removesuffix(suffix), text
+    return name, ""
+
+
+def stamped(data: xr.Dataset, title: str, settings: object, source: str) -> xr.Dataset:
+    """The dataset with its provenance: title, settings as JSON, digest of the source, versions."""
+    data.attrs = {
+        "title": title,
+        "settings": canonical(settings),
+        "source_digest": source,
+        "versions": canonical(versions()),
+        "Conventions": "CF-1.11",
+    }
+    return data
+
+
+def write(data: xr.Dataset, path: str | Path) -> None:
+    """Write a dataset, large arrays compressed, in one move: a reader sees the old file or the new one."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    packed = {name: {"zlib": True, "complevel": 1} for name, item in data.data_vars.items() if item.nbytes > 1 << 14}
+    plain = {name: {"_FillValue": None} for name, item in data.variables.items() if item.dtype.kind in "fiu"}
+    encoding = {name: plain.get(name, {}) | packed.get(name, {}) for name in plain.keys() | packed.keys()}
+    try:
+        data.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """Read a dataset into memory and close the file."""
+    try:
+        return xr.load_dataset(path, engine="netcdf4")
+    except (OSError, ValueError) as error:
+        raise SceneError("dataset", str(path), f"a readable netCDF file ({error})") from error
+
+
+def settings_of(data: xr.Dataset) -> dict:
+    """The settings stored with a dataset."""
+    return json.loads(data.attrs["settings"])

@@ -1,0 +1,1 @@
+"""One module a chapter, one function a figure."""

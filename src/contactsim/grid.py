@@ -1,0 +1,103 @@
+"""Periodic grids and what is diagonal on them.
+
+Elasticity is diagonal in Fourier space, so a grid offers real transforms and an `Operator` that multiplies by a
+symbol. Transforms are scaled such that the q = 0 entry is the mean. Every application is entered in a `Tally`,
+in units of one real transform on the finest grid, which is the price that all solvers are compared by.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import ducc0
+import numpy as np
+
+from contactsim.errors import SceneError
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Equispaced periodic grid: points per direction, period per direction (nm), FFT threads."""
+
+    shape: tuple[int, ...]
+    lengths: tuple[float, ...]
+    threads: int = 1
+
+    def __post_init__(self) -> None:
+        if any(not isinstance(n, int | np.integer) or n < 2 for n in self.shape):
+            raise SceneError("points", self.shape, "at least 2 points in each direction")
+        if any(not (np.isfinite(length) and length > 0) for length in self.lengths):
+            raise SceneError("length", self.lengths, "a positive, finite period in nm")
+        if not isinstance(self.threads, int) or self.threads < 1:
+            raise SceneError("threads", self.threads, "a whole number, 1 or more")
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return int(np.prod(self.shape))
+
+    @property
+    def spacing(self) -> tuple[float, ...]:
+        """Distance between neighbouring points in each direction (nm)."""
+        return tuple(length / n for length, n in zip(self.lengths, self.shape, strict=True))
+
+    def positions(self, axis: int = 0) -> Array:
+        """Coordinates along one direction, shape (n,), nm, from 0 to just below the period."""
+        return np.arange(self.shape[axis]) * self.spacing[axis]
+
+    @cached_property
+    def wavenumber(self) -> Array:
+        """Angular wavenumber |q| of each coefficient of the real transform (rad/nm)."""
+        last = np.fft.rfftfreq(self.shape[-1], self.spacing[-1] / (2 * np.pi))
+        axes = [np.fft.fftfreq(n, d / (2 * np.pi)) for n, d in zip(self.shape[:-1], self.spacing[:-1], strict=True)]
+        return np.sqrt(sum(q**2 for q in np.meshgrid(*axes, last, indexing="ij", sparse=True)))
+
+    def forward(self, field: Array, out: Array | None = None) -> Array:
+        """Real to half-complex transform over all axes, scaled so that the q = 0 entry is the mean."""
+        return ducc0.fft.r2c(field, forward=True, inorm=2, nthreads=self.threads, out=out)
+
+    def backward(self, coefficients: Array, out: Array | None = None) -> Array:
+        """Inverse of `forward`."""
+        return ducc0.fft.c2r(coefficients, lastsize=self.shape[-1], forward=False, nthreads=self.threads, out=out)
+
+    def coarser(self, points: int) -> Grid:
+        """The same period on fewer points along a line."""
+        return Grid((points,), self.lengths, self.threads)
+
+
+@dataclass
+class Tally:
+    """Work done so far: real transforms, in equivalents of one on a grid of `finest` points."""
+
+    finest: int
+    transforms: float = 0.0
+
+    def add(self, count: int, size: int) -> None:
+        """Enter `count` transforms on a grid of `size` points."""
+        self.transforms += count * size / self.finest
+
+
+@dataclass
+class Operator:
+    """Multiplication by a symbol of the wavevector: two transforms an application, counted.
+
+    symbol: one factor for each coefficient of the real transform.
+    """
+
+    grid: Grid
+    symbol: Array
+    tally: Tally
+    _half: Array = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self._half = np.empty(self.symbol.shape, complex)
+
+    def __call__(self, values: Array, out: Array | None = None) -> Array:
+        """Apply to a real field of the grid's shape; `out` (may be `values`) receives the result."""
+        half = self.grid.forward(values, out=self._half)
+        half *= self.symbol
+        self.tally.add(2, self.grid.size)
+        return self.grid.backward(half, out=out)

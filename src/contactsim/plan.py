@@ -1,0 +1,144 @@
+"""The plan: all of the config read once, and the tables of studies and figures that the workflow is built from."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+from pathlib import Path
+
+from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, read, text, whole
+from contactsim.errors import SceneError
+from contactsim.provenance import digest, module_path, source_digest
+from contactsim.study import Run, Study
+
+CONFIG_KEYS = {
+    "seed": Key(whole(0), "a whole number, 0 or more"),
+    "tier": Key(text, "the name of a tier in tiers.yaml"),
+    "results": Key(text, "a folder for all results"),
+}
+CHAPTER_KEYS = {
+    "studies": Key(mapping, "a mapping from names to studies"),
+    "figures": Key(mapping, "a mapping from names to figures"),
+}
+
+
+def pair(value: object) -> list[float]:
+    """Two numbers."""
+    numbers = listed(number)(value)
+    if len(numbers) != 2:
+        raise ValueError
+    return numbers
+
+
+FIGURE_KEYS = {
+    "study": Key(text, "the name of a study of this chapter"),
+    "title": Key(text, "a line of text"),
+    "caption": Key(text, "text"),
+    "size": Key(pair, "width and height in inches"),
+    "panels": Key(whole(1), "number of axes side by side", 1),
+    "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
+    "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
+}
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure: name, chapter, and its settings as read."""
+
+    name: str
+    chapter: str
+    settings: dict
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Everything that can be made: studies and figures by name, at one tier, and the folder for it."""
+
+    tier: str
+    results: Path
+    studies: dict[str, Study]
+    chapters: dict[str, str]
+    figures: dict[str, Figure]
+
+    @classmethod
+    def read(cls, folder: str | Path, tier: str | None = None) -> Plan:
+        """Read config.yaml, tiers.yaml and every chapter; `tier` overrides the one in config.yaml."""
+        folder = Path(folder)
+        main = read(load_yaml(folder / "config.yaml"), CONFIG_KEYS, folder / "config.yaml")
+        tiers = load_yaml(folder / "tiers.yaml")
+        tier = main["tier"] if tier is None else tier
+        if tier not in tiers:
+            raise SceneError("tier", tier, f"one of {', '.join(tiers)}", folder / "tiers.yaml")
+        overrides = read(tiers[tier] or {}, {"studies": Key(mapping, "a mapping", {})}, folder / "tiers.yaml", tier)
+        studies, chapters, figures = {}, {}, {}
+        for file in sorted(folder.glob("ch*.yaml")):
+            sections = read(load_yaml(file), CHAPTER_KEYS, file)
+            for name, section in sections["studies"].items():
+                over = overrides["studies"].pop(name, None)
+                source = file if over is None else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
+                section = section if over is None or not isinstance(section, dict) else overlaid(section, over)
+                studies[name] = Study.read(name, section, source, main["seed"])
+                chapters[name] = file.stem
+            for name, section in sections["figures"].items():
+                figures[name] = _figure(name, section, file, sections["studies"])
+        for name in overrides["studies"]:
+            raise SceneError(f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml")
+        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures)
+
+    def run(self, study: str, variant: str, member: str) -> Run:
+        """The run that a file name stands for."""
+        runs = {(run.variant, str(run.member)): run for run in self.studies[study].runs()}
+        return runs[variant, member]
+
+    def run_stem(self, run: Run) -> str:
+        """Where a run's files lie, below runs/ and costs/, without their endings."""
+        return f"{run.study}/{run.variant}/{run.member}"
+
+    def dataset_name(self, study: str) -> str:
+        """File name of a study's dataset, without ending."""
+        return f"{self.chapters[study]}_{study}"
+
+    def study_settings(self, study: str) -> dict:
+        """What the aggregation of a study depends on: its settings, and every run's place and digest."""
+        runs = [
+            {
+                "path": f"{self.results}/runs/{self.run_stem(run)}.nc",
+                "costs": f"{self.results}/costs/runs/{self.run_stem(run)}.json",
+                "coordinates": run.coordinates,
+                "member": run.member,
+                "companion": run.companion,
+                "digest": run.digest,
+            }
+            for run in self.studies[study].runs()
+        ]
+        settings = self.studies[study].settings | {"name": study, "tier": self.tier, "seed": self.studies[study].seed}
+        return {"runs": runs, "settings": settings, "source": source_digest("contactsim.aggregate", "contactsim.costs")}
+
+    def figure_settings(self, name: str) -> dict:
+        """What a figure depends on: its settings, its code, and all that its data depend on."""
+        figure = self.figures[name]
+        code = source_digest(f"contactsim.figures.{figure.chapter}", "contactsim.figures.render")
+        data = digest(self.study_settings(figure.settings["study"]))
+        return {"name": name, "chapter": figure.chapter, "settings": figure.settings, "source": code, "data": data}
+
+
+def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
+    prefix = f"figures.{name}"
+    settings = read(section, FIGURE_KEYS, file, prefix)
+    if settings["study"] not in studies:
+        raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(studies)}", file)
+    for dim, limits in settings["select"].items():
+        try:
+            pair(limits)
+        except ValueError as error:
+            raise SceneError(f"{prefix}.select.{dim}", limits, "least and largest value", file) from error
+    known = _functions(f"contactsim.figures.{file.stem}")
+    if name not in known:
+        raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
+    return Figure(name, file.stem, settings)
+
+
+def _functions(module: str) -> list[str]:
+    path = module_path(module)
+    tree = ast.parse(path.read_text(encoding="utf-8")) if path else ast.Module([], [])
+    return [node.name for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]

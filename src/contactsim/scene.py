@@ -1,0 +1,206 @@
+"""A scene: everything physical and nothing numerical; and the problem it poses at one load step.
+
+Two bodies face each other, aligned on one periodic grid. Only the sum of their heights and the sum of their
+compliances matter, so a rigid body is absent rather than stiff. Which components exist and what a solver must be able
+to do (the traits) follow from what the scene lists.
+
+The hard-wall problem is posed without units. Lengths are in grid steps, the rms height difference of neighbouring
+points; pressures in E*·step/spacing. Nothing a solver does can then depend on the units of the input. With w the
+displacement of the elastic surface, zero on average on a half-space, and h ≤ 0 the heights below the highest point,
+
+    gap = w - h - a ≥ 0,   w = S p,   p ≥ 0,   p·gap = 0,
+
+where a is the approach beyond first touch, given or, with the mean pressure prescribed, found.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, reduce
+
+import numpy as np
+
+from contactsim.elasticity import Elasticity
+from contactsim.errors import SceneError
+from contactsim.grid import Array, Grid, Operator, Tally
+from contactsim.laws import HardWall
+from contactsim.loading import LoadPath, LoadStep
+from contactsim.surface import Surface
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class Body:
+    """A surface on an elastic solid; elasticity None is rigid: absent, not stiff."""
+
+    surface: Surface
+    elasticity: Elasticity | None = None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Two bodies, the effects at their interface, and what is done to them."""
+
+    lower: Body
+    upper: Body
+    effects: tuple[HardWall, ...]
+    path: LoadPath
+
+    def __post_init__(self) -> None:
+        if not self.elasticities:
+            raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
+        if not any(Trait.WALL in effect.traits for effect in self.effects):
+            raise SceneError("effects", self.effects, "at least one that resists overlap: hard_wall")
+        lengths = self.lower.surface.length, self.upper.surface.length
+        if not np.isclose(*lengths, rtol=1e-9, atol=0):
+            raise SceneError("length", lengths, "one period for both surfaces")
+
+    @property
+    def elasticities(self) -> tuple[Elasticity, ...]:
+        """The bodies that give way."""
+        return tuple(body.elasticity for body in (self.lower, self.upper) if body.elasticity is not None)
+
+    @cached_property
+    def components(self) -> tuple[str, ...]:
+        """Displacement components that exist: those that an effect reads or exerts."""
+        used = reduce(frozenset.union, (effect.reads | effect.exerts for effect in self.effects))
+        return tuple(component for component in ("n", "t") if component in used)
+
+    @cached_property
+    def traits(self) -> frozenset[Trait]:
+        """What a solver must accept: the union over effects, bodies, path and dimension."""
+        parts = [effect.traits for effect in self.effects] + [body.traits for body in self.elasticities]
+        return frozenset({Trait.LINE}).union(self.path.traits, *parts)
+
+    @property
+    def length(self) -> float:
+        """Period (nm)."""
+        return self.upper.surface.length
+
+    @property
+    def contact_modulus(self) -> float:
+        """Of the pair, 1/E* = Σ 1/E_i* (GPa)."""
+        return 1.0 / sum(1.0 / body.contact_modulus for body in self.elasticities)
+
+    def compliance(self, wavenumber: Array) -> Array:
+        """Sum of the bodies' compliances at each |q| (rad/nm), nm/GPa."""
+        return sum(body.compliance(wavenumber) for body in self.elasticities)
+
+    def heights(self, points: int) -> Array:
+        """Sum of both surfaces' heights, each positive towards the other, shape (points,), nm."""
+        return self.upper.surface.heights(points) + self.lower.surface.heights(points)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Units of a problem: length of a grid step (nm), pressure E*·step/spacing (GPa), largest height (nm)."""
+
+    step: float
+    pressure: float
+    highest: float
+
+
+def grid_step(heights: Array) -> float:
+    """Rms height difference of neighbouring points on the periodic grid, shape (n,) to a number in the same unit."""
+    scale = np.max(np.abs(heights), initial=0.0)
+    return float(scale * np.sqrt(np.mean(np.diff(heights / scale, append=heights[0] / scale) ** 2))) if scale else 0.0
+
+
+@dataclass
+class WallProblem:
+    """The complementarity problem at one load step, without units (see the module's text).
+
+    heights: (n,), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure) and
+    approach (beyond first touch) is given; tally counts the work.
+    """
+
+    heights: Array
+    compliance: Operator
+    tolerance: float
+    load: float | None
+    approach: float | None
+    tally: Tally
+
+    @property
+    def untouched(self) -> bool:
+        """Whether nothing has to be solved: no load, or not yet a touch."""
+        return self.load == 0 if self.approach is None else self.approach <= 0
+
+    def coarser(self, points: int, tolerance: float) -> WallProblem:
+        """The same scene on fewer points, in grid steps of its own; heights are picked, not averaged."""
+        size, ratio = self.heights.size, points / self.heights.size
+        picked = self.heights[np.arange(points) * size // points] * ratio
+        highest = picked.max()
+        grid = self.compliance.grid.coarser(points)
+        symbol = self.compliance.symbol[: points // 2 + 1] * ratio
+        approach = None if self.approach is None else self.approach * ratio + highest
+        return WallProblem(
+            picked - highest, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally
+        )
+
+    def admissible(self, pressure: Array) -> Array:
+        """The nearest field with p ≥ 0 and exactly the load asked for."""
+        clipped = np.maximum(pressure, 0.0)
+        if self.load is None:
+            return clipped
+        mean = clipped.mean()
+        return clipped * (self.load / mean) if mean > 0 else np.full_like(clipped, self.load)
+
+    def certify(self, pressure: Array) -> Certificate:
+        """Everything that makes `pressure` a solution, recomputed from it alone."""
+        gap = self.compliance(pressure) - self.heights
+        contact = pressure > 0
+        approach = self.approach
+        if approach is None:
+            approach = float(gap[contact].mean()) if contact.any() else 0.0
+        gap -= approach
+        return Certificate(
+            non_uniformity=float(np.max(np.abs(gap[contact]), initial=0.0)),
+            penetration=float(np.max(-gap[~contact], initial=0.0)),
+            smallest_pressure=float(pressure.min()),
+            load_error=0.0 if not self.load else float(abs(pressure.mean() / self.load - 1)),
+            gap=gap,
+            approach=approach,
+        )
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """How far a field of pressure is from the solution; lengths in grid steps.
+
+    non_uniformity: largest |gap| in contact; penetration: largest overlap elsewhere; smallest_pressure: in
+    E*·step/spacing, never negative; load_error: relative; gap, approach: that belong to the pressure.
+    """
+
+    non_uniformity: float
+    penetration: float
+    smallest_pressure: float
+    load_error: float
+    gap: Array
+    approach: float
+
+    def met(self, tolerance: float) -> bool:
+        """Whether this is a solution to within `tolerance` grid steps (NaN is not)."""
+        worst = max(self.non_uniformity, self.penetration)
+        return worst <= tolerance and self.smallest_pressure >= 0 and self.load_error <= 1e-12
+
+
+def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int) -> tuple[WallProblem, Scale]:
+    """The problem that a scene poses at one load step on the grid of `heights` (n,), nm; and its units."""
+    if not (np.isfinite(tolerance) and tolerance > 0):
+        raise SceneError("tolerance", tolerance, "a positive number of grid steps")
+    grid = Grid((heights.size,), (scene.length,), threads)
+    flexibility = grid.spacing[0] / scene.contact_modulus
+    highest = float(heights.max())
+    pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
+    unit = grid_step(heights) or (pressure or 1.0) * flexibility
+    approach = None if pressure is not None else (step.value + highest) / unit
+    free = Trait.HALF_SPACE in scene.traits
+    if free and approach is not None and 0 < approach and step.value >= -heights.mean():
+        allowed = f"below {-heights.mean():.6g} nm, where the half-space would be in full contact"
+        raise SceneError("approach", step.value, allowed)
+    scale = Scale(unit, unit / flexibility, highest)
+    tally = Tally(heights.size)
+    compliance = Operator(grid, scene.compliance(grid.wavenumber) / flexibility, tally)
+    load = None if pressure is None else pressure / scale.pressure
+    return WallProblem((heights - highest) / unit, compliance, tolerance, load, approach, tally), scale

@@ -1,0 +1,151 @@
+"""One loop for all solvers, and what comes out of it.
+
+A solver takes a problem and a state and returns a better state; the loop repeats that, stops on a budget or on a value
+that is not finite, and calls a state converged only after the certificate has been recomputed from the pressure alone.
+Inner iterations and coarser grids are the solver's own affair; their work is counted through the operators.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
+
+import numpy as np
+
+from contactsim.errors import SceneError
+from contactsim.grid import Array
+from contactsim.scene import Certificate, Scale, Scene, WallProblem
+from contactsim.traits import Trait
+
+
+class Status(Enum):
+    """How a solution ended; the number is stored in datasets, the sentence explains it."""
+
+    CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
+    BUDGET = (1, "not converged: the budget of iterations is spent")
+    NON_FINITE = (2, "failed: a value that is not finite appeared")
+
+    @property
+    def sentence(self) -> str:
+        """What the status means."""
+        return self.value[1]
+
+
+@dataclass(frozen=True)
+class State:
+    """Where a solver is: its pressure (n,), without units, and whether it believes to be done."""
+
+    pressure: Array
+    done: bool
+
+
+class Solver(Protocol):
+    """A method for some kinds of scene."""
+
+    accepts: frozenset[Trait]
+    budget: int
+
+    def start(self, problem: WallProblem, guess: Array | None = None) -> State:
+        """The first state, from a guess of the pressure where there is one."""
+        ...
+
+    def step(self, problem: WallProblem, state: State) -> State:
+        """A better state."""
+        ...
+
+
+@dataclass(frozen=True)
+class Record:
+    """What a solution cost and how good it is: reproducible bit for bit.
+
+    iterations: outer steps; transforms: in equivalents of one on the finest grid; certificate: in grid steps.
+    """
+
+    iterations: int
+    transforms: float
+    certificate: Certificate
+
+
+@dataclass(frozen=True)
+class Result:
+    """One solved load step.
+
+    pressure (n,), GPa, never negative; gap (n,), nm; approach, nm (see `contactsim.loading`); mean_pressure, GPa;
+    seconds: wall time, apart from the record because it is not reproducible.
+    """
+
+    pressure: Array
+    gap: Array
+    approach: float
+    status: Status
+    record: Record
+    seconds: float
+
+    @property
+    def contact(self) -> Array:
+        """Points with positive pressure, bool (n,): the criterion `touching` of Chapter 3."""
+        return self.pressure > 0
+
+    @property
+    def relative_contact_area(self) -> float:
+        """Fraction of points in contact."""
+        return float(self.contact.mean())
+
+    @property
+    def mean_pressure(self) -> float:
+        """Mean over the period (GPa)."""
+        return float(self.pressure.mean())
+
+
+def require(solver: Solver, scene: Scene) -> None:
+    """Refuse a scene with a trait that the solver does not accept."""
+    for trait in sorted(scene.traits - solver.accepts, key=lambda trait: trait.name):
+        accepted = ", ".join(sorted(known.name for known in solver.accepts))
+        raise SceneError("solver", type(solver).__name__, f"one that accepts {trait.name} ({trait.value}); "
+                         f"this one accepts {accepted}")
+
+
+def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> tuple[State, int, bool]:
+    """Step until the solver believes to be done, the budget is spent, or a value is not finite.
+
+    Returns the last state with finite values, the number of steps, and whether all values were finite.
+    """
+    for count in range(1, budget + 1):
+        following = solver.step(problem, state)
+        if not np.isfinite(following.pressure).all():
+            return state, count, False
+        state = following
+        if state.done:
+            return state, count, True
+    return state, budget, True
+
+
+def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
+    """Solve one load step and certify it; in physical units."""
+    begin = time.perf_counter()
+    pressure, certificate, status, spent = np.zeros_like(problem.heights), None, Status.CONVERGED, 0
+    if not problem.untouched:
+        state = solver.start(problem)
+        status = Status.BUDGET
+        while spent < solver.budget and status is Status.BUDGET:
+            state, count, finite = iterate(solver, problem, state, solver.budget - spent)
+            spent += count
+            pressure = problem.admissible(state.pressure)
+            certificate = problem.certify(pressure)
+            if not finite:
+                status = Status.NON_FINITE
+            elif certificate.met(problem.tolerance):
+                status = Status.CONVERGED
+    if certificate is None:
+        certificate = problem.certify(pressure)
+    record = Record(spent, problem.tally.transforms, certificate)
+    return Result(
+        pressure=pressure * scale.pressure,
+        gap=certificate.gap * scale.step,
+        approach=certificate.approach * scale.step - scale.highest,
+        status=status,
+        record=record,
+        seconds=time.perf_counter() - begin,
+    )

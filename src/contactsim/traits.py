@@ -1,0 +1,19 @@
+"""What a scene may demand of a solver.
+
+A scene derives its traits from what it lists; a solver declares those it accepts.
+A scene is refused unless every one of its traits is accepted, and the refusal names the first that is not.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Trait(Enum):
+    """One property of a scene; its value is the sentence a refusal quotes."""
+
+    LINE = "line contact: surfaces vary along one direction"
+    WALL = "hard wall: the gap is never negative, the pressure never pulls"
+    HALF_SPACE = "half-space: the mean displacement is free, so the uniform mode has no stiffness"
+    MEAN_PRESSURE = "load step given by a mean pressure"
+    APPROACH = "load step given by an approach"

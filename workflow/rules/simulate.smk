@@ -1,0 +1,15 @@
+# One job a study, variant and member, sweeping all its loads.
+def run_params(wildcards):
+    run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
+    return canonical({"settings": run.settings, "source": run.source})
+
+
+rule run:
+    output:
+        data=update(RESULTS / "runs/{study}/{variant}/{member}.nc"),
+        costs=update(RESULTS / "costs/runs/{study}/{variant}/{member}.json"),
+        done=RESULTS / "runs/{study}/{variant}/{member}.done",  # written last, so a run that failed is never taken for one that is up to date
+    log: RESULTS / "logs/runs/{study}/{variant}/{member}.log"
+    params: plan=run_params
+    message: "{wildcards.study} {wildcards.variant}: member {wildcards.member}"
+    script: "../scripts/run.py"

@@ -1,0 +1,12 @@
+"""All runs of a study into its dataset and its table of costs."""
+
+import json
+
+from contactsim import aggregate, costs, dataset
+from contactsim.joblog import logged
+
+logged(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+data = aggregate.aggregate(plan["runs"], plan["settings"], plan["source"])
+dataset.write(data, snakemake.output.data)
+costs.table(plan["runs"]).to_csv(snakemake.output.costs, index=False)
