@@ -352,7 +352,7 @@ def test_a_variable_not_in_the_file_is_refused_with_those_that_are(tmp_path: Pat
 
 @pytest.mark.parametrize("names", [("a", "b"), ("height", "z")])
 def test_heights_that_cannot_be_told_apart_are_refused(tmp_path: Path, names: tuple[str, str]) -> None:
-    file = nc_file(tmp_path, {name: (HEIGHTS, "nm") for name in names})
+    file = nc_file(tmp_path, dict.fromkeys(names, (HEIGHTS, "nm")))
     error = refusal("variable", file, lambda: read_profile(file, spacing=SPACING))
     assert all(name in error.allowed for name in names)
 

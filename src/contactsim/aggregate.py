@@ -102,8 +102,9 @@ def _ensemble(data: xr.Dataset) -> xr.Dataset:
             values = converged(data[name], data)
             count = values.notnull().sum("member")
             found[f"{name}_mean"] = values.mean("member")
-            found[f"{name}_standard_error"] = (values.std("member", ddof=1) if data.member.size > 1 else values.isel(
-                member=0) * np.nan) / np.sqrt(count)
+            found[f"{name}_standard_error"] = (
+                values.std("member", ddof=1) if data.member.size > 1 else values.isel(member=0) * np.nan
+            ) / np.sqrt(count)
     return xr.Dataset(found)
 
 
@@ -143,15 +144,22 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
     values = converged(data[name], data)
     others = [dim for dim in values.dims if dim not in ("member", along)]
     best = None
-    for (i, first), (j, second) in ((a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]):
+    for (i, first), (j, second) in (
+        (a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]
+    ):
         one, two = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
         paired = along in LOADS
         gap = abs((one - two).mean("member")) if paired else abs(one.mean("member") - two.mean("member"))
         square = (one - two).var("member", ddof=1) if paired else one.var("member", ddof=1) + two.var("member", ddof=1)
         error = np.sqrt(square / data.member.size)
         place = (gap / error).argmax(...)
-        found = Departure(float(gap[place]), float(error[place]), tuple(
-            {dim: float(data[dim][place[dim]]) for dim in others} | {along: float(end)} for end in (first, second)))
+        found = Departure(
+            float(gap[place]),
+            float(error[place]),
+            tuple(
+                {dim: float(data[dim][place[dim]]) for dim in others} | {along: float(end)} for end in (first, second)
+            ),
+        )
         if best is None or found.in_errors > best.in_errors:
             best = found
     return best

@@ -86,7 +86,9 @@ def number(value: object) -> float:
             float(value)
         except ValueError:
             raise ValueError from None
-        raise ValueError(f"this is text to YAML, which wants a decimal point and a signed exponent: {_with_point(value)}")
+        raise ValueError(
+            f"this is text to YAML, which wants a decimal point and a signed exponent: {_with_point(value)}"
+        )
     if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
         raise ValueError
     return float(value)

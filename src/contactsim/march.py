@@ -140,7 +140,9 @@ def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
         data = dataset.read(target)
         ends = np.cumsum(data.contact_points.values)
         seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}
-        names = [name for name, item in data.variables.items() if item.dims == data.status.dims and name not in data.dims]
+        names = [
+            name for name, item in data.variables.items() if item.dims == data.status.dims and name not in data.dims
+        ]
         found = {}
         for row, end in enumerate(ends):
             numbers = {name: data[name].values[row].item() for name in names if name != "point"}

@@ -82,7 +82,9 @@ class Plan:
             for name, section in sections["figures"].items():
                 figures[name] = _figure(name, section, file, sections["studies"])
         for name in overrides["studies"]:
-            raise SceneError(f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml")
+            raise SceneError(
+                f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
+            )
         return cls(tier, Path(main["results"]) / tier, studies, chapters, figures)
 
     def run(self, study: str, variant: str, member: str) -> Run:

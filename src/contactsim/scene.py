@@ -196,7 +196,7 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     unit = grid_step(heights) or (pressure or 1.0) * flexibility
     approach = None if pressure is not None else (step.value + highest) / unit
     free = Trait.HALF_SPACE in scene.traits
-    if free and approach is not None and 0 < approach and step.value >= -heights.mean():
+    if free and approach is not None and approach > 0 and step.value >= -heights.mean():
         allowed = f"below {-heights.mean():.6g} nm, where the half-space would be in full contact"
         raise SceneError("approach", step.value, allowed)
     scale = Scale(unit, unit / flexibility, highest)

@@ -145,8 +145,12 @@ class Study:
         for name, value in varied.items():
             head, _, tail = name.partition(".")
             if head not in parts or not isinstance(parts[head], dict) or tail not in parts[head]:
-                known = [f"{h}.{t}" for h in ("surface", "body", "solver") for t in parts[h] if t not in ("kind", "name")]
-                raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {', '.join(known)}", self.file)
+                known = [
+                    f"{h}.{t}" for h in ("surface", "body", "solver") for t in parts[h] if t not in ("kind", "name")
+                ]
+                raise SceneError(
+                    f"studies.{self.name}.vary", name, f"a key of this study: {', '.join(known)}", self.file
+                )
             parts = overlaid(parts, {head: {tail: value}})
         checked = self._checked(parts)
         identity = {"study": self.name, "member": member, "seed": self.seed}
@@ -164,8 +168,12 @@ class Study:
         ):
             chosen = read_kind(parts[section], name, known, left_out, self.file, f"{prefix}.{section}")
             checked[section] = chosen
-        read({"name": parts["solver"].get("name")}, {"name": Key(choice(SOLVERS), f"one of {sorted(SOLVERS)}")},
-             self.file, f"{prefix}.solver")
+        read(
+            {"name": parts["solver"].get("name")},
+            {"name": Key(choice(SOLVERS), f"one of {sorted(SOLVERS)}")},
+            self.file,
+            f"{prefix}.solver",
+        )
         keys = {"name": Key(text, "")} | keys_of(type(solver(parts["solver"]["name"])))
         given = read(parts["solver"], keys, self.file, f"{prefix}.solver")
         checked["solver"] = {key: given[key] for key in parts["solver"]}
@@ -229,9 +237,7 @@ def _pressures(name: str, values: Array, settings: dict, surface: Surface, conta
     if name == "reduced_pressure":
         points = settings["points"]
         gradient = settings["surface"].get("rms_gradient")
-        return values * contact_modulus * (
-            gradient or rms_gradient(surface.heights(points), surface.length / points)
-        )
+        return values * contact_modulus * (gradient or rms_gradient(surface.heights(points), surface.length / points))
     if name == "contact_ratio":
         if "radius" not in settings["surface"]:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")

@@ -23,11 +23,23 @@ def fig_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> Non
     for ratio, where, text in ((0.05, "right", "grid matters"), (0.25, "left", "neighbours matter")):
         edge = float(np.interp(ratio, one.contact_ratio, pressure))
         axes.axvspan(*((0, edge) if where == "right" else (edge, 1)), color="#eeeeee", lw=0, zorder=0)
-        axes.annotate(text, (edge, 0.04), (4 if where == "left" else -4, 0), ha=where, textcoords="offset points",
-                      xycoords=("data", "axes fraction"), fontsize=7, color="#666666")
+        axes.annotate(
+            text,
+            (edge, 0.04),
+            (4 if where == "left" else -4, 0),
+            ha=where,
+            textcoords="offset points",
+            xycoords=("data", "axes fraction"),
+            fontsize=7,
+            color="#666666",
+        )
     low, high = float(pressure.min()), float(pressure.max())
-    axes.set(xlim=(low / 1.3, high * 1.3), ylim=(exact - 0.2, exact + 0.2), xlabel=r"reduced pressure $p_r^*$",
-             ylabel=r"$\kappa_r$")
+    axes.set(
+        xlim=(low / 1.3, high * 1.3),
+        ylim=(exact - 0.2, exact + 0.2),
+        xlabel=r"reduced pressure $p_r^*$",
+        ylabel=r"$\kappa_r$",
+    )
     axes.legend()
 
 
@@ -41,14 +53,30 @@ def table_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> N
     rows = []
     for here in (one.isel(contact_ratio=k) for k in range(one.contact_ratio.size)):
         width, load = float(here.half_width_exact), float(here.mean_pressure) * settings[0]
-        rows.append([
-            f"{float(here.contact_ratio):g}", f"{2 * width / radius:.4f}", f"{float(2 * here.half_width) / radius:.4f}",
-            f"{load / (settings[1] * radius):.5f}",
-            f"{analytic.cylinder_rms_gradient(width, radius):.5f}", f"{float(here.rms_gradient_contact):.5f}",
-            f"{analytic.CYLINDER_KAPPA_R:.4f}", f"{float(here.kappa_r):.4f}", f"{float(here.kappa_r_bond):.4f}",
-        ])
-    heads = ["c/R", "$a_{act}/R$\nexact", "computed", "$L/(E^*R)$\ngiven", r"$\bar g_r$" + "\nexact", "computed",
-             r"$\kappa_r$" + "\nexact", "computed\n(Eq. 3.8)", "computed\n(pairs)"]
+        rows.append(
+            [
+                f"{float(here.contact_ratio):g}",
+                f"{2 * width / radius:.4f}",
+                f"{float(2 * here.half_width) / radius:.4f}",
+                f"{load / (settings[1] * radius):.5f}",
+                f"{analytic.cylinder_rms_gradient(width, radius):.5f}",
+                f"{float(here.rms_gradient_contact):.5f}",
+                f"{analytic.CYLINDER_KAPPA_R:.4f}",
+                f"{float(here.kappa_r):.4f}",
+                f"{float(here.kappa_r_bond):.4f}",
+            ]
+        )
+    heads = [
+        "c/R",
+        "$a_{act}/R$\nexact",
+        "computed",
+        "$L/(E^*R)$\ngiven",
+        r"$\bar g_r$" + "\nexact",
+        "computed",
+        r"$\kappa_r$" + "\nexact",
+        "computed\n(Eq. 3.8)",
+        "computed\n(pairs)",
+    ]
     axes.axis("off")
     table = axes.table(rows, colLabels=heads, loc="center", cellLoc="center")
     table.auto_set_font_size(False)
@@ -76,8 +104,12 @@ def fig_3_2(data: xr.Dataset, axes: tuple[Axes, Axes], reference: Mapping[str, f
     dense = np.geomspace(float(data.reduced_pressure.min()), float(data.reduced_pressure.max()), 100)
     left.plot(dense, analytic.persson_area(dense), color=style.EXACT, lw=0.8, label=r"Persson (2D), erf$(\sqrt{2}p^*)$")
     right.axhline(reference["kappa_r"], color=style.EXACT, lw=0.8, label=f"thesis, {reference['kappa_r']:g}")
-    left.set(xscale="log", yscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$",
-             ylabel=r"relative contact area $a_{\mathrm{rel}}$")
+    left.set(
+        xscale="log",
+        yscale="log",
+        xlabel=r"reduced pressure $p^*$, $p_r^*$",
+        ylabel=r"relative contact area $a_{\mathrm{rel}}$",
+    )
     right.set(xscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$", ylabel=r"$\kappa^{1D}$, $\kappa_r^{1D}$")
     left.legend()
     right.legend(ncols=2, loc="upper right")
@@ -94,8 +126,11 @@ def fig_3_3(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> Non
         for name in data.fitted.values:
             one = fit.sel(fitted=name)
             curve = analytic.line_area(dense, float(one.fit_b1), float(one.fit_b2)) / dense
-            look = {"color": "#2a9d6f", "ls": "--"} if name == "all" else {
-                "color": style.WHOLE, "ls": style.hurst(float(name))["linestyle"]}
+            look = (
+                {"color": "#2a9d6f", "ls": "--"}
+                if name == "all"
+                else {"color": style.WHOLE, "ls": style.hurst(float(name))["linestyle"]}
+            )
             who = "all $H$" if name == "all" else f"$H={name}$"
             axes.plot(dense, curve, lw=width, alpha=alpha, label=f"{who}, fit of {weighting}", **look)
     for value in data.hurst.values:

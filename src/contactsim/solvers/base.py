@@ -103,8 +103,11 @@ def require(solver: Solver, scene: Scene) -> None:
     """Refuse a scene with a trait that the solver does not accept."""
     for trait in sorted(scene.traits - solver.accepts, key=lambda trait: trait.name):
         accepted = ", ".join(sorted(known.name for known in solver.accepts))
-        raise SceneError("solver", type(solver).__name__, f"one that accepts {trait.name} ({trait.value}); "
-                         f"this one accepts {accepted}")
+        raise SceneError(
+            "solver",
+            type(solver).__name__,
+            f"one that accepts {trait.name} ({trait.value}); this one accepts {accepted}",
+        )
 
 
 def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> tuple[State, int, bool]:
