@@ -384,7 +384,7 @@ def test_a_missing_file_is_refused(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("path", [None, 3, ["p.csv"]])
 def test_a_path_that_is_none_is_refused(path: object) -> None:
-    with pytest.raises(SceneError, match="path: got .*; allowed: an existing file") as caught:
+    with pytest.raises(SceneError, match=r"path: got .*; allowed: an existing file") as caught:
         read_profile(path)
     assert caught.value.value == path
 

@@ -157,7 +157,7 @@ def _read_netcdf(file: Path, unit: str | None, variable: str | None) -> tuple[Ar
     with netCDF4.Dataset(str(file)) as data:
         lines = {name: each for name, each in data.variables.items() if each.ndim == 1}
         near = {key: [*v.dimensions, *str(getattr(v, "coordinates", "")).split()] for key, v in data.variables.items()}
-        free = [name for name in lines if name not in sum(near.values(), [])]
+        free = [name for name in lines if not any(name in others for others in near.values())]
         named = [name for name in free if name in ("heights", "height", "z")]
         floats = [name for name in free if np.dtype(lines[name].dtype).kind == "f"]
         found = [str(variable)] if variable is not None else named if len(named) == 1 else floats

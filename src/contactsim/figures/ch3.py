@@ -1,141 +1,143 @@
-"""Chapter 3: contact without adhesion."""
+"""Chapter 3: contact without adhesion. Each function draws one figure and returns the numbers that it shows."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim import analytic
+from contactsim.aggregate import departure
 from contactsim.figures import style
 
+FREE_OF_EDGES = 0.05, 0.25
+"""c/R between which a cylinder at L/R = 4 has enough points and does not feel its neighbours."""
 
-def fig_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> None:
-    """κ_r of the cylinder does not depend on the load (thesis Fig. 3.1, line)."""
+
+def _cylinder(data: xr.Dataset) -> xr.Dataset:
+    """The one member, with the exact values and the width of a grid point, as a part of the contact's."""
     one = data.isel(member=0)
-    pressure = one.reduced_pressure_contact
-    axes.semilogx(pressure, one.kappa_r, "o", color=style.CONTACT, markersize=4, label="Eq. 3.8, as in the thesis")
-    axes.semilogx(pressure, one.kappa_r_bond, "+", color=style.PAIRS, markersize=6, label="pairs in contact")
-    exact = analytic.CYLINDER_KAPPA_R
-    axes.axhline(exact, color=style.EXACT, lw=1, label=rf"exact, $8/(\pi\sqrt{{3}})={exact:.3f}$ (Eq. 3.7)")
-    for ratio, where, text in ((0.05, "right", "grid matters"), (0.25, "left", "neighbours matter")):
-        edge = float(np.interp(ratio, one.contact_ratio, pressure))
-        axes.axvspan(*((0, edge) if where == "right" else (edge, 1)), color="#eeeeee", lw=0, zorder=0)
-        axes.annotate(
-            text,
-            (edge, 0.04),
-            (4 if where == "left" else -4, 0),
-            ha=where,
-            textcoords="offset points",
-            xycoords=("data", "axes fraction"),
-            fontsize=7,
-            color="#666666",
-        )
-    low, high = float(pressure.min()), float(pressure.max())
-    axes.set(
-        xlim=(low / 1.3, high * 1.3),
-        ylim=(exact - 0.2, exact + 0.2),
-        xlabel=r"reduced pressure $p_r^*$",
-        ylabel=r"$\kappa_r$",
-    )
-    axes.legend()
-
-
-def table_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> None:
-    """Cylinder: half-width, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1, line)."""
-    settings = float(data.length), float(data.contact_modulus)
-    ratios = data.contact_ratio.values
-    inside = (ratios >= 0.05) & (ratios <= 0.25)
-    one = data.isel(member=0, contact_ratio=inside)
     radius = float(one.half_width_exact[0] / one.contact_ratio[0])
-    rows = []
-    for here in (one.isel(contact_ratio=k) for k in range(one.contact_ratio.size)):
-        width, load = float(here.half_width_exact), float(here.mean_pressure) * settings[0]
-        rows.append(
-            [
-                f"{float(here.contact_ratio):g}",
-                f"{2 * width / radius:.4f}",
-                f"{float(2 * here.half_width) / radius:.4f}",
-                f"{load / (settings[1] * radius):.5f}",
-                f"{analytic.cylinder_rms_gradient(width, radius):.5f}",
-                f"{float(here.rms_gradient_contact):.5f}",
-                f"{analytic.CYLINDER_KAPPA_R:.4f}",
-                f"{float(here.kappa_r):.4f}",
-                f"{float(here.kappa_r_bond):.4f}",
-            ]
-        )
-    heads = [
-        "c/R",
-        "$a_{act}/R$\nexact",
-        "computed",
-        "$L/(E^*R)$\ngiven",
-        r"$\bar g_r$" + "\nexact",
-        "computed",
-        r"$\kappa_r$" + "\nexact",
-        "computed\n(Eq. 3.8)",
-        "computed\n(pairs)",
-    ]
-    axes.axis("off")
-    table = axes.table(rows, colLabels=heads, loc="center", cellLoc="center")
-    table.auto_set_font_size(False)
-    table.set_fontsize(7.5)
-    table.scale(1, 1.25)
-    for (row, _), cell in table.get_celld().items():
-        cell.set(edgecolor="#bbbbbb", height=cell.get_height() * (1.8 if row == 0 else 1))
+    return one.assign(
+        resolution=one.length / one.points / (2 * one.half_width_exact),
+        width=2 * one.half_width / radius,
+        width_exact=2 * one.half_width_exact / radius,
+        line_load=one.mean_pressure * one.length / (one.contact_modulus * radius),
+        rms_gradient_exact=one.contact_ratio.copy(data=analytic.cylinder_rms_gradient(one.half_width_exact, radius)),
+        kappa_r_exact=analytic.CYLINDER_KAPPA_R,
+    )
 
 
-def fig_3_2(data: xr.Dataset, axes: tuple[Axes, Axes], reference: Mapping[str, float]) -> None:
+TABLE = {
+    "contact_ratio": r"$c/R$",
+    "width_exact": "$a_{act}/R$\nexact",
+    "width": "$a_{act}/R$\ncomputed",
+    "line_load": "$L/(E^*R)$\ngiven",
+    "rms_gradient_exact": r"$\bar g_r$" + "\nexact",
+    "rms_gradient_contact": r"$\bar g_r$" + "\ncomputed",
+    "kappa_r_exact": r"$\kappa_r$" + "\nexact",
+    "kappa_r": r"$\kappa_r$" + "\ncomputed",
+    "kappa_r_bond": r"$\kappa_r$" + "\nof pairs",
+}
+
+
+def fig_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.DataFrame:
+    """κ_r of the cylinder does not depend on the load (thesis Fig. 3.1, line)."""
+    one = _cylinder(data)
+    pressure, exact = one.reduced_pressure_contact, analytic.CYLINDER_KAPPA_R
+    low, high = float(pressure.min()) / 1.3, float(pressure.max()) * 1.4
+    edges = np.interp(FREE_OF_EDGES, one.contact_ratio, pressure)
+    for span, x, text in (((low, edges[0]), low, " few points"), ((edges[1], high), edges[1], " neighbours")):
+        axes.axvspan(*span, color="#efefef", lw=0, zorder=0)
+        axes.text(x, 0.03, text, transform=axes.get_xaxis_transform(), fontsize=7, color="#666666")
+    bars = exact * one.resolution
+    axes.errorbar(pressure, one.kappa_r, bars, fmt="o", ms=4, color=style.CONTACT, elinewidth=0.7, label="Eq. 3.8")
+    axes.plot(pressure, one.kappa_r_bond, "+", color=style.PAIRS, ms=6, label="pairs in contact")
+    axes.axhline(exact, color=style.EXACT, lw=1, label=rf"exact, $8/(\pi\sqrt{{3}})={exact:.3f}$")
+    axes.set(xscale="log", xlim=(low, high), ylim=(exact - 0.2, exact + 0.2))
+    axes.set(xlabel=r"reduced pressure $p_r^*$", ylabel=r"$\kappa_r^{1D}$")
+    axes.legend(loc="upper right")
+    return one[["reduced_pressure_contact", "resolution", *list(TABLE)[1:]]].to_dataframe().reset_index()
+
+
+def table_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.DataFrame:
+    """Cylinder: width, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1, line)."""
+    least, most = FREE_OF_EDGES
+    rows = _cylinder(data).sel(contact_ratio=slice(least, most)).to_dataframe().reset_index()[list(TABLE)]
+    style.table(axes, list(TABLE.values()), [[f"{value:.4g}" for value in row] for row in rows.to_numpy()])
+    return rows
+
+
+AVERAGES = ("relative_contact_area", "kappa", "kappa_r", "kappa_r_bond")
+
+
+def fig_3_2(data: xr.Dataset, axes: list[Axes], reference: Mapping[str, float]) -> pd.DataFrame:
     """Area against both reduced pressures, and the proportionality factors (thesis Fig. 3.2)."""
-    left, right = axes
+    left, middle, right = axes
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value)
-        p, p_r = one.reduced_pressure, one.reduced_pressure_contact_mean
-        for panel, x, name, color, text in (
-            (left, p, "relative_contact_area", style.WHOLE, "p^*"),
-            (left, p_r, "relative_contact_area", style.CONTACT, "p_r^*"),
-            (right, p, "kappa", style.WHOLE, r"\kappa"),
-            (right, p_r, "kappa_r", style.CONTACT, r"\kappa_r"),
-            (right, p_r, "kappa_r_bond", style.PAIRS, r"\kappa_r"),
-        ):
-            pairs = " (pairs)" if color == style.PAIRS else ""
-            style.with_errors(panel, x, one, name, color=color, label=rf"$H={value:g}$, ${text}${pairs}", **look)
-    dense = np.geomspace(float(data.reduced_pressure.min()), float(data.reduced_pressure.max()), 100)
-    left.plot(dense, analytic.persson_area(dense), color=style.EXACT, lw=0.8, label=r"Persson (2D), erf$(\sqrt{2}p^*)$")
-    right.axhline(reference["kappa_r"], color=style.EXACT, lw=0.8, label=f"thesis, {reference['kappa_r']:g}")
-    left.set(
-        xscale="log",
-        yscale="log",
-        xlabel=r"reduced pressure $p^*$, $p_r^*$",
-        ylabel=r"relative contact area $a_{\mathrm{rel}}$",
+        whole, contact = one.reduced_pressure, one.reduced_pressure_contact_mean
+        style.with_errors(left, whole, one, "relative_contact_area", color=style.WHOLE, **look)
+        style.with_errors(left, contact, one, "relative_contact_area", color=style.CONTACT, **look)
+        style.with_errors(middle, whole, one, "kappa", color=style.WHOLE, **look)
+        for panel in (middle, right):
+            style.with_errors(panel, contact, one, "kappa_r", color=style.CONTACT, **look)
+        style.with_errors(right, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
+    dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
+    persson = analytic.persson_area(dense)
+    left.plot(dense, persson, color=style.EXACT, lw=0.8)
+    middle.plot(dense, persson / dense, color=style.EXACT, lw=0.8)
+    for panel in (middle, right):
+        panel.axhline(reference["kappa_r"], color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
+    left.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
+    middle.set(ylabel=r"$\kappa^{1D}$, $\kappa_r^{1D}$")
+    right.set(ylabel=r"$\kappa_r^{1D}$", ylim=(reference["kappa_r"] - 0.15, reference["kappa_r"] + 0.15))
+    for panel, letter in zip(axes, "abc", strict=True):
+        panel.set(xscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$")
+        style.letter(panel, letter)
+    left.legend(handles=style.hurst_key(data.hurst.values), loc="upper left")
+    colours = {r"$\bar g$ over the whole surface": style.WHOLE, r"$\bar g_r$ over the contact (Eq. 3.8)": style.CONTACT}
+    lines = {f"thesis, {reference['kappa_r']:g}": (0, (6, 3)), r"Persson (2D), erf$(\sqrt{2}p^*)$": "-"}
+    middle.legend(
+        handles=style.key(colours | {r"$\bar g_r$ over pairs in contact": style.PAIRS}, lines), loc="upper right"
     )
-    right.set(xscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$", ylabel=r"$\kappa^{1D}$, $\kappa_r^{1D}$")
-    left.legend()
-    right.legend(ncols=2, loc="upper right")
-    right.set_ylim(top=right.get_ylim()[1] * 1.18)
+    right.text(0.03, 0.03, _constancy(data), transform=right.transAxes, fontsize=6.5, va="bottom")
+    return style.averages(data, AVERAGES)
 
 
-def fig_3_3(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> None:
+def _constancy(data: xr.Dataset) -> str:
+    """The most significant changes of κ_r with pressure and with the Hurst exponent, in words."""
+    if data.member.size < 2:
+        return ""
+    lines = []
+    for along, text in (("reduced_pressure", "$p^*$"), ("hurst", "$H$")):
+        found = departure(data, "kappa_r", along)
+        lines.append(f"largest change with {text}: {found.difference:.3f} = {found.in_errors:.1f} standard errors")
+    return "\n".join(lines)
+
+
+def fig_3_3(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.DataFrame:
     """Eq. 3.11 fitted to each Hurst exponent and to all (thesis Fig. 3.3)."""
-    limit = float(data.fit_limit.min())
-    low, high = float(data.reduced_pressure.min()), float(data.reduced_pressure.max())
-    dense = np.geomspace(low, high, 200)
-    for weighting, width, alpha in (("area", 1.4, 1.0), ("logarithm", 0.9, 0.55)):
-        fit = data.sel(weighting=weighting, fit_limit=limit)
+    dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 200)
+    lowest = data.sel(fit_limit=float(data.fit_limit.min()))
+    for weighting, width, alpha in (("area", 1.5, 1.0), ("logarithm", 1.0, 0.5)):
         for name in data.fitted.values:
-            one = fit.sel(fitted=name)
-            curve = analytic.line_area(dense, float(one.fit_b1), float(one.fit_b2)) / dense
-            look = (
-                {"color": "#2a9d6f", "ls": "--"}
-                if name == "all"
-                else {"color": style.WHOLE, "ls": style.hurst(float(name))["linestyle"]}
-            )
-            who = "all $H$" if name == "all" else f"$H={name}$"
-            axes.plot(dense, curve, lw=width, alpha=alpha, label=f"{who}, fit of {weighting}", **look)
+            fit = lowest.sel(weighting=weighting, fitted=name)
+            curve = analytic.line_area(dense, float(fit.fit_b1), float(fit.fit_b2)) / dense
+            color, line = (style.PAIRS, "--") if name == "all" else (style.WHOLE, style.hurst(float(name))["linestyle"])
+            axes.plot(dense, curve, color=color, ls=line, lw=width, alpha=alpha)
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value) | {"linestyle": "none"}
         style.with_errors(axes, one.reduced_pressure, one, "kappa", color="#888888", **look)
-    axes.plot(dense, analytic.persson_area(dense) / dense, color=style.EXACT, lw=0.8, label="Persson (2D)")
+    axes.plot(dense, analytic.persson_area(dense) / dense, color=style.EXACT, lw=0.8)
     axes.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}_{\mathrm{fit}}$")
-    axes.legend(ncols=2, fontsize=6.5)
+    axes.set_ylim(top=axes.get_ylim()[1] * 1.22)
+    faint = "#e0938f"
+    colours = {"one $H$, fit of the area": style.WHOLE, "one $H$, fit of its logarithm": faint, "all $H$": style.PAIRS}
+    keys = style.hurst_key(data.hurst.values) + style.key(colours, {"Persson (2D)": "-"})
+    axes.legend(handles=keys, ncols=2, loc="upper right")
+    names = [name for name in data.data_vars if str(name).startswith("fit_")]
+    return data[names].to_dataframe().reset_index()

@@ -1,19 +1,22 @@
-"""From a dataset to the files of a figure: PNG and PDF, the numbers behind it as CSV, the footer."""
+"""From a dataset to the files of a figure: PNG and PDF with caption and footer, and the numbers behind it as CSV."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import textwrap
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
 
 import pandas as pd
 import xarray as xr
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from contactsim import aggregate, dataset
 from contactsim.figures import style
+
+LINE_INCHES = 0.125
+"""Height of a line of caption or footer."""
 
 
 def render(plan: Mapping, data_path: str, costs_path: str, targets: Mapping[str, str]) -> None:
@@ -22,51 +25,55 @@ def render(plan: Mapping, data_path: str, costs_path: str, targets: Mapping[str,
     plan: `Plan.figure_settings`; data_path: the study's dataset; costs_path: its costs; targets: png, pdf and csv.
     """
     data, costs, settings = dataset.read(data_path), pd.read_csv(costs_path), plan["settings"]
+    draw = getattr(import_module(f"contactsim.figures.{plan['chapter']}"), plan["name"])
+    footer = footer_text(data, costs)
     for dim, (least, largest) in settings["select"].items():
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
-    figure = Figure(figsize=settings["size"], layout="constrained")
-    FigureCanvasAgg(figure)
-    figure.get_layout_engine().set(rect=(0, 0.035, 1, 0.965))
-    axes = figure.subplots(1, settings["panels"], squeeze=False)[0]
-    module = import_module(f"contactsim.figures.{plan['chapter']}")
-    getattr(module, plan["name"])(data, axes if settings["panels"] > 1 else axes[0], settings["reference"])
-    style.header(figure, settings["title"])
-    style.footer(figure, footer_text(data, costs))
-    _save(figure, targets["png"], {})
-    _save(figure, targets["pdf"], {"metadata": {"CreationDate": None}})
-    write_numbers(numbers(data), targets["csv"])
+    figure, panels = framed(settings, footer)
+    shown = draw(data, panels if len(panels) > 1 else panels[0], settings["reference"])
+    _move(targets["png"], figure.savefig)
+    _move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    _move(targets["csv"], lambda path: shown.to_csv(path, index=False))
+
+
+def framed(settings: Mapping, footer: str) -> tuple[Figure, list]:
+    """An empty figure with its panels, the title above, caption and footer below them.
+
+    settings: of a figure, with size, panels, title and caption; the text below adds to the height.
+    """
+    width, height = settings["size"]
+    caption = textwrap.wrap(settings["caption"], int(width * 19.5))
+    made = textwrap.wrap(footer, int(width * 22))
+    below = (len(caption) + len(made) + 1.2) * LINE_INCHES
+    figure = Figure(figsize=(width, height + below), layout="constrained")
+    share = below / (height + below)
+    figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
+    figure.suptitle(settings["title"], fontsize=9.5, x=0.01, ha="left")
+    bottom = LINE_INCHES * 0.4 / (height + below)
+    figure.text(0.01, share - 0.3 * LINE_INCHES / (height + below), "\n".join(caption), fontsize=7, va="top")
+    figure.text(0.01, bottom, "\n".join(made), fontsize=6, color="#777777", va="bottom")
+    return figure, list(figure.subplots(1, settings["panels"], squeeze=False)[0])
 
 
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
-    """Tier, grid, members, unconverged solutions, grid error, CPU time of the solutions."""
+    """Tier, grid, members, unconverged solutions, largest grid errors, time of all solutions."""
     settings = dataset.settings_of(data)
     lost, total = aggregate.left_out(data)
+    members = data.member.size
     parts = [
         f"{settings['tier']} tier",
         style.points_text(settings, int(data.points)),
-        f"{data.member.size} member{'s' if data.member.size > 1 else ''}",
+        f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
-    if "kappa_r_grid_error" in data:
-        parts.append(f"grid error of κ_r at most {float(data.kappa_r_grid_error.max()):.1g}")
-    parts.append(f"{costs.seconds.sum():.3g} s on one thread")
-    return " · ".join(parts)
+    for name, symbol in (("kappa", "κ"), ("kappa_r", "κᵣ"), ("kappa_r_bond", "κᵣ of pairs")):
+        if f"{name}_grid_error" in data:
+            parts.append(f"grid error of {symbol} up to {float(data[f'{name}_grid_error'].max()):.1g}")
+    return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} s on one thread"])
 
 
-def numbers(data: xr.Dataset) -> pd.DataFrame:
-    """Means, standard errors and grid errors of everything averaged, one row a load."""
-    names = [name for name in data.data_vars if dataset.base_name(str(name))[1] and "fit" not in str(name)]
-    return data[names].to_dataframe().reset_index()
-
-
-def write_numbers(frame: pd.DataFrame, path: str) -> None:
-    """Write a table in one move."""
-    temporary = Path(path).with_name(f".{Path(path).name}.{os.getpid()}.tmp")
-    frame.to_csv(temporary, index=False)
-    os.replace(temporary, path)
-
-
-def _save(figure: Figure, path: str, options: dict) -> None:
+def _move(path: str, save: Callable[[Path], object]) -> None:
+    """Save under a temporary name, with the same ending, and move it into place."""
     temporary = Path(path).with_name(f".{os.getpid()}.{Path(path).name}")
-    figure.savefig(temporary, **options)
+    save(temporary)
     os.replace(temporary, path)

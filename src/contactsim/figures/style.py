@@ -1,14 +1,17 @@
-"""How figures look: one place for colours, markers, labels and footers."""
+"""How figures look: one place for colours, markers, legends, tables and the words about the grid."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import matplotlib as mpl
 import numpy as np
+import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from contactsim.dataset import SUFFIXES
 
 HURST = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
 WHOLE, CONTACT, PAIRS = "#c1272d", "#1f4e9c", "#2a9d6f"
@@ -26,7 +29,6 @@ mpl.rcParams.update(
         "xtick.top": True,
         "ytick.right": True,
         "savefig.dpi": 200,
-        "svg.hashsalt": "contactsim",
         "pdf.fonttype": 42,
     }
 )
@@ -34,31 +36,54 @@ mpl.rcParams.update(
 
 def hurst(value: float) -> dict[str, object]:
     """Marker and line of a Hurst exponent; those not in the thesis get a cross."""
-    marker, line = HURST.get(round(value, 6), ("x", "-."))
+    marker, line = HURST.get(round(float(value), 6), ("x", "-."))
     return {"marker": marker, "linestyle": line, "markersize": 3.5, "linewidth": 1.0, "markerfacecolor": "white"}
 
 
+def hurst_key(values: Iterable[float]) -> list[Line2D]:
+    """Legend entries for Hurst exponents."""
+    return [Line2D([], [], color="#777777", label=f"$H={value:g}$", **hurst(value)) for value in values]
+
+
+def key(colours: Mapping[str, str], lines: Mapping[str, object]) -> list[Line2D]:
+    """Legend entries: a coloured line for each name, then a dark line of each style."""
+    coloured = [Line2D([], [], color=color, lw=1.5, label=name) for name, color in colours.items()]
+    return coloured + [Line2D([], [], color=EXACT, lw=0.8, ls=line, label=name) for name, line in lines.items()]
+
+
 def with_errors(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
-    """A curve of ensemble means with standard errors as bars; without errors where there is one member."""
+    """A curve of ensemble means with standard errors as bars; no bars where there is one member."""
     error = data[f"{name}_standard_error"].values
     bars = error if np.isfinite(error).any() else None
     axes.errorbar(x.values, data[f"{name}_mean"].values, yerr=bars, elinewidth=0.8, capsize=1.5, **look)
 
 
-def header(figure: Figure, title: str) -> None:
-    """The figure's title."""
-    figure.suptitle(title, fontsize=9.5, x=0.01, ha="left")
+def letter(axes: Axes, name: str) -> None:
+    """The panel's letter, above its left corner."""
+    axes.set_title(f"({name})", loc="left", fontsize=9)
 
 
-def footer(figure: Figure, text: str) -> None:
-    """A line below the axes that says how the figure was made."""
-    figure.text(0.01, 0.005, text, fontsize=6, color="#666666", ha="left", va="bottom")
+def table(axes: Axes, heads: list[str], rows: list[list[str]]) -> None:
+    """A table in place of axes."""
+    axes.axis("off")
+    drawn = axes.table(rows, colLabels=heads, loc="center", cellLoc="center")
+    drawn.auto_set_font_size(False)
+    drawn.set_fontsize(8)
+    for (row, _), cell in drawn.get_celld().items():
+        cell.set(edgecolor="#bbbbbb", linewidth=0.6, height=(1.7 if row == 0 else 1) / (len(rows) + 1.7))
+
+
+def averages(data: xr.Dataset, names: Iterable[str]) -> pd.DataFrame:
+    """Mean, standard error and grid error of each quantity, one row a point: what a figure of averages shows."""
+    columns = [f"{name}{suffix}" for name in names for suffix in SUFFIXES]
+    return data[[column for column in columns if column in data]].to_dataframe().reset_index()
 
 
 def points_text(settings: Mapping, points: int) -> str:
     """Grid points, with those per shortest wavelength where the surface has one, beside the thesis's own."""
     surface, thesis = settings["surface"], settings["thesis_points"]
-    if surface["kind"] == "self_affine":
-        per_point = surface["shortest_wavelength"] / surface["length"]
-        return f"{points} points, {points * per_point:g} per shortest wavelength (thesis {thesis * per_point:g})"
-    return f"{points} points (thesis {thesis})" if thesis else f"{points} points"
+    if surface["kind"] != "self_affine":
+        return f"{points} points (thesis {thesis})" if thesis else f"{points} points"
+    share = surface["shortest_wavelength"] / surface["length"]
+    beside = f" (thesis {thesis * share:g})" if thesis else ""
+    return f"{points} points, {points * share:g} per shortest wavelength{beside}"
