@@ -166,12 +166,12 @@ _TYPES = {
 }
 
 
-def keys_of(kind: type, leave_out: tuple[str, ...] = ()) -> dict[str, Key]:
-    """The keys of a dataclass: its fields, with their types and defaults."""
+def keys_of(kind: type) -> dict[str, Key]:
+    """The keys of a dataclass: those of its fields that a config can give, with their types and defaults."""
     hints = typing.get_type_hints(kind)
     keys = {}
     for entry in dataclasses.fields(kind):
-        if entry.init and entry.name not in leave_out:
+        if entry.init and hints[entry.name] in _TYPES:
             convert, allowed = _TYPES[hints[entry.name]]
             default = REQUIRED if entry.default is dataclasses.MISSING else entry.default
             keys[entry.name] = Key(convert, allowed, default)

@@ -27,7 +27,7 @@ from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import Result, solve
-from contactsim.study import scene_of
+from contactsim.study import points_of, scene_of
 
 logger = logging.getLogger(__name__)
 
@@ -53,7 +53,7 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     apart = settings | {"load": settings["load"]["name"]}
     names = [digest(apart, value, source) for value in values]
     known = _earlier(target, costs)
-    heights = scene.heights(settings["points"])
+    heights = scene.heights(points_of(settings, scene.upper.surface))
     method = solver(**settings["solver"])
     points, spent = [], 0.0
     for count, (name, value, step) in enumerate(zip(names, values, scene.path.steps, strict=True), 1):

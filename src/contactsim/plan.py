@@ -92,10 +92,6 @@ class Plan:
         runs = {(run.variant, str(run.member)): run for run in self.studies[study].runs()}
         return runs[variant, member]
 
-    def run_stem(self, run: Run) -> str:
-        """Where a run's files lie, below runs/ and costs/, without their endings."""
-        return f"{run.study}/{run.variant}/{run.member}"
-
     def dataset_name(self, study: str) -> str:
         """File name of a study's dataset, without ending."""
         return f"{self.chapters[study]}_{study}"
@@ -104,8 +100,8 @@ class Plan:
         """What the aggregation of a study depends on: its settings, and every run's place and digest."""
         runs = [
             {
-                "path": f"{self.results}/runs/{self.run_stem(run)}.nc",
-                "costs": f"{self.results}/costs/runs/{self.run_stem(run)}.json",
+                "path": f"{self.results}/runs/{run.stem}.nc",
+                "costs": f"{self.results}/costs/runs/{run.stem}.json",
                 "coordinates": run.coordinates,
                 "member": run.member,
                 "companion": run.companion,

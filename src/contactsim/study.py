@@ -8,49 +8,44 @@ matter, since each is solved on its own.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from contactsim import analytic, loading
-from contactsim.config import (
-    Key,
-    choice,
-    keys_of,
-    listed,
-    mapping,
-    number,
-    overlaid,
-    positive,
-    read,
-    text,
-    whole,
-)
+from contactsim.config import Key, choice, keys_of, listed, mapping, number, overlaid, positive, read, text, whole
 from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
-from contactsim.grid import Array
 from contactsim.laws import EFFECTS
 from contactsim.loading import LoadPath
 from contactsim.provenance import digest, source_digest
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
-from contactsim.solvers import SOLVERS, module_of, solver
+from contactsim.solvers import SOLVERS, module_of, solver, solver_class
 from contactsim.solvers.base import require
 from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
 
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
+KINDS: dict[str, tuple[Mapping[str, object], Callable[[str], type]]] = {
+    "surface": (SURFACES, SURFACES.__getitem__),
+    "body": (ELASTICITIES, ELASTICITIES.__getitem__),
+    "solver": (SOLVERS, solver_class),
+}
+"""Sections whose `kind` decides which keys they have: the kinds there are, and the class of each."""
+
 STUDY_KEYS = {
     "title": Key(text, "a line of text"),
     "surface": Key(mapping, "a mapping with `kind` and that kind's keys"),
     "body": Key(mapping, "a mapping with `kind` and that kind's keys"),
     "effects": Key(listed(choice(EFFECTS)), f"a list from {sorted(EFFECTS)}"),
-    "load": Key(mapping, f"a mapping with one of {list(LOADS)} and its list of values"),
+    "load": Key(mapping, f"a mapping with one of {', '.join(LOADS)} and its list of values"),
     "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
     "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
     "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "companion": Key(mapping, "a mapping with `points` and `members`", None),
-    "solver": Key(mapping, "a mapping with `name` and that solver's options", {"name": "active_set"}),
+    "solver": Key(mapping, "a mapping with `kind` and that solver's options", {"kind": "active_set"}),
     "tolerance": Key(positive, "a positive number of grid steps"),
     "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
 }
@@ -72,19 +67,19 @@ class Run:
     companion: bool
 
     @property
+    def source(self) -> str:
+        """Digest of the modules that compute the run: the marching, and the one solver it uses."""
+        return source_digest("contactsim.march", module_of(self.settings["solver"]["kind"]))
+
+    @property
     def digest(self) -> str:
         """Changes with the settings and with the code that computes the run."""
         return digest(self.settings, self.source)
 
     @property
-    def source(self) -> str:
-        """Digest of the modules that compute the run: the marching, and the one solver it uses."""
-        return run_source(self.settings["solver"]["name"])
-
-
-def run_source(name: str) -> str:
-    """Digest of the modules that a run with the solver of this name executes."""
-    return source_digest("contactsim.march", module_of(name))
+    def stem(self) -> str:
+        """Where the run's files lie below runs/ and costs/runs/, without their endings."""
+        return f"{self.study}/{self.variant}/{self.member}"
 
 
 @dataclass(frozen=True)
@@ -97,40 +92,40 @@ class Study:
     seed: int
 
     @classmethod
-    def read(cls, name: str, section: dict, file: str, seed: int) -> Study:
-        """Check a section of a chapter's config, down to the scenes of every variant."""
+    def read(cls, name: str, section: object, file: object, seed: int) -> Study:
+        """Check a section of a chapter's config, down to the scene of every variant."""
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
-        study = cls(name, settings | {"load": _load(settings["load"], file, f"{prefix}.load")}, file, seed)
-        companion = settings["companion"]
-        if companion is not None:
-            read(companion, COMPANION_KEYS, file, f"{prefix}.companion")
+        settings["load"] = _load(settings["load"], file, f"{prefix}.load")
+        if settings["companion"] is not None:
+            companion = read(settings["companion"], COMPANION_KEYS, file, f"{prefix}.companion")
             if companion["members"] > settings["members"]:
-                raise SceneError(f"{prefix}.companion.members", companion["members"], "at most members", file)
+                allowed = f"at most {settings['members']}, the study's members"
+                raise SceneError(f"{prefix}.companion.members", companion["members"], allowed, file)
+            if settings["points"] is None or companion["points"] >= settings["points"]:
+                allowed = f"fewer than the study's points, {settings['points']}"
+                raise SceneError(f"{prefix}.companion.points", companion["points"], allowed, file)
+        study = cls(name, settings, str(file), seed)
         for run in study.runs():
             if run.member == 0:
-                try:
-                    scene = scene_of(run.settings)
-                    require(solver(**run.settings["solver"]), scene)
-                    scene.heights(run.settings["points"])
-                except SceneError as error:
-                    raise error.within(file, prefix) from error
+                study._check(run)
         return study
 
     def runs(self) -> list[Run]:
         """Every job of the study, in order: variants, then members; companions last."""
-        base = {"members": self.settings["members"], "points": self.settings["points"], "companion": False}
-        kinds = [base]
+        names = sorted(self.settings["vary"])
+        variants = [
+            dict(zip(names, values, strict=True))
+            for values in itertools.product(*(self._values(name) for name in names))
+        ]
+        grids = [(self.settings["points"], self.settings["members"], False)]
         if self.settings["companion"] is not None:
-            kinds.append(self.settings["companion"] | {"companion": True})
-        varied = self.settings["vary"]
-        names = sorted(varied)
-        combinations = list(itertools.product(*(self._values(name) for name in names)))
+            grids.append((self.settings["companion"]["points"], self.settings["companion"]["members"], True))
         return [
-            self._run(dict(zip(names, values, strict=True)), member, kind["points"], kind["companion"])
-            for kind in kinds
-            for values in combinations
-            for member in range(kind["members"])
+            self._run(varied, member, points, companion)
+            for points, members, companion in grids
+            for varied in variants
+            for member in range(members)
         ]
 
     def _values(self, name: str) -> list:
@@ -141,59 +136,39 @@ class Study:
         return values
 
     def _run(self, varied: dict, member: int, points: int | None, companion: bool) -> Run:
-        parts = {name: self.settings[name] for name in ("surface", "body", "effects", "load", "solver", "tolerance")}
+        parts = {name: self._part(name, self.settings[name]) for name in KINDS}
         for name, value in varied.items():
             head, _, tail = name.partition(".")
-            if head not in parts or not isinstance(parts[head], dict) or tail not in parts[head]:
-                known = [
-                    f"{h}.{t}" for h in ("surface", "body", "solver") for t in parts[h] if t not in ("kind", "name")
-                ]
-                raise SceneError(
-                    f"studies.{self.name}.vary", name, f"a key of this study: {', '.join(known)}", self.file
-                )
-            parts = overlaid(parts, {head: {tail: value}})
-        checked = self._checked(parts)
-        identity = {"study": self.name, "member": member, "seed": self.seed}
-        settings = identity | checked | {"points": points or self._surface(checked).points}
-        coordinates = {name.rpartition(".")[2]: value for name, value in sorted(varied.items())}
-        variant = digest(varied, settings["points"] if companion else None)[:8]
+            if tail not in parts.get(head, ()):
+                known = ", ".join(f"{part}.{key}" for part in KINDS for key in parts[part] if key != "kind")
+                raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {known}", self.file)
+            parts[head] = self._part(head, overlaid(self.settings[head], {tail: value}))
+        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance")}
+        settings = {"study": self.name, "member": member, "seed": self.seed, "points": points} | shared | parts
+        coordinates = {name.rpartition(".")[2]: value for name, value in varied.items()}
+        variant = digest(varied, points if companion else None)[:8]
         return Run(self.name, variant, member, coordinates, settings, companion)
 
-    def _checked(self, parts: dict) -> dict:
-        prefix = f"studies.{self.name}"
-        checked = dict(parts)
-        for section, name, known, left_out in (
-            ("surface", "kind", SURFACES, ("rng",)),
-            ("body", "kind", ELASTICITIES, ()),
-        ):
-            chosen = read_kind(parts[section], name, known, left_out, self.file, f"{prefix}.{section}")
-            checked[section] = chosen
-        read(
-            {"name": parts["solver"].get("name")},
-            {"name": Key(choice(SOLVERS), f"one of {sorted(SOLVERS)}")},
-            self.file,
-            f"{prefix}.solver",
-        )
-        keys = {"name": Key(text, "")} | keys_of(type(solver(parts["solver"]["name"])))
-        given = read(parts["solver"], keys, self.file, f"{prefix}.solver")
-        checked["solver"] = {key: given[key] for key in parts["solver"]}
-        return checked
+    def _part(self, name: str, section: dict) -> dict:
+        """A section whose `kind` decides which keys it has, with the defaults filled in."""
+        known, class_of = KINDS[name]
+        prefix = f"studies.{self.name}.{name}"
+        kind = Key(choice(known), f"one of {', '.join(sorted(known))}")
+        given = {"kind": section["kind"]} if "kind" in section else {}
+        chosen = read(given, {"kind": kind}, self.file, prefix)["kind"]
+        return read(section, {"kind": kind} | keys_of(class_of(chosen)), self.file, prefix)
 
-    def _surface(self, checked: dict) -> Surface:
+    def _check(self, run: Run) -> None:
+        """Build the run's scene once, so that nothing impossible is found out by a job."""
         try:
-            return surface_of(checked["surface"], generator(0))
+            scene = scene_of(run.settings)
+            require(solver(**run.settings["solver"]), scene)
+            scene.heights(points_of(run.settings, scene.upper.surface))
         except SceneError as error:
-            raise error.within(self.file, f"studies.{self.name}.surface") from error
+            raise error.within(self.file, f"studies.{self.name}") from error
 
 
-def read_kind(section: dict, name: str, known: dict, left_out: tuple[str, ...], file: str, prefix: str) -> dict:
-    """A section whose `kind` decides which keys it has; returns it with the defaults filled in."""
-    kind = Key(choice(known), f"one of {sorted(known)}")
-    chosen = read({name: section[name]} if name in section else {}, {name: kind}, file, prefix)[name]
-    return read(section, {name: kind} | keys_of(known[chosen], left_out), file, prefix)
-
-
-def _load(section: dict, file: str, prefix: str) -> dict:
+def _load(section: dict, file: object, prefix: str) -> dict:
     values = Key(listed(number), "a list of numbers, none twice", None)
     given = {name: value for name, value in read(section, dict.fromkeys(LOADS, values), file, prefix).items() if value}
     if len(given) != 1:
@@ -204,23 +179,25 @@ def _load(section: dict, file: str, prefix: str) -> dict:
     return {"name": name, "values": sorted(numbers)}
 
 
-def surface_of(section: dict, rng: np.random.Generator) -> Surface:
-    """The surface that a section describes."""
-    kind = SURFACES[section["kind"]]
-    options = {key: value for key, value in section.items() if key != "kind"}
-    return kind(**options, rng=rng) if kind is SelfAffine else kind(**options)
-
-
 def scene_of(settings: dict) -> Scene:
     """The scene of a run: a flat elastic body below, the rigid surface above, pressed through all loads."""
-    surface = settings["surface"]
-    rng = generator(settings["seed"], settings["study"], surface.get("hurst"), settings["member"])
-    upper = Body(surface_of(surface, rng))
-    body = settings["body"]
-    elasticity = ELASTICITIES[body["kind"]](**{key: value for key, value in body.items() if key != "kind"})
+    surface, body = (dict(settings[name]) for name in ("surface", "body"))
+    kind = SURFACES[surface.pop("kind")]
+    if kind is SelfAffine:
+        surface["rng"] = generator(settings["seed"], settings["study"], surface["hurst"], settings["member"])
+    upper = kind(**surface)
+    elasticity = ELASTICITIES[body.pop("kind")](**body)
     effects = tuple(EFFECTS[name]() for name in settings["effects"])
-    lower = Body(Flat(upper.surface.length), elasticity)
-    return Scene(lower, upper, effects, load_path(settings, upper.surface, elasticity.contact_modulus))
+    path = load_path(settings, upper, elasticity.contact_modulus)
+    return Scene(Body(Flat(upper.length), elasticity), Body(upper), effects, path)
+
+
+def points_of(settings: dict, surface: Surface) -> int:
+    """Number of grid points: the study's, or that of a measured surface."""
+    points = settings["points"] or surface.points
+    if points is None:
+        raise SceneError("points", None, "a whole number: only a measured surface comes with its own")
+    return points
 
 
 def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadPath:
@@ -230,17 +207,15 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
     what a cylinder needs for a half-width of that part of its radius (Eq. 3.5).
     """
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
-    return loading.press([float(value) for value in _pressures(name, values, settings, surface, contact_modulus)])
-
-
-def _pressures(name: str, values: Array, settings: dict, surface: Surface, contact_modulus: float) -> Array:
     if name == "reduced_pressure":
-        points = settings["points"]
         gradient = settings["surface"].get("rms_gradient")
-        return values * contact_modulus * (gradient or rms_gradient(surface.heights(points), surface.length / points))
-    if name == "contact_ratio":
-        if "radius" not in settings["surface"]:
+        if gradient is None:
+            points = points_of(settings, surface)
+            gradient = rms_gradient(surface.heights(points), surface.length / points)
+        values = values * contact_modulus * gradient
+    elif name == "contact_ratio":
+        radius = settings["surface"].get("radius")
+        if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
-        radius = surface.radius
-        return analytic.cylinder_load(values * radius, radius, contact_modulus) / surface.length
-    return values
+        values = analytic.cylinder_load(values * radius, radius, contact_modulus) / surface.length
+    return loading.press([float(value) for value in values])

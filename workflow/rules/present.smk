@@ -2,7 +2,7 @@
 def study_runs(ending, folder):
     def files(wildcards):
         runs = PLAN.studies[wildcards.study].runs()
-        return [RESULTS / folder / f"{PLAN.run_stem(run)}.{ending}" for run in runs]
+        return [RESULTS / folder / f"{run.stem}.{ending}" for run in runs]
     return files
 
 

@@ -54,12 +54,14 @@ def fig_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.
         axes.axvspan(*span, color="#efefef", lw=0, zorder=0)
         axes.text(x, 0.03, text, transform=axes.get_xaxis_transform(), fontsize=7, color="#666666")
     bars = exact * one.resolution
-    axes.errorbar(pressure, one.kappa_r, bars, fmt="o", ms=4, color=style.CONTACT, elinewidth=0.7, label="Eq. 3.8")
-    axes.plot(pressure, one.kappa_r_bond, "+", color=style.PAIRS, ms=6, label="pairs in contact")
-    axes.axhline(exact, color=style.EXACT, lw=1, label=rf"exact, $8/(\pi\sqrt{{3}})={exact:.3f}$")
+    shown = [
+        axes.errorbar(pressure, one.kappa_r, bars, fmt="o", ms=4, color=style.CONTACT, elinewidth=0.7, label="Eq. 3.8"),
+        *axes.plot(pressure, one.kappa_r_bond, "+", color=style.PAIRS, ms=6, label="pairs in contact"),
+        axes.axhline(exact, color=style.EXACT, lw=1, label=rf"exact, $8/(\pi\sqrt{{3}})={exact:.3f}$"),
+    ]
     axes.set(xscale="log", xlim=(low, high), ylim=(exact - 0.2, exact + 0.2))
     axes.set(xlabel=r"reduced pressure $p_r^*$", ylabel=r"$\kappa_r^{1D}$")
-    axes.legend(loc="upper right")
+    axes.legend(handles=shown, loc="upper right")
     return one[["reduced_pressure_contact", "resolution", *list(TABLE)[1:]]].to_dataframe().reset_index()
 
 
@@ -67,7 +69,7 @@ def table_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> p
     """Cylinder: width, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1, line)."""
     least, most = FREE_OF_EDGES
     rows = _cylinder(data).sel(contact_ratio=slice(least, most)).to_dataframe().reset_index()[list(TABLE)]
-    style.table(axes, list(TABLE.values()), [[f"{value:.4g}" for value in row] for row in rows.to_numpy()])
+    style.table(axes, list(TABLE.values()), [[f"{value:#.4g}" for value in row] for row in rows.to_numpy()])
     return rows
 
 
@@ -86,6 +88,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], reference: Mapping[str, float]) 
         for panel in (middle, right):
             style.with_errors(panel, contact, one, "kappa_r", color=style.CONTACT, **look)
         style.with_errors(right, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
+        style.grid_band(right, contact, one, "kappa_r", style.CONTACT)
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
     persson = analytic.persson_area(dense)
     left.plot(dense, persson, color=style.EXACT, lw=0.8)
@@ -104,6 +107,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], reference: Mapping[str, float]) 
     middle.legend(
         handles=style.key(colours | {r"$\bar g_r$ over pairs in contact": style.PAIRS}, lines), loc="upper right"
     )
+    middle.set_ylim(top=middle.get_ylim()[1] * 1.25)
     right.text(0.03, 0.03, _constancy(data), transform=right.transAxes, fontsize=6.5, va="bottom")
     return style.averages(data, AVERAGES)
 
@@ -115,7 +119,9 @@ def _constancy(data: xr.Dataset) -> str:
     lines = []
     for along, text in (("reduced_pressure", "$p^*$"), ("hurst", "$H$")):
         found = departure(data, "kappa_r", along)
-        lines.append(f"largest change with {text}: {found.difference:.3f} = {found.in_errors:.1f} standard errors")
+        lines.append(
+            f"most significant change with {text}: {found.difference:.3f} = {found.in_errors:.1f} standard errors"
+        )
     return "\n".join(lines)
 
 

@@ -58,6 +58,13 @@ def with_errors(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look
     axes.errorbar(x.values, data[f"{name}_mean"].values, yerr=bars, elinewidth=0.8, capsize=1.5, **look)
 
 
+def grid_band(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, color: str) -> None:
+    """The grid error of a curve of means as a faint band, where it was measured."""
+    if f"{name}_grid_error" in data:
+        mean, error = data[f"{name}_mean"], data[f"{name}_grid_error"]
+        axes.fill_between(x, mean - error, mean + error, color=color, alpha=0.07, lw=0)
+
+
 def letter(axes: Axes, name: str) -> None:
     """The panel's letter, above its left corner."""
     axes.set_title(f"({name})", loc="left", fontsize=9)

@@ -17,14 +17,18 @@ SOLVERS = {
 }
 
 
-def module_of(name: str) -> str:
+def module_of(kind: str) -> str:
     """Name of the module in which a solver lives."""
-    if name not in SOLVERS:
-        raise SceneError("solver", name, f"one of {sorted(SOLVERS)}")
-    return SOLVERS[name].partition(":")[0]
+    if kind not in SOLVERS:
+        raise SceneError("solver", kind, f"one of {', '.join(sorted(SOLVERS))}")
+    return SOLVERS[kind].partition(":")[0]
 
 
-def solver(name: str, **options: float) -> Solver:
-    """The solver of that name, with its options."""
-    module = import_module(module_of(name))
-    return getattr(module, SOLVERS[name].partition(":")[2])(**options)
+def solver_class(kind: str) -> type:
+    """The class of a solver."""
+    return getattr(import_module(module_of(kind)), SOLVERS[kind].partition(":")[2])
+
+
+def solver(kind: str, **options: float) -> Solver:
+    """The solver of that kind, with its options."""
+    return solver_class(kind)(**options)

@@ -1,0 +1,184 @@
+"""One measurement each: a sweep over all loads beside its transforms alone; one load with one solver beside another.
+
+Times are CPU seconds on one thread. What is compared is timed in turns in one process, so that what else the machine
+does falls on both; a ratio is the median over the rounds, a time the best.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import resource
+import signal
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable
+from multiprocessing import get_context
+
+import numpy as np
+
+from contactsim.grid import Array, Grid, Tally
+from contactsim.plan import Plan
+from contactsim.scene import Certificate, Scale, Scene, WallProblem, pose
+from contactsim.solvers import solver
+from contactsim.solvers.base import solve
+from contactsim.study import scene_of
+
+CAP = 120
+"""CPU seconds that one solution may take."""
+NOT_CERTIFIED = "not certified"
+LONG = 5.0
+"""CPU seconds above which a solution is not repeated."""
+
+
+class ByGrid(Tally):
+    """A tally that also keeps the number of transforms on each grid."""
+
+    def __init__(self, finest: int) -> None:
+        super().__init__(finest)
+        self.counts: Counter[int] = Counter()
+
+    def add(self, count: int, size: int) -> None:
+        """Enter `count` transforms on a grid of `size` points."""
+        super().add(count, size)
+        self.counts[size] += count
+
+
+def posed(plan: Plan, case: dict, loads: list[float]) -> tuple[Scene, Array]:
+    """The scene of a member of `rough_line` at reduced pressures `loads`, and its heights (nm)."""
+    study = plan.studies["rough_line"]
+    wanted = {"hurst": case["hurst"]}
+    run = next(run for run in study.runs() if (run.coordinates, run.member) == (wanted, case["member"]))
+    scene = scene_of(run.settings | {"points": case["points"], "load": {"name": "reduced_pressure", "values": loads}})
+    return scene, scene.heights(case["points"])
+
+
+def worst(certificate: Certificate) -> float:
+    """Largest distance from the solution, in grid steps."""
+    return max(certificate.non_uniformity, certificate.penetration)
+
+
+def replayed(counts: dict[int, float]) -> float:
+    """CPU seconds of that many transforms on grids of that many points and of nothing else."""
+    spent = 0.0
+    for size, count in counts.items():
+        grid, field = Grid((size,), (1.0,)), np.random.default_rng(0).standard_normal(size)
+        half, pairs = grid.forward(field), max(round(count / 2), 1)
+        begin = time.process_time()
+        for _ in range(pairs):
+            grid.backward(grid.forward(field, out=half), out=field)
+        spent += (time.process_time() - begin) * count / (2 * pairs)
+    return spent
+
+
+def sweep(plan: Plan, case: dict, rounds: int) -> dict:
+    """All loads of Fig. 3.2 with the active set, each followed by as many transforms alone."""
+    least, largest = plan.figures["fig_3_2"].settings["select"]["reduced_pressure"]
+    loads = [p for p in plan.studies["rough_line"].settings["load"]["values"] if least <= p <= largest]
+    scene, heights = posed(plan, case, loads)
+    method, spent, results = solver(case["solver"]), np.zeros((rounds, 3)), []
+    for row in spent:
+        results.clear()
+        for step in scene.path.steps:
+            begin = time.process_time()
+            problem, scale = pose(scene, step, heights, case["tolerance"], 1)
+            problem.tally = problem.compliance.tally = ByGrid(heights.size)
+            results.append(solve(method, problem, scale))
+            seconds = time.process_time() - begin
+            finest = {heights.size: problem.tally.transforms}
+            row += seconds, replayed(finest), replayed(problem.tally.counts)
+    unsolved = sum(result.status.name != "CONVERGED" for result in results)
+    return {
+        "status": f"{unsolved} of {len(results)} not converged" if unsolved else "CONVERGED",
+        "certificate": max(worst(result.record.certificate) for result in results),
+        "transforms": sum(result.record.transforms for result in results),
+        "rounds": rounds,
+        **dict(zip(("seconds", "seconds_of_transforms", "seconds_of_replay"), spent.min(axis=0), strict=True)),
+        "per_transforms": np.median(spent[:, 0] / spent[:, 1]),
+        "per_replay": np.median(spent[:, 0] / spent[:, 2]),
+    }
+
+
+def ours(problem: WallProblem, scale: Scale, name: str) -> dict:
+    """One load with a solver of this package."""
+    result = solve(solver(name), problem, scale)
+    return {
+        "status": result.status.name,
+        "area": result.relative_contact_area,
+        "certificate": worst(result.record.certificate),
+        "transforms": result.record.transforms,
+    }
+
+
+def tamaas(scene: Scene, problem: WallProblem, scale: Scale, heights: Array, tolerance: float) -> dict:
+    """One load with tamaas, certified by us.
+
+    Transforms: four an iteration and two at the end, as breakpoints on its FFTW calls count them. Its pressure is
+    scaled to the load, which it meets to rounding.
+    """
+    import tamaas as tm
+
+    tm.set_log_level(tm.LogLevel.info)
+    model = tm.ModelFactory.createModel(tm.model_type.basic_1d, [scene.length], [heights.size])
+    model.E, model.nu = scene.contact_modulus, 0.0
+    method = tm.PolonskyKeerRey(model, heights, tolerance)
+    method.max_iter, method.dump_freq = 10**8, 10**8
+    with tempfile.TemporaryFile() as log:  # the number of iterations appears nowhere else
+        kept = os.dup(2)
+        os.dup2(log.fileno(), 2)
+        method.solve(problem.load * scale.pressure)
+        os.dup2(kept, 2)
+        log.seek(0)
+        iterations = 1 + max(map(int, re.findall(rb"^ *(\d+) +\S+ +\S+$", log.read(), re.MULTILINE)))
+    pressure = problem.admissible(np.asarray(model.traction).ravel() / scale.pressure)
+    certificate = problem.certify(pressure)
+    return {
+        "status": "CONVERGED" if certificate.met(problem.tolerance) else NOT_CERTIFIED,
+        "area": float((pressure > 0).mean()),
+        "certificate": worst(certificate),
+        "transforms": 4 * iterations + 2,
+    }
+
+
+def compare(plan: Plan, case: dict, rounds: int) -> dict:
+    """One load with one solver, each time after the active set; in a child process with a cap on its CPU time."""
+    scene, heights = posed(plan, case, [case["reduced_pressure"]])
+
+    def once(name: str) -> dict:
+        begin = time.process_time()
+        problem, scale = pose(scene, scene.path.steps[0], heights, case["tolerance"], 1)
+        other = name == "tamaas"
+        row = tamaas(scene, problem, scale, heights, case["setting"]) if other else ours(problem, scale, name)
+        return row | {"seconds": time.process_time() - begin}
+
+    def turns() -> dict:
+        once("active_set")
+        cap = int(time.process_time()) + CAP
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_CPU, (cap, resource.RLIM_INFINITY))
+        pairs = []
+        while len(pairs) < rounds and (not pairs or pairs[-1][1]["seconds"] < LONG):
+            pairs.append((once("active_set"), once(case["solver"])))
+        ratio = np.median([other["seconds"] / own["seconds"] for own, other in pairs])
+        fastest = min((other for _, other in pairs), key=lambda row: row["seconds"])
+        return fastest | {"per_active_set": ratio, "rounds": len(pairs)}
+
+    return in_child(turns) or {"status": f"not finished in {CAP} s", "seconds": CAP}
+
+
+def in_child(task: Callable[[], dict]) -> dict | None:
+    """What the task returns in a process of its own; None if it spends its CPU time before."""
+    receive, send = get_context("fork").Pipe(duplex=False)
+    child = get_context("fork").Process(target=lambda: send.send(task()))
+    child.start()
+    send.close()
+    try:
+        return receive.recv()
+    except EOFError:
+        child.join()
+        if child.exitcode != -signal.SIGXCPU:
+            raise RuntimeError(f"the solution ended with exit code {child.exitcode}") from None
+        return None
+    finally:
+        child.join()
