@@ -1,1 +1,155 @@
-def write(*a): pass
+"""The table in the README and the picture, from the CSV."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import measure
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from contactsim.figures import style
+
+SOLVERS = {
+    "active_set": ("active set", style.WHOLE),
+    "polonsky_keer": ("Polonsky–Keer, ours", style.CONTACT),
+    "tamaas": ("Polonsky–Keer, tamaas", style.PAIRS),
+    "verlet": ("damped Verlet", "#8a6d3b"),
+}
+SWEEP_COLUMNS = {
+    "transforms": ("transforms", ".0f"),
+    "seconds": ("CPU s", ".2f"),
+    "per_transforms": ("÷ transforms", ".2f"),
+    "per_replay": ("÷ replay", ".2f"),
+}
+SIZE_MARKS = {14: ("o", ":"), 16: ("s", "--"), 18: ("^", "-")}
+LIMITS = {2500: "limit", 1500: "aim"}
+BEGIN, END = "<!-- tables: written by line_solvers.py -->", "<!-- end of tables -->"
+
+
+def write(csv: Path, png: Path, readme: Path) -> None:
+    """Put the tables between the marks of the README, and draw the picture."""
+    rows = pd.read_csv(csv)
+    tables = f"{sweep_table(rows)}\n\n{compare_table(rows)}"
+    text = readme.read_text(encoding="utf-8") if readme.exists() else ""
+    head, _, rest = text.partition(BEGIN)
+    readme.write_text(f"{head}{BEGIN}\n\n{tables}\n\n{END}{rest.partition(END)[2]}", encoding="utf-8")
+    draw(rows, png)
+
+
+def markdown(header: list[str], lines: list[list[str]]) -> str:
+    """A table with its first column to the left and the others to the right."""
+    rules = [":--"] + ["--:"] * (len(header) - 1)
+    return "\n".join(f"| {' | '.join(line)} |" for line in [header, rules, *lines])
+
+
+def power(points: int) -> int:
+    """Binary logarithm of a power of two."""
+    return points.bit_length() - 1
+
+
+def sweep_means(rows: pd.DataFrame) -> pd.DataFrame:
+    """Means over members: rows (hurst, points), columns (quantity, tolerance)."""
+    chosen = rows[rows.part == "sweep"]
+    return chosen.pivot_table(list(SWEEP_COLUMNS), ["hurst", "points"], "tolerance")
+
+
+def sweep_table(rows: pd.DataFrame) -> str:
+    """One line a Hurst exponent and size; the columns of each tolerance side by side."""
+    means = sweep_means(rows)
+    tolerances = sorted(means.columns.levels[1], reverse=True)
+    columns = [(name, tolerance) for tolerance in tolerances for name in SWEEP_COLUMNS]
+    header = ["H", "points"] + [f"{SWEEP_COLUMNS[name][0]}, {tolerance:g}" for name, tolerance in columns]
+    lines = [
+        [f"{hurst:g}", f"2^{power(points)}", *(format(mean[column], SWEEP_COLUMNS[column[0]][1]) for column in columns)]
+        for (hurst, points), mean in means.iterrows()
+    ]
+    return markdown(header, lines)
+
+
+def compare_table(rows: pd.DataFrame) -> str:
+    """One line a size, load and solver; tamaas with the tolerance that certifies."""
+    header = ["H", "points", "p*", "solver", "relative area", "certificate", "transforms", "CPU s", "÷ active set"]
+    lines, quickest = [], 0.0
+    for row in compared(rows).itertuples():
+        quickest = row.seconds if row.solver == "active_set" else quickest
+        name = SOLVERS[row.solver][0] + (f", {row.setting:g}" if row.solver == "tamaas" else "")
+        start = [f"{row.hurst:g}", f"2^{power(row.points)}", f"{row.reduced_pressure:g}", name]
+        if pd.isna(row.area):
+            lines.append([*start, row.status, "", "", f"> {row.seconds:g}", f"> {row.seconds / quickest:.3g}"])
+            continue
+        cost = [f"{row.transforms:.0f}", f"{row.seconds:.3g}", f"{row.per_active_set:.3g}"]
+        unmet = "" if row.status == "CONVERGED" else f" ({row.status})"
+        lines.append([*start, f"{row.area:.6f}", f"{row.certificate:.1e}{unmet}", *cost])
+    return markdown(header, lines)
+
+
+def compared(rows: pd.DataFrame) -> pd.DataFrame:
+    """The single loads, without the settings of tamaas that are not certified; in the order of the table."""
+    chosen = rows[(rows.part == "compare") & (rows.status != measure.NOT_CERTIFIED)]
+    order = {name: place for place, name in enumerate(SOLVERS)}
+    chosen = chosen.assign(place=chosen.solver.map(order), downwards=-chosen.hurst)
+    return chosen.sort_values(["downwards", "points", "reduced_pressure", "place"])
+
+
+def draw(rows: pd.DataFrame, path: Path) -> None:
+    """(a) Time of single loads; (b) transforms of all loads against the size of the grid."""
+    figure = Figure(figsize=(9.0, 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.get_layout_engine().set(rect=(0, 0.035, 1, 0.965))
+    left, right = figure.subplots(1, 2)
+    draw_loads(left, compared(rows[rows.hurst == 0.8]))
+    draw_sweeps(right, sweep_means(rows))
+    style.header(figure, "Line contacts: what a solution costs")
+    style.footer(figure, "rough_line of config/ch3.yaml · one thread · certified to 0.001 grid steps unless said")
+    figure.savefig(path)
+
+
+def draw_loads(axes: Axes, rows: pd.DataFrame) -> None:
+    """CPU seconds against reduced pressure: colours are solvers, marks are sizes; arrows were stopped."""
+    for (name, points), group in rows.groupby(["solver", "points"]):
+        colour = SOLVERS[name][1]
+        axes.plot(group.reduced_pressure, group.seconds, color=colour, **size_look(points))
+        stopped = group[group.area.isna()]
+        axes.plot(stopped.reduced_pressure, stopped.seconds, "^", color=colour, markersize=8)
+    axes.axhline(measure.CAP, color="#999999", linewidth=0.7)
+    axes.set(xscale="log", yscale="log", xlabel="reduced pressure $p^*$", ylabel="CPU seconds, one load")
+    for name in SOLVERS:
+        if name in set(rows.solver):
+            axes.plot([], [], color=SOLVERS[name][1], label=SOLVERS[name][0])
+    for size, (mark, line) in SIZE_MARKS.items():
+        axes.plot(
+            [], [], color=style.EXACT, marker=mark, linestyle=line, markerfacecolor="white", label=f"$2^{{{size}}}$"
+        )
+    axes.legend(loc="upper left", ncols=2)
+    axes.set_title("(a) $H$ = 0.8", loc="left", fontsize=9)
+
+
+def size_look(points: int) -> dict[str, object]:
+    """Marker and line of a size."""
+    mark, line = SIZE_MARKS[power(points)]
+    return {"marker": mark, "linestyle": line, "markersize": 4, "markerfacecolor": "white", "linewidth": 1.0}
+
+
+def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
+    """Transforms against size: marks are Hurst exponents, colours are tolerances."""
+    colours = dict(zip(sorted(means.columns.levels[1], reverse=True), (style.WHOLE, style.CONTACT), strict=True))
+    for hurst, group in means.transforms.groupby("hurst"):
+        for tolerance, colour in colours.items():
+            look = style.hurst(hurst) | {"color": colour, "label": f"$H$ = {hurst:g}, {tolerance:g} steps"}
+            axes.plot(
+                group.index.get_level_values("points"),
+                group[tolerance],
+                color=colour,
+                label=label,
+                **style.hurst(hurst),
+            )
+    for limit, text in LIMITS.items():
+        axes.axhline(limit, color="#999999", linewidth=0.7)
+        axes.text(2**18, limit, f"{text}, 0.001 steps", fontsize=7, color="#666666", ha="right", va="bottom")
+    axes.set_xscale("log", base=2)
+    axes.set(ylim=(0, 2700), xlabel="points", ylabel="transforms of the finest grid, all 12 loads")
+    axes.legend(loc="lower right", ncols=2)
+    axes.set_title("(b) active set", loc="left", fontsize=9)

@@ -46,6 +46,18 @@ def sinusoid_area(pressure_ratio: Array) -> Array:
     return 2 / np.pi * np.arcsin(np.sqrt(np.clip(pressure_ratio, 0.0, 1.0)))
 
 
+def sinusoid_mean_gap(pressure_ratio: Array, amplitude: float) -> Array:
+    """Mean gap h₀(1 - r + r ln r) of a sinusoid of amplitude h₀ at r = p/p_c, 0 < r ≤ 1 (Westergaard 1939); nm."""
+    ratio = np.asarray(pressure_ratio)
+    return amplitude * (1 - ratio + ratio * np.log(ratio))
+
+
+def sinusoid_pressure(phase: Array, pressure_ratio: float, mean_pressure: float) -> Array:
+    """Pressure 2p cos φ √(r - sin²φ)/r at φ = πx/λ from a crest, zero where sin²φ > r (Westergaard 1939); GPa."""
+    inside = np.maximum(pressure_ratio - np.sin(phase) ** 2, 0.0)
+    return 2 * mean_pressure / pressure_ratio * np.abs(np.cos(phase)) * np.sqrt(inside)
+
+
 def complete_contact(heights: Array, length: float, contact_modulus: float) -> Array:
     """Pressure E*|q|h/2, with zero mean, that flattens heights (n,) out completely; nm, GPa.
 

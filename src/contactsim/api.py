@@ -12,7 +12,7 @@ from contactsim.laws import HardWall
 from contactsim.measured import Profile
 from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import solver as named
-from contactsim.solvers.base import Result, require, solve
+from contactsim.solvers.base import Result, Solver, require, solve
 from contactsim.surface import Flat, Sampled
 
 
@@ -24,7 +24,7 @@ def press(
     mean_pressure: float | None = None,
     approach: float | None = None,
     tolerance: float = 1e-3,
-    solver: str = "active_set",
+    solver: str | Solver = "active_set",
     threads: int = 1,
 ) -> Result:
     """Press a rigid periodic profile into an elastic half-space, without adhesion or friction.
@@ -33,7 +33,8 @@ def press(
     contact_modulus: E*. Exactly one of mean_pressure (≥ 0) and approach: how far the profile's height zero has
     moved past the undeformed surface; first touch is at -max(heights), full contact at -mean(heights), which an
     approach must stay below. tolerance: of gap in contact and of overlap outside, in grid steps (the rms height
-    difference of neighbouring points). Units are free but consistent: lengths in one, pressures in that of E*.
+    difference of neighbouring points). solver: a name, or a solver with options of its own. Units are free but
+    consistent: lengths in one, pressures in that of E*.
 
     Returns pressure (n,), never negative; gap (n,); contact (n,); relative_contact_area; approach; status; record
     with transforms and the certificate. A `SceneError` says what is wrong with the input.
@@ -45,6 +46,6 @@ def press(
         raise SceneError("load", given, "exactly one of mean_pressure and approach")
     path = loading.press([mean_pressure]) if approach is None else loading.approach([approach])
     scene = Scene(Body(Flat(surface.length), HalfSpace(contact_modulus)), Body(surface), (HardWall(),), path)
-    method = named(solver)
+    method = named(solver) if isinstance(solver, str) else solver
     require(method, scene)
     return solve(method, *pose(scene, path.steps[0], profile.heights, tolerance, threads))

@@ -1,0 +1,39 @@
+"""Profiles and one-line ways to press them, shared by the tests of solvers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import contactsim
+from contactsim.solvers import SOLVERS
+from contactsim.solvers.base import Result
+from contactsim.surface import SelfAffine, generator
+
+ALL = tuple(SOLVERS)
+FAST = ("active_set", "polonsky_keer")
+
+
+def rough(points: int, hurst: float = 0.8, gradient: float = 1.0, modes: int = 0) -> np.ndarray:
+    """A self-affine profile on `points` points of unit spacing, with a shortest wavelength of 8 points."""
+    modes = modes or points // 8
+    surface = SelfAffine(points, hurst, points / 4, points / (modes + 0.5), gradient, generator(7, hurst))
+    return surface.heights(points)
+
+
+def wave(points: int) -> np.ndarray:
+    """One crest of amplitude 1 at x = 0."""
+    return np.cos(2 * np.pi * np.arange(points) / points)
+
+
+def press(heights: np.ndarray, pressure: float, solver: str = "active_set", **options: float) -> Result:
+    """Press a profile of unit spacing into a half-space of unit modulus."""
+    return contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=pressure, solver=solver, **options)
+
+
+def compliance(points: int) -> np.ndarray:
+    """The dense compliance matrix of unit spacing and unit modulus, by an independent sum over waves."""
+    q = 2 * np.pi * np.abs(np.fft.fftfreq(points))
+    symbol = np.divide(2.0, q, out=np.zeros(points), where=q > 0)
+    first = np.fft.ifft(symbol).real
+    index = np.arange(points)
+    return first[(index[:, None] - index) % points]

@@ -1,0 +1,63 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import contactsim
+from contactsim.errors import SceneError
+
+GOOD = {"heights": np.array([0.0, 1.0, 0.5, -1.0]), "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1}
+
+
+def test_a_list_of_whole_numbers_will_do():
+    result = contactsim.press([0, 1, 2, 1], spacing=1, contact_modulus=1, mean_pressure=0.1)
+    assert result.status.name == "CONVERGED"
+    assert result.contact.tolist() == [False, False, True, False]
+    assert result.relative_contact_area == 0.25
+
+
+def test_the_given_heights_are_left_alone():
+    heights = GOOD["heights"].copy()
+    contactsim.press(**GOOD | {"heights": heights})
+    assert np.array_equal(heights, GOOD["heights"])
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "allowed"),
+    [
+        ({"heights": [1.0]}, "heights", "2"),
+        ({"heights": []}, "heights", "2"),
+        ({"heights": [0.0, np.nan, 1.0]}, "heights", "finite"),
+        ({"heights": [0.0, np.inf, 1.0]}, "heights", "finite"),
+        ({"heights": np.zeros((4, 4))}, "heights", "one dimension"),
+        ({"heights": ["a", "b"]}, "heights", "number"),
+        ({"spacing": 0.0}, "spacing", "positive"),
+        ({"spacing": -1.0}, "spacing", "positive"),
+        ({"spacing": "1"}, "spacing", "number"),
+        ({"contact_modulus": 0.0}, "contact_modulus", "positive"),
+        ({"contact_modulus": float("nan")}, "contact_modulus", "positive"),
+        ({"mean_pressure": -0.1}, "mean_pressure", "0 or more"),
+        ({"mean_pressure": float("inf")}, "mean_pressure", "finite"),
+        ({"mean_pressure": "0.1"}, "mean_pressure", "finite"),
+        ({"mean_pressure": None}, "load", "exactly one"),
+        ({"approach": 0.0}, "load", "exactly one"),
+        ({"mean_pressure": None, "approach": float("nan")}, "approach", "finite"),
+        ({"tolerance": 0.0}, "tolerance", "positive"),
+        ({"tolerance": float("nan")}, "tolerance", "positive"),
+        ({"solver": "magic"}, "solver", "active_set"),
+        ({"threads": 0}, "threads", "1 or more"),
+    ],
+)
+def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        contactsim.press(**GOOD | change)
+    assert caught.value.key == key
+    assert allowed in caught.value.allowed
+
+
+def test_a_record_tells_cost_and_certificate():
+    record = contactsim.press(**GOOD).record
+    assert record.transforms > 0
+    assert record.iterations > 0
+    assert record.certificate.met(1e-3)
+    assert record.certificate.smallest_pressure >= 0

@@ -1,0 +1,242 @@
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import pytest
+import yaml
+
+from contactsim.config import Key, choice, keys_of, listed, load_yaml, mapping, number, overlaid, positive, read, text
+from contactsim.config import whole as whole_number
+from contactsim.errors import SceneError
+
+KEYS = {
+    "length": Key(number, "a number of nm"),
+    "step": Key(positive, "a positive number", 0.5),
+    "points": Key(whole_number(2), "a whole number, 2 or more", 8),
+    "title": Key(text, "a line of text", "none"),
+    "kind": Key(choice(("hill", "dale")), "one of hill, dale", "hill"),
+    "loads": Key(listed(number), "a list of numbers", None),
+    "inner": Key(mapping, "a mapping", None),
+}
+
+
+def refusal(section, keys=KEYS):
+    """The error of reading a section that stands at `part` in a file."""
+    with pytest.raises(SceneError) as caught:
+        read(section, keys, "file.yaml", "part")
+    return caught.value
+
+
+def assert_says(error, file, key, value, *allowed):
+    """The parts of the error, and that its message shows all of them."""
+    assert (str(error.file), error.key) == (str(file), key)
+    assert error.value is value or error.value == value
+    for part in (str(file), key, *allowed):
+        assert part in str(error)
+
+
+def test_what_is_given_is_read_and_what_is_not_gets_its_default():
+    values = read({"length": 3, "title": "Alps"}, KEYS, "file.yaml")
+    defaults = {"step": 0.5, "points": 8, "kind": "hill", "loads": None, "inner": None}
+    assert values == {"length": 3.0, "title": "Alps"} | defaults
+
+
+def test_a_whole_number_given_for_a_real_one_becomes_real():
+    assert type(read({"length": 3}, KEYS, "file.yaml")["length"]) is float
+
+
+def test_an_unknown_key_is_refused_by_name_with_the_known_ones():
+    assert_says(refusal({"length": 1.0, "lenght": 2.0}), "file.yaml", "part.lenght", 2.0, *KEYS)
+
+
+def test_a_missing_key_is_refused_with_what_it_wants():
+    assert_says(refusal({}), "file.yaml", "part.length", "nothing", "a number of nm", "missing")
+
+
+def test_at_the_top_of_a_file_keys_have_no_prefix():
+    with pytest.raises(SceneError) as caught:
+        read({}, KEYS, "file.yaml")
+    assert caught.value.key == "length"
+
+
+@pytest.mark.parametrize("section", [None, [], "text", 5, [("length", 1.0)]])
+def test_a_section_that_is_no_mapping_is_refused_with_its_keys(section):
+    assert_says(refusal(section), "file.yaml", "part", section, "a mapping with keys", *KEYS)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        *[("length", value) for value in ("long", None, [1.0], {"nm": 1.0}, True, math.nan, math.inf, -math.inf)],
+        *[("step", value) for value in (0, -1.0, 0.0, False, math.nan, "1.0")],
+        *[("points", value) for value in (1, -3, 2.0, "8", True, None, [8])],
+        *[("title", value) for value in (5, True, None, ["a"])],
+        *[("kind", value) for value in ("valley", 1, None, True, ["hill"], {"hill": 1})],
+        *[("loads", value) for value in ([], 1.0, "1.0", None, {"a": 1.0}, ["a"], [True], [math.nan], [[1.0]])],
+        *[("inner", value) for value in ([], "a: 1", 1, None)],
+    ],
+)
+def test_a_value_of_the_wrong_type_is_refused_with_what_is_allowed(key, value):
+    error = refusal({"length": 1.0} | {key: value})
+    assert (error.file, error.key) == ("file.yaml", f"part.{key}")
+    assert error.value is value
+    assert KEYS[key].allowed in str(error)
+
+
+@pytest.mark.parametrize("value", [10**20, 10**30])
+def test_a_whole_number_beyond_the_machine_word_is_a_number(value):
+    assert read({"length": value}, KEYS, "file.yaml")["length"] == float(value)
+
+
+def test_a_whole_number_beyond_all_real_ones_is_refused():
+    assert refusal({"length": 10**400}).key == "part.length"
+
+
+@pytest.mark.parametrize("word", ["1e-6", "4.0e6", "4e6", "-1E-6", "5e+3", ".5e3", "2.5e-3 "])
+def test_text_that_looks_like_a_number_is_refused_with_the_spelling_that_is_one(word):
+    error = refusal({"length": word})
+    assert_says(error, "file.yaml", "part.length", word, "text to YAML")
+    spelling = yaml.safe_load(str(error).rpartition("exponent: ")[2].rstrip(")"))
+    assert isinstance(spelling, float)
+    assert spelling == float(word)
+
+
+def test_the_hint_for_one_millionth_is_one_point_nought():
+    assert "1.0e-6" in str(refusal({"length": "1e-6"}))
+    assert "4.0e+6" in str(refusal({"length": "4.0e6"}))
+
+
+@pytest.mark.parametrize("word", ["inf", "nan", "-inf"])
+def test_words_for_what_is_no_number_get_no_hint_how_to_spell_it(word):
+    assert "exponent" not in str(refusal({"length": word}))
+
+
+def test_an_entry_given_twice_in_a_list_is_refused_even_if_spelt_differently():
+    for loads in ([1.0, 2.0, 1.0], [1, 1.0]):
+        error = refusal({"length": 1.0, "loads": loads})
+        assert_says(error, "file.yaml", "part.loads", loads, "a list of numbers", "an entry is given twice")
+
+
+def test_a_list_keeps_its_order_and_converts_each_entry():
+    assert read({"length": 1.0, "loads": [3, 1.5]}, KEYS, "file.yaml")["loads"] == [3.0, 1.5]
+
+
+def test_a_long_value_is_cut_in_the_message():
+    assert len(str(refusal({"length": "x" * 5000}))) < 300
+
+
+@dataclass
+class Hill:
+    height: float
+    steps: int
+    name: str = "hill"
+    slope: float | None = None
+    path: str | None = None
+    layers: list = field(default_factory=list)
+    summit: float = field(default=1.0, init=False)
+
+
+def test_keys_of_a_dataclass_are_the_fields_that_a_config_can_give():
+    keys = keys_of(Hill)
+    assert list(keys) == ["height", "steps", "name", "slope", "path"]
+    assert read({"height": 1, "steps": 2}, keys, "f") == {
+        "height": 1.0,
+        "steps": 2,
+        "name": "hill",
+        "slope": None,
+        "path": None,
+    }
+
+
+@pytest.mark.parametrize("bad", [{"height": "1.0"}, {"steps": 2.0}, {"name": 1}, {"slope": None}, {"path": None}])
+def test_keys_of_a_dataclass_are_read_by_the_types_of_its_fields(bad):
+    error = refusal({"height": 1.0, "steps": 1} | bad, keys_of(Hill))
+    assert error.key == f"part.{next(iter(bad))}"
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Write text or bytes into a YAML file."""
+
+    def write(content):
+        path = tmp_path / "file.yaml"
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write
+
+
+def file_refusal(path):
+    with pytest.raises(SceneError) as caught:
+        load_yaml(path)
+    return caught.value
+
+
+def test_a_file_is_read_as_a_mapping_in_utf_8(written):
+    assert load_yaml(written("a: {b: 1.0e-3}\nc: κ\n")) == {"a": {"b": 1e-3}, "c": "κ"}
+
+
+def test_an_empty_file_is_an_empty_mapping(written):
+    assert load_yaml(written("# nothing\n")) == {}
+
+
+def test_a_missing_file_is_named(tmp_path):
+    path = tmp_path / "nowhere.yaml"
+    assert_says(file_refusal(path), path, "file", str(path), "a file that can be read")
+
+
+@pytest.mark.parametrize("content", ["[1, 2]", "5", "text"])
+def test_a_file_that_is_no_mapping_is_refused(written, content):
+    path = written(content)
+    assert_says(file_refusal(path), path, "top level", yaml.safe_load(content), "a mapping of keys to values")
+
+
+@pytest.mark.parametrize(
+    "content",
+    ["a: 1\nb: 2\na: 3\n", "top:\n  a: {c: 1}\n  a: {d: 2}\n", "list:\n- {x: 1, x: 1}\n", "1: a\n0x1: b\n"],
+)
+def test_a_key_given_twice_is_refused_at_any_depth(written, content):
+    path = written(content)
+    assert_says(file_refusal(path), path, "YAML", file_refusal(path).value, "is given twice", "line ", "each key once")
+
+
+def test_the_same_key_in_two_mappings_is_no_repetition(written):
+    assert load_yaml(written("a: {x: 1}\nb: {x: 2}\n")) == {"a": {"x": 1}, "b": {"x": 2}}
+
+
+@pytest.mark.parametrize(
+    "content", ["a: [1, 2", "a: 1\n b: 2", "\tx: 1", "a: !!python/object:os.system {}", "[1]: 2", "a: \x07"]
+)
+def test_what_is_not_plain_yaml_is_refused_with_the_file(written, content):
+    path = written(content)
+    error = file_refusal(path)
+    assert_says(error, path, "YAML", error.value, "valid YAML")
+    assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize("content", [b"title: \xb5m\n", b"when: 2019-13-45\n"], ids=["latin-1", "impossible date"])
+def test_what_yaml_fails_on_with_an_error_of_its_own_is_refused_with_the_file(written, content):
+    path = written(content)
+    assert file_refusal(path).file == path
+
+
+def test_overlaying_merges_mappings_and_replaces_all_else():
+    base = {"surface": {"kind": "hill", "length": 1.0, "deep": {"a": 1, "b": 2}}, "loads": [1, 2, 3], "points": 8}
+    over = {"surface": {"length": 2.0, "deep": {"b": 3, "c": 4}}, "loads": [9], "points": {"x": 1}, "new": {"y": 1}}
+    assert overlaid(base, over) == {
+        "surface": {"kind": "hill", "length": 2.0, "deep": {"a": 1, "b": 3, "c": 4}},
+        "loads": [9],
+        "points": {"x": 1},
+        "new": {"y": 1},
+    }
+
+
+def test_overlaying_a_mapping_with_something_else_replaces_it():
+    assert overlaid({"a": {"b": 1}}, {"a": [1]}) == {"a": [1]}
+
+
+def test_overlaying_changes_neither_of_its_arguments():
+    base, over = {"a": {"b": 1}}, {"a": {"c": 2}}
+    overlaid(base, over)
+    assert (base, over) == ({"a": {"b": 1}}, {"a": {"c": 2}})

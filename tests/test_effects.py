@@ -1,0 +1,91 @@
+"""What a scene does not list is not there: no fields, no work, no storage."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from cases import ALL, press, rough
+
+from contactsim import loading
+from contactsim.elasticity import HalfSpace
+from contactsim.errors import SceneError
+from contactsim.laws import HardWall
+from contactsim.scene import Body, Scene, pose
+from contactsim.solvers import solver
+from contactsim.solvers.base import solve
+from contactsim.surface import Cylinder, Flat, Sinusoid
+
+
+def scene(lower=None, upper=None, effects=(HardWall(),), path=None):
+    lower = lower or Body(Flat(64.0), HalfSpace(1.0))
+    return Scene(lower, upper or Body(Sinusoid(64.0, 1.0)), effects, path or loading.press([0.02]))
+
+
+def solved(subject, points=256, name="active_set"):
+    problem, scale = pose(subject, subject.path.steps[0], subject.heights(points), 1e-6, 1)
+    return solve(solver(name), problem, scale)
+
+
+def test_a_wall_alone_has_one_component():
+    assert scene().components == ("n",)
+    result = solved(scene())
+    assert result.pressure.shape == result.gap.shape == (256,)
+
+
+def test_a_scene_in_which_nothing_resists_overlap_is_refused():
+    with pytest.raises(SceneError, match="hard_wall"):
+        scene(effects=())
+
+
+def test_a_scene_in_which_nothing_gives_way_is_refused():
+    with pytest.raises(SceneError, match="elastic body"):
+        scene(lower=Body(Flat(64.0)))
+
+
+def test_bodies_of_different_period_are_refused():
+    with pytest.raises(SceneError, match="one period"):
+        scene(upper=Body(Flat(65.0)))
+
+
+def test_a_rigid_body_is_absent_from_the_compliance():
+    grid_q = np.linspace(0, 3, 10)
+    assert np.array_equal(scene().compliance(grid_q), HalfSpace(1.0).compliance(grid_q))
+    assert scene().contact_modulus == 1.0
+
+
+def test_two_bodies_of_equal_modulus_are_one_of_half_modulus_against_a_rigid_one():
+    both = scene(Body(Flat(64.0), HalfSpace(2.0)), Body(Sinusoid(64.0, 1.0), HalfSpace(2.0)))
+    assert np.allclose(solved(both).pressure, solved(scene()).pressure, rtol=1e-12)
+
+
+def test_only_the_sum_of_the_heights_matters():
+    shared = scene(Body(Sinusoid(64.0, 0.4), HalfSpace(1.0)), Body(Sinusoid(64.0, 0.6)))
+    assert np.allclose(solved(shared).pressure, solved(scene()).pressure, rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_no_load_costs_one_application_of_the_compliance_and_no_iteration(name):
+    result = solved(scene(path=loading.press([0.0])), name=name)
+    assert (result.record.iterations, result.record.transforms) == (0, 2.0)
+
+
+def test_complete_contact_costs_next_to_nothing():
+    assert press(0.01 * rough(4096), 1.0).record.transforms < 20
+
+
+def test_peak_memory_is_a_few_fields():
+    points = 2**16
+    heights = rough(points)
+    press(heights, 0.01)
+    tracemalloc.start()
+    press(heights, 0.01)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 22 * 8 * points  # fields of the fine grid; a tangential component would add as many again
+
+
+def test_a_smooth_scene_asks_for_no_random_numbers():
+    first, second = (Cylinder(4.0, 1.0).heights(64) for _ in range(2))
+    assert np.array_equal(first, second)

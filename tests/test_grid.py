@@ -1,0 +1,67 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.errors import SceneError
+from contactsim.grid import Grid, Operator, Tally
+
+SIZES = (2, 3, 8, 101, 1024)
+
+
+@pytest.mark.parametrize("points", SIZES)
+def test_the_zeroth_coefficient_is_the_mean(points):
+    values = np.random.default_rng(0).normal(size=points)
+    half = Grid((points,), (3.0,)).forward(values)
+    assert half[0] == pytest.approx(values.mean(), abs=1e-15)
+
+
+@pytest.mark.parametrize("points", SIZES)
+def test_backward_undoes_forward(points):
+    grid = Grid((points,), (3.0,))
+    values = np.random.default_rng(1).normal(size=points)
+    assert np.allclose(grid.backward(grid.forward(values)), values, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("points", SIZES)
+def test_wavenumbers_are_those_of_numpy(points):
+    grid = Grid((points,), (5.0,))
+    assert np.allclose(grid.wavenumber, 2 * np.pi * np.arange(points // 2 + 1) / 5.0, rtol=1e-14)
+
+
+def test_an_operator_multiplies_a_wave_by_its_symbol_and_counts_two_transforms():
+    grid, tally = Grid((64,), (64.0,)), Tally(128)
+    operator = Operator(grid, grid.wavenumber**2, tally)
+    wave = np.sin(2 * np.pi * 3 * np.arange(64) / 64)
+    assert np.allclose(operator(wave), (2 * np.pi * 3 / 64) ** 2 * wave, atol=1e-14)
+    assert tally.transforms == 1.0  # two on half as many points as the finest grid
+
+
+def test_an_operator_works_in_place():
+    grid = Grid((32,), (32.0,))
+    operator = Operator(grid, np.ones(17), Tally(32))
+    values = np.random.default_rng(2).normal(size=32)
+    result = values.copy()
+    assert operator(result, out=result) is result
+    assert np.allclose(result, values)
+
+
+def test_the_number_of_threads_does_not_change_a_transform():
+    values = np.random.default_rng(3).normal(size=4096)
+    one, two = (Grid((4096,), (1.0,), threads).forward(values) for threads in (1, 2))
+    assert np.array_equal(one, two)
+
+
+@pytest.mark.parametrize(
+    ("shape", "lengths", "threads", "key"),
+    [
+        ((1,), (1.0,), 1, "points"),
+        ((8,), (-1.0,), 1, "length"),
+        ((8,), (np.nan,), 1, "length"),
+        ((8,), (1.0,), 0, "threads"),
+    ],
+)
+def test_an_impossible_grid_is_refused_by_key(shape, lengths, threads, key):
+    with pytest.raises(SceneError) as caught:
+        Grid(shape, lengths, threads)
+    assert caught.value.key == key

@@ -1,0 +1,69 @@
+"""The house stands: modules import only those listed above them, and nothing below a law names one."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from contactsim.provenance import PACKAGE, imports_of, package_root
+
+ORDER = """
+errors traits grid roughness measured surface elasticity laws loading scene
+solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet
+observables analytic provenance dataset config study march aggregate costs joblog plan api
+figures figures.style figures.ch3 figures.render
+""".split()
+"""Modules in import order: each may import those before it."""
+
+ROOT = Path(__file__).parents[1]
+
+
+def modules() -> list[str]:
+    files = package_root().rglob("*.py")
+    names = [".".join(file.relative_to(package_root()).with_suffix("").parts) for file in files]
+    return [name.removesuffix(".__init__") for name in names if name != "__init__"]
+
+
+def test_every_module_has_its_place():
+    assert sorted(modules()) == sorted(ORDER)
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_a_module_imports_only_those_above_it(name):
+    above = ORDER[: ORDER.index(name)]
+    imported = {module.removeprefix(f"{PACKAGE}.") for module in imports_of(f"{PACKAGE}.{name}")} - {PACKAGE}
+    assert imported <= set(above)
+
+
+@pytest.mark.parametrize("name", [name for name in ORDER if name.startswith(("solvers", "figures"))])
+def test_no_solver_and_no_figure_names_a_law(name):
+    assert f"{PACKAGE}.laws" not in imports_of(f"{PACKAGE}.{name}")
+
+
+def test_nothing_branches_on_friction_or_adhesion():
+    ladder = re.compile(r"\b(el)?if\b[^:\n]*\b(friction|adhesi(on|ve)|cohesive)\b")
+    for file in package_root().rglob("*.py"):
+        assert not ladder.search(file.read_text(encoding="utf-8")), file
+
+
+@pytest.mark.parametrize("folder", ["workflow/scripts"])
+def test_scripts_are_thin(folder):
+    for file in (ROOT / folder).glob("*.py"):
+        assert len(file.read_text(encoding="utf-8").splitlines()) <= 20, file
+
+
+def test_only_the_dataset_module_writes_result_files():
+    for name in ORDER:
+        if name not in ("dataset", "measured"):
+            path = package_root().joinpath(*name.split("."))
+            text = (path / "__init__.py" if path.is_dir() else path.with_suffix(".py")).read_text(encoding="utf-8")
+            assert "to_netcdf" not in text, name
+            assert "load_dataset" not in text, name
+
+
+def test_the_readme_shows_every_module():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for name in ORDER:
+        assert re.search(rf"\b{name.rpartition('.')[2]}\b", text), name

@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.errors import SceneError
+from contactsim.roughness import rms_curvature, rms_gradient, rms_gradient_bonds, rms_height, spectrum
+
+
+def wave(points, mode=3):
+    return 2.0 * np.cos(2 * np.pi * mode * np.arange(points) / points)
+
+
+def test_a_wave_has_the_rms_values_known_by_hand():
+    points, length = 4096, 10.0
+    q = 2 * np.pi * 3 / length
+    heights = wave(points)
+    assert rms_height(heights) == pytest.approx(np.sqrt(2), rel=1e-12)
+    # differences see q as 2 sin(ql/2)/l: relative change (ql)²/24 ≈ 9e-7, twice that for the curvature
+    assert rms_gradient(heights, length / points) == pytest.approx(np.sqrt(2) * q, rel=2e-6)
+    assert rms_curvature(heights, length / points) == pytest.approx(np.sqrt(2) * q**2, rel=4e-6)
+
+
+def test_the_gradient_converges_at_second_order():
+    errors = [abs(rms_gradient(wave(n), 10.0 / n) - np.sqrt(2) * 2 * np.pi * 0.3) for n in (64, 128, 256)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders == pytest.approx([2, 2], abs=0.05)
+
+
+def test_eq_3_8_counts_a_slope_that_leads_out_of_the_contact_and_pairs_do_not():
+    heights = np.array([0.0, 0.0, 1.0, 4.0, 0.0])
+    where = np.array([False, True, True, False, False])
+    # squared slopes to the right of each point: 0, 1, 9, 16, 0
+    assert rms_gradient(heights, 1.0, where) ** 2 == pytest.approx(((0 + 1) / 2 + (1 + 9) / 2) / 2)
+    assert rms_gradient_bonds(heights, 1.0, where) == pytest.approx(1.0)
+
+
+def test_the_last_and_the_first_point_are_neighbours():
+    heights = np.array([2.0, 0.0, 0.0, 0.0])
+    ends = np.array([True, False, False, True])
+    assert rms_gradient_bonds(heights, 1.0, ends) == pytest.approx(2.0)
+
+
+def test_no_points_give_nan():
+    nowhere = np.zeros(4, bool)
+    for value in (
+        rms_height(np.ones(4), nowhere),
+        rms_gradient(np.ones(4), 1.0, nowhere),
+        rms_gradient_bonds(np.ones(4), 1.0, nowhere),
+        rms_curvature(np.ones(4), 1.0, nowhere),
+    ):
+        assert np.isnan(value)
+
+
+@pytest.mark.parametrize("points", [63, 64])
+def test_the_spectrum_integrates_to_the_variance(points):
+    heights = np.random.default_rng(0).normal(size=points)
+    q, density = spectrum(heights, 7.0)
+    assert 2 * np.sum(density) * q[0] == pytest.approx(np.var(heights), rel=1e-12)
+
+
+def test_the_spectrum_of_a_surface_is_refused():
+    with pytest.raises(SceneError, match="one dimension"):
+        spectrum(np.zeros((4, 4)), 1.0)

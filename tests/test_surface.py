@@ -1,0 +1,125 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.errors import SceneError
+from contactsim.measured import Profile
+from contactsim.roughness import rms_gradient, spectrum
+from contactsim.surface import Cylinder, Flat, Measured, Sampled, SelfAffine, Sinusoid, generator
+
+THESIS = {"length": 160000.0, "rolloff_wavelength": 20000.0, "shortest_wavelength": 39.0625, "rms_gradient": 1e-3}
+
+
+def self_affine(hurst=0.8, seed=0, **changes):
+    return SelfAffine(**(THESIS | {"hurst": hurst, "rng": generator(seed, "test", hurst, 0)} | changes))
+
+
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.8, 1.0])
+def test_the_gradient_of_the_profile_is_exactly_the_one_asked_for(hurst, amplitudes):
+    surface = self_affine(hurst, amplitudes=amplitudes)
+    q = 2 * np.pi * np.arange(surface.modes + 1) / surface.length
+    assert np.sqrt(2 * np.sum(q**2 * np.abs(surface.coefficients) ** 2)) == pytest.approx(1e-3, rel=1e-12)
+
+
+def test_differences_on_the_thesis_grid_miss_the_gradient_by_two_in_ten_thousand():
+    heights = self_affine(0.2).heights(262144)
+    assert rms_gradient(heights, 160000.0 / 262144) == pytest.approx(1e-3, rel=2.5e-4)
+
+
+def test_a_finer_grid_samples_the_same_surface():
+    coarse, fine = (self_affine().heights(points) for points in (16384, 65536))
+    assert np.allclose(fine[::4], coarse, rtol=0, atol=1e-12 * np.abs(coarse).max())
+
+
+def test_modes_lie_strictly_above_the_shortest_wavelength():
+    assert self_affine().modes == 4095  # the text: zero at and below it
+    assert self_affine(shortest_wavelength=39.0).modes == 4102
+
+
+def test_a_shorter_cut_off_keeps_the_numbers_of_the_longer_waves():
+    long, short = self_affine(shortest_wavelength=100.0), self_affine(shortest_wavelength=39.0625)
+    ratio = short.coefficients[1 : long.modes + 1] / long.coefficients[1:]
+    assert np.allclose(ratio, ratio[0], rtol=1e-12)  # one common factor, from the scaling of the gradient
+
+
+@pytest.mark.parametrize("hurst", [0.2, 0.8])
+def test_the_spectrum_has_the_exponents_of_eq_3_10(hurst):
+    rng = generator(1, "ensemble")
+    density = np.mean(
+        [
+            spectrum(self_affine(hurst, rng=rng, amplitudes="fixed").heights(16384), 160000.0)[1][:4095]
+            for _ in range(4)
+        ],
+        axis=0,
+    )
+    mode = np.arange(1, 4096)
+    flat, sloped = mode < 8, mode >= 8
+    assert np.allclose(density[flat], density[0], rtol=0.05)  # one scale a member, so the mean is not quite flat
+    slope = np.polyfit(np.log(mode[sloped]), np.log(density[sloped]), 1)[0]
+    assert slope == pytest.approx(-(1 + 2 * hurst), abs=0.01)
+
+
+def test_gaussian_amplitudes_scatter_and_fixed_ones_do_not():
+    q_power = {}
+    for kind in ("gaussian", "fixed"):
+        surface = self_affine(amplitudes=kind)
+        mode = np.arange(8, surface.modes + 1)
+        q_power[kind] = np.abs(surface.coefficients[8:]) ** 2 * mode ** (1 + 2 * 0.8)
+    assert np.ptp(q_power["fixed"]) < 1e-9 * q_power["fixed"].mean()
+    # |z|² of a complex normal number is exponential: its standard deviation is its mean
+    assert np.std(q_power["gaussian"]) / np.mean(q_power["gaussian"]) == pytest.approx(1, abs=0.1)
+
+
+def test_each_member_hurst_exponent_and_study_is_an_own_draw_and_repeats():
+    labels = [("study", 0.8, 0), ("study", 0.8, 1), ("study", 0.2, 0), ("other", 0.8, 0)]
+    first = [generator(1, *label).normal() for label in labels]
+    assert len(set(first)) == 4
+    assert first == [generator(1, *label).normal() for label in labels]
+
+
+def test_the_numbers_of_a_seed_are_the_same_on_every_machine():
+    assert generator(2019, "rough_line", 0.8, 0).normal() == pytest.approx(-0.06400166155843304, rel=1e-15)
+
+
+def test_smooth_surfaces_have_their_shape():
+    cylinder = Cylinder(4.0, 2.0).heights(8)
+    assert cylinder[4] == 0
+    assert cylinder[6] == pytest.approx(-(1.0**2) / 4)
+    assert Sinusoid(1.0, 3.0, 2).heights(8) == pytest.approx([3, 0, -3, 0, 3, 0, -3, 0], abs=1e-15)
+    assert np.array_equal(Flat(1.0, 2.0).heights(3), [2.0, 2.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("build", "key"),
+    [
+        (lambda: self_affine(hurst=1.2), "hurst"),
+        (lambda: self_affine(rolloff_wavelength=2e5), "rolloff_wavelength"),
+        (lambda: self_affine(shortest_wavelength=2e4), "shortest_wavelength"),
+        (lambda: self_affine(rms_gradient=0.0), "rms_gradient"),
+        (lambda: self_affine(amplitudes="some"), "amplitudes"),
+        (lambda: self_affine(length=float("inf")), "length"),
+        (lambda: self_affine().heights(8190), "points"),
+        (lambda: Cylinder(1.0, -1.0), "radius"),
+        (lambda: Cylinder(0.0, 1.0), "length"),
+        (lambda: Sinusoid(1.0, 0.0), "amplitude"),
+        (lambda: Sinusoid(1.0, 1.0, 0), "periods"),
+        (lambda: Sampled(Profile(np.arange(3.0), 1.0, None)).heights(4), "points"),
+        (lambda: Measured("no_such_file.npy"), "path"),
+    ],
+)
+def test_an_impossible_surface_is_refused_by_key(build, key):
+    with pytest.raises(SceneError) as caught:
+        build()
+    assert caught.value.key == key
+
+
+def test_a_measured_profile_is_detrended_and_made_periodic_by_the_named_options(tmp_path):
+    np.save(tmp_path / "profile.npy", np.array([0.0, 2.0, 1.0, 5.0]))
+    as_read = Measured(str(tmp_path / "profile.npy"), "none", "none", 2.0, "um")
+    assert np.array_equal(as_read.heights(4), [0.0, 2000.0, 1000.0, 5000.0])
+    assert as_read.length == 8.0
+    mirrored = Measured(str(tmp_path / "profile.npy"), "mean", "mirror", 2.0)
+    assert mirrored.points == 6
+    assert mirrored.heights(6) == pytest.approx([-2, 0, -1, 3, -1, 0])

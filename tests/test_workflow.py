@@ -1,0 +1,631 @@
+"""The workflow: an edit reruns what it changes and nothing else, and a kill or a failure loses and falsifies nothing.
+
+Every test works on a small project of its own: this repository's Snakefile, rules, profile and package, with three
+studies of one to six runs, two chapters of figures and its own config. One such project is made once, and copied.
+Pauses and failures are put into jobs from outside, through a `sitecustomize` module that reads an environment variable.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import xarray as xr
+import yaml
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parents[1]
+PATIENCE = 60  # seconds until a test gives up; what it waits for takes a second or two
+
+CYLINDER = {
+    "title": "Cylinder",
+    "surface": {"kind": "cylinder", "radius": 1.0e6, "length": 4.0e6},
+    "body": {"kind": "half_space", "contact_modulus": 1.0},
+    "effects": ["hard_wall"],
+    "load": {"contact_ratio": [0.1, 0.2, 0.3]},
+    "points": 512,
+    "tolerance": 1.0e-3,
+}
+ROUGH = {
+    "title": "Rough line",
+    "surface": {
+        "kind": "self_affine",
+        "hurst": 0.8,
+        "length": 160000.0,
+        "rolloff_wavelength": 20000.0,
+        "shortest_wavelength": 1250.0,
+        "rms_gradient": 0.001,
+        "amplitudes": "gaussian",
+    },
+    "vary": {"surface.hurst": [0.3, 0.8]},
+    "body": {"kind": "half_space", "contact_modulus": 1.0},
+    "effects": ["hard_wall"],
+    "load": {"reduced_pressure": [0.01, 0.1, 0.5]},
+    "points": 2048,
+    "members": 2,
+    "companion": {"points": 1024, "members": 1},
+    "tolerance": 1.0e-3,
+}
+
+
+def figure(study: str) -> dict:
+    """A figure's block in the config."""
+    return {"study": study, "title": f"Figure of {study}", "caption": "As in the config.", "size": [3.0, 2.0]}
+
+
+CONFIG = {
+    "ch8": {
+        "studies": {"rough": ROUGH, "baseline": CYLINDER | {"solver": {"kind": "polonsky_keer"}}},
+        "figures": {"fig_8_1": figure("rough"), "fig_8_2": figure("rough"), "fig_8_3": figure("baseline")},
+    },
+    "ch9": {"studies": {"smooth": CYLINDER}, "figures": {"fig_9_1": figure("smooth")}},
+    "tiers": {"standard": {}, "quick": {"studies": {"smooth": {"points": 256}}}},
+}
+DRAW = """
+def {name}(data, axes, reference):
+    axes.plot(data.relative_contact_area.values.ravel())
+    return data[["relative_contact_area_mean"]].to_dataframe().reset_index()
+"""
+HOOK = """
+# Stop or fail a job where it says, or replaces, what CONTACTSIM_TEST_AT matches.
+import logging, os, pathlib, re, time
+
+def reached(text):
+    if not re.search(os.environ["CONTACTSIM_TEST_AT"], text):
+        return
+    if "CONTACTSIM_TEST_PAUSE" not in os.environ:
+        raise RuntimeError("made to fail")
+    folder = pathlib.Path(os.environ["CONTACTSIM_TEST_PAUSE"])
+    (folder / "part").write_text(str(os.getpid()))
+    (folder / "part").rename(folder / "pid")
+    end = time.monotonic() + 60
+    while not (folder / "go").exists() and time.monotonic() < end:
+        time.sleep(0.02)
+
+if "CONTACTSIM_TEST_AT" in os.environ:
+    make, replace = logging.getLogRecordFactory(), os.replace
+
+    def record(*args, **options):
+        made = make(*args, **options)
+        if made.name == "contactsim.march":
+            reached(made.getMessage())
+        return made
+
+    def replaced(source, target, **options):
+        replace(source, target, **options)
+        reached(f"replaced {target}")
+
+    logging.setLogRecordFactory(record)
+    os.replace = replaced
+"""
+
+
+@dataclass(frozen=True)
+class Project:
+    """A project in a folder of its own: what it plans, what it makes, and what lies there."""
+
+    folder: Path
+
+    @classmethod
+    def new(cls, folder: Path) -> Project:
+        """This repository's workflow and package under the tests' config, nothing made."""
+        unwanted = shutil.ignore_patterns("__pycache__", "*.egg-info")
+        for name in ("workflow", "profiles", "src"):
+            shutil.copytree(ROOT / name, folder / name, ignore=unwanted)
+        shutil.copy2(ROOT / "Snakefile", folder)
+        (folder / "config").mkdir()
+        main = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+        project = cls(folder)
+        project.configure("config", main | {"tier": "standard", "results": "results"})
+        for name, content in CONFIG.items():
+            project.configure(name, content)
+            figures = [DRAW.format(name=figure) for figure in content.get("figures", {})]
+            if figures:
+                (folder / f"src/contactsim/figures/{name}.py").write_text("".join(figures), encoding="utf-8")
+        (folder / "hooks").mkdir()
+        (folder / "hooks/sitecustomize.py").write_text(HOOK, encoding="utf-8")
+        return project
+
+    def copied(self, folder: Path) -> Project:
+        """A copy with all times as they are."""
+        shutil.copytree(self.folder, folder, symlinks=True)
+        return Project(folder)
+
+    def configure(self, name: str, content: dict, ordered: bool = True) -> None:
+        """Write one file of the config."""
+        text = yaml.safe_dump(content, sort_keys=ordered)
+        (self.folder / f"config/{name}.yaml").write_text(text, encoding="utf-8")
+
+    def change(self, chapter: str, path: str, value: object) -> None:
+        """Set one value of a chapter, its key given with dots."""
+        content = yaml.safe_load((self.folder / f"config/{chapter}.yaml").read_text(encoding="utf-8"))
+        *sections, key = path.split(".")
+        section = content
+        for name in sections:
+            section = section[name]
+        section[key] = value
+        self.configure(chapter, content)
+
+    def edit(self, module: str, line: str = "# edited") -> None:
+        """Append a line to a module of the project's package."""
+        with (self.folder / f"src/contactsim/{module}.py").open("a", encoding="utf-8") as file:
+            file.write(f"\n{line}\n")
+
+    def command(self, *arguments: str) -> list[str]:
+        """The snakemake command line."""
+        return [sys.executable, "-m", "snakemake", *arguments]
+
+    def environment(self, **more: str) -> dict[str, str]:
+        """The environment in which the project's own package and the hook are found first."""
+        clean = {name: value for name, value in os.environ.items() if not name.startswith(("SNAKEMAKE", "CONTACTSIM"))}
+        return clean | {"PYTHONPATH": f"{self.folder / 'hooks'}:{self.folder / 'src'}"} | more
+
+    def snakemake(self, *arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
+        """Run snakemake here, whatever comes of it."""
+        return subprocess.run(
+            self.command(*arguments),
+            cwd=self.folder,
+            env=self.environment(**more),
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE * 2,
+            check=False,
+        )
+
+    def make(self, *targets: str, options: tuple[str, ...] = ()) -> None:
+        """Make targets, without fail."""
+        done = self.snakemake(*options, "--", *targets)
+        assert done.returncode == 0, done.stderr
+
+    def planned(self, *targets: str, options: tuple[str, ...] = ()) -> list[str]:
+        """What a dry run would do: the message of each job, sorted; of a figure its name alone."""
+        done = self.snakemake("-n", "--quiet", "host", "reason", *options, "--", *targets)
+        assert done.returncode == 0, done.stderr
+        messages = re.findall(r"^Job \d+: (.*)$", done.stdout + done.stderr, re.MULTILINE)
+        total = re.search(r"^total +(\d+)$", done.stdout + done.stderr, re.MULTILINE)
+        if total is None:
+            assert "Nothing to be done" in done.stdout + done.stderr
+            assert not messages
+            return []
+        silent = sum(f"\n{name} " in done.stdout + done.stderr for name in targets if not name.startswith("fig"))
+        assert int(total[1]) == len(messages) + silent, "a planned job says nothing"
+        return sorted(re.sub(r"^(fig_\w+): .*", r"\1", message) for message in messages)
+
+    def files(self, *patterns: str) -> dict[str, str]:
+        """Digests of the files that match."""
+        found = sorted(file for pattern in patterns for file in self.folder.glob(f"results/{pattern}"))
+        return {str(file.relative_to(self.folder)): hashlib.sha256(file.read_bytes()).hexdigest() for file in found}
+
+    def science(self, study: str, tier: str = "standard") -> dict[str, str]:
+        """Digests of a study's run files and of its dataset."""
+        files = self.files(f"{tier}/runs/{study}/*/*.nc", f"{tier}/datasets/*_{study}.nc")
+        assert any("/datasets/" in name for name in files)
+        assert any("/runs/" in name for name in files)
+        return files
+
+    def times(self, pattern: str) -> dict[str, int]:
+        """Times of last change of the files that match."""
+        return {str(file): file.stat().st_mtime_ns for file in self.folder.glob(f"results/{pattern}")}
+
+    def logs(self, study: str) -> dict[str, str]:
+        """What the run jobs of a study said last, by variant/member."""
+        folder = self.folder / f"results/standard/logs/runs/{study}"
+        return {str(file.relative_to(folder)): file.read_text(encoding="utf-8") for file in folder.glob("*/*.log")}
+
+    def steps(self, study: str) -> set[tuple[int, int]]:
+        """How many loads each run job of a study took over and how many it computed, in its last call."""
+        return {
+            (text.count("taken over"), len(re.findall(r"step \d+/\d+ .* residual ", text)))
+            for text in self.logs(study).values()
+        }
+
+    @contextlib.contextmanager
+    def paused(self, at: str, *arguments: str) -> Iterator[Pause]:
+        """A snakemake of which one job has come to `at` and waits there; at the end nothing is left running."""
+        signs = self.folder / "signs"
+        signs.mkdir()
+        process = subprocess.Popen(
+            self.command(*arguments),
+            cwd=self.folder,
+            env=self.environment(CONTACTSIM_TEST_AT=at, CONTACTSIM_TEST_PAUSE=str(signs)),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        try:
+            wait_for(lambda: (signs / "pid").exists() or process.poll() is not None)
+            assert process.poll() is None, f"snakemake ended before a job came to {at!r}"
+            yield Pause(process, int((signs / "pid").read_text()), signs)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait(PATIENCE)
+            shutil.rmtree(signs)
+
+
+@dataclass(frozen=True)
+class Pause:
+    """A snakemake and its job that waits."""
+
+    process: subprocess.Popen
+    job: int
+    signs: Path
+
+    def kill_job(self) -> None:
+        """kill -9 of the job alone; snakemake sees it fail and ends."""
+        os.kill(self.job, signal.SIGKILL)
+        assert self.process.wait(PATIENCE) != 0
+
+    def kill_all(self) -> None:
+        """kill -9 of snakemake and all its jobs."""
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait(PATIENCE)
+        wait_for(lambda: not running(self.job))
+
+    def go_on(self) -> int:
+        """Let the job go on to the end; returns what snakemake returns."""
+        (self.signs / "go").touch()
+        return self.process.wait(PATIENCE)
+
+
+def wait_for(reached: Callable[[], bool]) -> None:
+    """Wait until it is so."""
+    end = time.monotonic() + PATIENCE
+    while not reached():
+        assert time.monotonic() < end, "waited too long"
+        time.sleep(0.02)
+
+
+def running(pid: int) -> bool:
+    """Whether a process is there and alive."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
+def runs(planned: list[str]) -> list[str]:
+    """The planned jobs that are runs."""
+    return [message for message in planned if ": member " in message]
+
+
+def apart(planned: list[str]) -> set[str]:
+    """The planned jobs that are not runs."""
+    return set(planned) - set(runs(planned))
+
+
+def of_study(planned: list[str]) -> Counter:
+    """How many runs are planned of each study."""
+    return Counter(message.split()[0] for message in runs(planned))
+
+
+ROUGH_RUNS = 2 * 2 + 2 * 1  # Hurst exponents × members, and the same of the companion
+LONGER = {
+    ("ch8", "studies.rough.load.reduced_pressure"): [0.01, 0.03, 0.1, 0.5, 1.0],
+    ("ch9", "studies.smooth.load.contact_ratio"): [0.1, 0.15, 0.2, 0.25, 0.3],
+}
+
+
+def lengthen(project: Project) -> Project:
+    """Add loads to the studies rough and smooth, between the old ones and beyond."""
+    for (chapter, path), value in LONGER.items():
+        project.change(chapter, path, value)
+    return project
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The project with everything made; tests copy it and leave it as it is."""
+    project = Project.new(tmp_path_factory.mktemp("made") / "project")
+    project.make("all")
+    return project
+
+
+@pytest.fixture(scope="module")
+def longer(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """Another project, made at once with the longer lists of loads and never disturbed; without figures."""
+    project = lengthen(Project.new(tmp_path_factory.mktemp("longer") / "project"))
+    project.make("rough", "smooth")
+    return project
+
+
+@pytest.fixture
+def project(made: Project, tmp_path: Path) -> Project:
+    """A copy of the made project to work on."""
+    return made.copied(tmp_path / "project")
+
+
+@pytest.fixture
+def fresh(tmp_path: Path) -> Project:
+    """A project in which nothing is made."""
+    return Project.new(tmp_path / "project")
+
+
+def test_a_study_is_one_job_for_each_variant_and_member(fresh: Project) -> None:
+    planned = fresh.planned("all")
+    assert len(set(planned)) == len(planned)
+    assert of_study(planned) == {"rough": ROUGH_RUNS, "baseline": 1, "smooth": 1}
+    members = Counter(re.fullmatch(r"rough \w{8}: member (\d)", message)[1] for message in runs(planned)[1:-1])
+    assert members == {"0": 4, "1": 2}
+    datasets = {f"dataset of {study}" for study in ("rough", "baseline", "smooth")}
+    assert apart(planned) == datasets | {"fig_8_1", "fig_8_2", "fig_8_3", "fig_9_1"}
+
+
+def test_a_figure_needs_its_own_study_only(fresh: Project) -> None:
+    planned = fresh.planned("fig_9_1")
+    assert of_study(planned) == {"smooth": 1}
+    assert apart(planned) == {"dataset of smooth", "fig_9_1"}
+
+
+def test_nothing_is_planned_when_nothing_has_changed(made: Project) -> None:
+    assert made.planned("all", "rough", "baseline", "smooth") == []
+
+
+def test_the_order_of_keys_and_of_loads_does_not_matter(project: Project) -> None:
+    def reversed_keys(section: object) -> object:
+        if not isinstance(section, dict):
+            return section
+        return {key: reversed_keys(section[key]) for key in reversed(section)}
+
+    for name in ("ch8", "ch9", "config"):
+        file = project.folder / f"config/{name}.yaml"
+        before = file.read_text(encoding="utf-8")
+        content = reversed_keys(yaml.safe_load(before))
+        if name == "ch8":
+            content["studies"]["rough"]["load"]["reduced_pressure"] = [0.5, 0.01, 0.1]
+        project.configure(name, content, ordered=False)
+        assert file.read_text(encoding="utf-8") != before
+    assert project.planned("all") == []
+
+
+def test_an_added_load_is_computed_alone_and_gives_the_files_of_the_longer_list(
+    project: Project, longer: Project, made: Project
+) -> None:
+    lengthen(project)
+    planned = project.planned("fig_8_1")
+    assert of_study(planned) == {"rough": ROUGH_RUNS}
+    assert apart(planned) == {"dataset of rough", "fig_8_1"}
+    project.make("rough")
+    assert project.steps("rough") == {(3, 2)}
+    assert longer.steps("rough") == {(0, 5)}
+    assert project.science("rough") == longer.science("rough")
+    assert set(project.science("rough").items()).isdisjoint(made.science("rough").items())
+    assert project.planned("rough") == []
+
+
+def test_a_load_taken_away_and_given_back_leaves_the_files_as_they_were(project: Project, made: Project) -> None:
+    project.change("ch9", "studies.smooth.load.contact_ratio", [0.1, 0.3])
+    project.make("smooth")
+    assert project.steps("smooth") == {(2, 0)}
+    project.change("ch9", "studies.smooth.load.contact_ratio", [0.1, 0.2, 0.3])
+    project.make("smooth")
+    assert project.steps("smooth") == {(2, 1)}
+    assert project.science("smooth") == made.science("smooth")
+
+
+def test_added_members_are_run_and_the_others_left_alone(project: Project) -> None:
+    before = project.times("standard/runs/rough/*/*"), project.files("standard/runs/rough/*/*")
+    project.change("ch8", "studies.rough.members", 3)
+    planned = project.planned("all")
+    assert sorted(re.sub(r"\w{8}", "·", message) for message in runs(planned)) == ["rough ·: member 2"] * 2
+    assert apart(planned) == {"dataset of rough", "fig_8_1", "fig_8_2"}
+    project.make("rough")
+    after = project.times("standard/runs/rough/*/*"), project.files("standard/runs/rough/*/*")
+    assert {name: after[0][name] for name in before[0]} == before[0]
+    assert {name: after[1][name] for name in before[1]} == before[1]
+    data = xr.load_dataset(project.folder / "results/standard/datasets/ch8_rough.nc")
+    assert data.member.values.tolist() == [0, 1, 2]
+
+
+def test_points_made_by_other_code_are_not_taken_over(project: Project) -> None:
+    lengthen(project)
+    project.edit("solvers/active_set", 'import logging; logging.getLogger(__name__).info("this copy, edited")')
+    project.make("smooth")
+    assert project.steps("smooth") == {(0, 5)}
+    assert all("this copy, edited" in text for text in project.logs("smooth").values())
+
+
+def test_points_made_from_another_setting_are_not_taken_over(project: Project) -> None:
+    lengthen(project)
+    project.change("ch9", "studies.smooth.tolerance", 1.0e-4)
+    project.make("smooth")
+    assert project.steps("smooth") == {(0, 5)}
+
+
+@pytest.mark.parametrize(("key", "value"), [("size", [3.5, 2.0]), ("title", "Another title")])
+def test_a_figures_style_redraws_that_figure_alone(project: Project, key: str, value: object) -> None:
+    project.change("ch8", f"figures.fig_8_1.{key}", value)
+    assert project.planned("all") == ["fig_8_1"]
+
+
+def test_a_chapters_drawing_code_redraws_its_figures_alone(project: Project) -> None:
+    project.edit("figures/ch8")
+    assert project.planned("all") == ["fig_8_1", "fig_8_2", "fig_8_3"]
+
+
+def test_a_solvers_code_reruns_the_studies_that_use_it_alone(made: Project, tmp_path: Path) -> None:
+    baseline, others = (made.copied(tmp_path / name) for name in ("baseline", "others"))
+    baseline.edit("solvers/polonsky_keer")
+    planned = baseline.planned("all")
+    assert of_study(planned) == {"baseline": 1}
+    assert apart(planned) == {"dataset of baseline", "fig_8_3"}
+    others.edit("solvers/active_set")
+    planned = others.planned("all")
+    assert of_study(planned) == {"rough": ROUGH_RUNS, "smooth": 1}
+    assert apart(planned) == {"dataset of rough", "dataset of smooth", "fig_8_1", "fig_8_2", "fig_9_1"}
+
+
+def test_aggregation_code_and_titles_run_nothing_again(project: Project) -> None:
+    project.change("ch9", "studies.smooth.title", "Another title")
+    assert project.planned("all") == ["dataset of smooth", "fig_9_1"]
+    project.edit("aggregate")
+    planned = project.planned("all")
+    assert runs(planned) == []
+    assert {f"dataset of {study}" for study in ("rough", "baseline", "smooth")} < set(planned)
+
+
+def test_a_lost_file_is_made_again_as_it_was(project: Project, made: Project) -> None:
+    (file,) = project.folder.glob("results/standard/runs/smooth/*/0.nc")
+    file.unlink()
+    assert of_study(project.planned("smooth")) == {"smooth": 1}
+    project.make("smooth")
+    assert project.steps("smooth") == {(0, 3)}
+    assert project.science("smooth") == made.science("smooth")
+
+
+def test_a_second_project_makes_the_same_files_byte_for_byte(fresh: Project, made: Project) -> None:
+    fresh.make("rough", options=("--cores", "1"))
+    assert fresh.science("rough") == made.science("rough")
+
+
+KILLS = {"job": Pause.kill_job, "snakemake": Pause.kill_all}
+
+
+@pytest.mark.parametrize("kill", KILLS)
+def test_a_kill_midway_leaves_nothing_that_the_same_command_does_not_finish(
+    fresh: Project, made: Project, kill: str
+) -> None:
+    with fresh.paused("step 2/3", "--", "smooth") as pause:
+        KILLS[kill](pause)
+    assert fresh.files("standard/runs/**/*.nc", "standard/datasets/*") == {}
+    fresh.make("smooth")
+    assert fresh.steps("smooth") == {(0, 3)}
+    assert fresh.science("smooth") == made.science("smooth")
+    assert fresh.planned("smooth") == []
+
+
+@pytest.mark.parametrize("moment", ["step 4/5", r"replaced .*/0\.nc", r"replaced .*/0\.json"])
+@pytest.mark.parametrize("kill", KILLS)
+def test_a_kill_while_loads_are_added_keeps_the_old_points(
+    project: Project, longer: Project, kill: str, moment: str
+) -> None:
+    lengthen(project)
+    with project.paused(moment, "--", "smooth") as pause:
+        KILLS[kill](pause)
+    assert of_study(project.planned("smooth")) == {"smooth": 1}
+    project.make("smooth")
+    ((taken, computed),) = project.steps("smooth")
+    assert taken >= 3
+    assert taken + computed == 5
+    assert project.science("smooth") == longer.science("smooth")
+    assert project.planned("smooth") == []
+
+
+def test_a_run_that_failed_is_not_taken_for_done(project: Project, longer: Project) -> None:
+    lengthen(project)
+    failed = project.snakemake("--", "smooth", CONTACTSIM_TEST_AT="step 4/5")
+    assert failed.returncode != 0
+    assert "made to fail" in failed.stderr
+    planned = project.planned("smooth")
+    assert of_study(planned) == {"smooth": 1}
+    assert apart(planned) == {"dataset of smooth"}
+    project.make("smooth")
+    assert project.steps("smooth") == {(3, 2)}
+    assert project.science("smooth") == longer.science("smooth")
+
+
+def cut(content: bytes) -> bytes:
+    """The first half."""
+    return content[: len(content) // 2]
+
+
+def garbled(content: bytes) -> bytes:
+    """All but the first kilobyte overwritten."""
+    return content[:1024] + b"\x5a" * (len(content) - 1024)
+
+
+def emptied(content: bytes) -> bytes:
+    """Nothing."""
+    return content[:0]
+
+
+@pytest.mark.parametrize("damage", [cut, garbled, emptied])
+def test_a_damaged_old_file_is_computed_anew(
+    project: Project, longer: Project, damage: Callable[[bytes], bytes]
+) -> None:
+    lengthen(project)
+    (file,) = project.folder.glob("results/standard/runs/smooth/*/0.nc")
+    file.write_bytes(damage(file.read_bytes()))
+    project.make("smooth")
+    assert project.steps("smooth") == {(0, 5)}
+    assert all("cannot be reused" in text for text in project.logs("smooth").values())
+    assert project.science("smooth") == longer.science("smooth")
+
+
+def test_two_at_once_in_one_folder_are_refused_but_a_dry_run_is_not(fresh: Project, made: Project) -> None:
+    with fresh.paused("step 2/3", "--", "smooth") as first:
+        second = fresh.snakemake("--", "smooth")
+        assert second.returncode != 0
+        errors = [line for line in second.stderr.splitlines() if not line.startswith("Using ")]
+        assert errors == ["Error: another snakemake is at work in this folder; wait for it or stop it"]
+        assert of_study(fresh.planned("baseline")) == {"baseline": 1}
+        assert first.go_on() == 0
+    assert fresh.science("smooth") == made.science("smooth")
+
+
+def test_tiers_lie_apart(project: Project) -> None:
+    quick = ("--config", "tier=quick")
+    before = project.times("standard/**/*")
+    assert of_study(project.planned("smooth", options=quick)) == {"smooth": 1}
+    project.make("smooth", options=quick)
+    assert project.planned("smooth", options=quick) == []
+    assert project.planned("all") == []
+    assert project.times("standard/**/*") == before
+    for tier, points in (("quick", 256), ("standard", 512)):
+        data = xr.load_dataset(project.folder / f"results/{tier}/datasets/ch9_smooth.nc")
+        assert data.points.item() == points
+
+
+def test_no_target_lists_the_targets_with_a_line_each(fresh: Project) -> None:
+    shown = fresh.snakemake()
+    assert shown.returncode == 0
+    lines = [line.strip() for line in shown.stdout.splitlines()]
+    for name in ("fig_8_1", "fig_8_2", "fig_8_3", "fig_9_1", "rough", "baseline", "smooth", "all"):
+        assert sum(line.startswith(f"{name} ") for line in lines) == 1, name
+    assert "Figure of baseline" in shown.stdout
+    assert not (fresh.folder / "results").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--", "fig_9_9"), ("no target 'fig_9_9'", "fig_8_1", "fig_9_1", "smooth")),
+        (("--config", "tier=nonsense", "--", "all"), ("config/tiers.yaml", "tier", "'nonsense'", "quick, standard")),
+        (("--config", "other=1", "--", "all"), ("--config", "'other'", "tier=NAME")),
+    ],
+)
+def test_a_wrong_command_is_refused_in_words(
+    fresh: Project, arguments: tuple[str, ...], words: tuple[str, ...]
+) -> None:
+    refused = fresh.snakemake(*arguments)
+    assert refused.returncode != 0
+    for word in words:
+        assert word in refused.stderr
+    assert refused.stderr.count("Error") == 1
+    assert "Traceback" not in refused.stderr
+    assert not (fresh.folder / "results").exists()
+
+
+def test_a_wrong_setting_is_refused_with_file_key_value_and_what_is_allowed(fresh: Project) -> None:
+    content = deepcopy(CONFIG["ch9"])
+    content["studies"]["smooth"]["pionts"] = 512
+    fresh.configure("ch9", content)
+    refused = fresh.snakemake("-n", "--", "all")
+    assert refused.returncode != 0
+    for word in ("config/ch9.yaml", "studies.smooth.pionts", "512", "points"):
+        assert word in refused.stderr
+    assert "Traceback" not in refused.stderr
