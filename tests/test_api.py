@@ -25,11 +25,11 @@ def test_the_given_heights_are_left_alone():
 @pytest.mark.parametrize(
     ("change", "key", "allowed"),
     [
-        ({"heights": [1.0]}, "heights", "2"),
-        ({"heights": []}, "heights", "2"),
+        ({"heights": [1.0]}, "heights", "two or more"),
+        ({"heights": []}, "heights", "two or more"),
         ({"heights": [0.0, np.nan, 1.0]}, "heights", "finite"),
         ({"heights": [0.0, np.inf, 1.0]}, "heights", "finite"),
-        ({"heights": np.zeros((4, 4))}, "heights", "one dimension"),
+        ({"heights": np.zeros((4, 4))}, "heights", "1D"),
         ({"heights": ["a", "b"]}, "heights", "number"),
         ({"spacing": 0.0}, "spacing", "positive"),
         ({"spacing": -1.0}, "spacing", "positive"),

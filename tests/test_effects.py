@@ -6,8 +6,8 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from cases import ALL, press, rough
 
+from cases import ALL, press, rough
 from contactsim import loading
 from contactsim.elasticity import HalfSpace
 from contactsim.errors import SceneError
@@ -17,8 +17,10 @@ from contactsim.solvers import solver
 from contactsim.solvers.base import solve
 from contactsim.surface import Cylinder, Flat, Sinusoid
 
+WALL = (HardWall(),)
 
-def scene(lower=None, upper=None, effects=(HardWall(),), path=None):
+
+def scene(lower=None, upper=None, effects=WALL, path=None):
     lower = lower or Body(Flat(64.0), HalfSpace(1.0))
     return Scene(lower, upper or Body(Sinusoid(64.0, 1.0)), effects, path or loading.press([0.02]))
 

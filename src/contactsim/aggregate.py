@@ -71,22 +71,25 @@ def left_out(data: xr.Dataset) -> tuple[int, int]:
 def _combined(runs: list[dict]) -> xr.Dataset:
     parts = []
     for run in runs:
-        data = dataset.read(run["path"]).drop_vars(APART)
         places = run["coordinates"] | {"member": run["member"]}
-        fixed = {name: data[name] for name in ("points", "length", "contact_modulus", "seed")}
-        parts.append(data.drop_vars(fixed).expand_dims({name: [value] for name, value in places.items()}))
-    return xr.combine_by_coords(parts, combine_attrs="drop").assign(fixed)
+        parts.append(dataset.read(run["path"]).drop_vars(APART).expand_dims({k: [v] for k, v in places.items()}))
+    data = xr.combine_by_coords(parts, combine_attrs="drop")
+    for name in ("points", "length", "contact_modulus", "seed"):
+        if (data[name] == data[name].values.flat[0]).all():
+            data[name] = data[name].values.flat[0]
+    return data
 
 
 def _derived(data: xr.Dataset) -> xr.Dataset:
-    modulus, area, pressure = data.contact_modulus, data.relative_contact_area, data.mean_pressure
-    contact = data.rms_gradient_contact
+    area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
+
+    def kappa(gradient: xr.DataArray) -> xr.DataArray:
+        return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
+
     data = data.assign(
-        kappa_r=area.copy(data=proportionality(*xr.broadcast(area, pressure, contact), modulus.item())),
-        kappa_r_bond=area.copy(
-            data=proportionality(*xr.broadcast(area, pressure, data.rms_gradient_contact_bond), modulus.item())
-        ),
-        reduced_pressure_contact=pressure / (contact * modulus),
+        kappa_r=kappa(data.rms_gradient_contact),
+        kappa_r_bond=kappa(data.rms_gradient_contact_bond),
+        reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
     )
     if "reduced_pressure" in data.dims:
         data["kappa"] = area / data.reduced_pressure
@@ -102,9 +105,8 @@ def _ensemble(data: xr.Dataset) -> xr.Dataset:
             values = converged(data[name], data)
             count = values.notnull().sum("member")
             found[f"{name}_mean"] = values.mean("member")
-            found[f"{name}_standard_error"] = (
-                values.std("member", ddof=1) if data.member.size > 1 else values.isel(member=0) * np.nan
-            ) / np.sqrt(count)
+            spread = values.std("member", ddof=1) if data.member.size > 1 else values.mean("member") * np.nan
+            found[f"{name}_standard_error"] = spread / np.sqrt(count)
     return xr.Dataset(found)
 
 

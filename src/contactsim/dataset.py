@@ -17,8 +17,29 @@ from contactsim.errors import SceneError
 from contactsim.provenance import canonical, versions
 from contactsim.solvers.base import Status
 
-VARIABLES = {
+SETTINGS = {
     "hurst": ("1", "Hurst exponent"),
+    "length": ("nm", "period"),
+    "rolloff_wavelength": ("nm", "roll-off wavelength"),
+    "shortest_wavelength": ("nm", "shortest wavelength of the roughness"),
+    "rms_gradient": ("1", "rms gradient prescribed"),
+    "amplitudes": ("1", "distribution of the amplitudes"),
+    "radius": ("nm", "radius of the cylinder"),
+    "amplitude": ("nm", "amplitude of the wave"),
+    "periods": ("1", "number of waves in a period"),
+    "height": ("nm", "height of the plane"),
+    "file": ("1", "file of a measured profile"),
+    "detrend": ("1", "how a measured profile is detrended"),
+    "periodic": ("1", "how a measured profile is made periodic"),
+    "spacing": ("nm", "spacing of a measured profile"),
+    "unit": ("1", "unit of a measured profile's file"),
+    "variable": ("1", "variable of a measured profile's file"),
+    "contact_modulus": ("GPa", "contact modulus E*"),
+    "kind": ("1", "kind"),
+}
+"""Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""
+
+VARIABLES = {
     "member": ("1", "member of the ensemble"),
     "reduced_pressure": ("1", "reduced pressure p* = p/(rms gradient × E*), over the whole surface"),
     "mean_pressure": ("GPa", "mean pressure"),
@@ -69,13 +90,18 @@ def described(data: xr.Dataset) -> xr.Dataset:
     """The dataset with units and long_name on every variable; a derived one inherits those of its base name."""
     for name in data.variables:
         base, kind = base_name(str(name))
-        unit, text = VARIABLES[base]
+        unit, text = VARIABLES.get(base) or SETTINGS.get(base.removeprefix("surface_")) or ("1", f"option {base}")
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
     if "status" in data:
         values = [status.value[0] for status in Status]
         meanings = " ".join(status.name.lower() for status in Status)
         data["status"].attrs.update(flag_values=np.array(values, np.int8), flag_meanings=meanings)
     return data
+
+
+def dimension(section: str, key: str) -> str:
+    """Name of the dimension along which a key of a study is varied: the key's own, unless a result has it."""
+    return f"{section}_{key}" if key in VARIABLES else key
 
 
 SUFFIXES = {

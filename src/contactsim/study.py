@@ -7,13 +7,15 @@ matter, since each is solved on its own.
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-from contactsim import analytic, loading
+from contactsim import analytic, dataset, loading
 from contactsim.config import Key, choice, keys_of, listed, mapping, number, overlaid, positive, read, text, whole
 from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
@@ -138,14 +140,16 @@ class Study:
     def _run(self, varied: dict, member: int, points: int | None, companion: bool) -> Run:
         parts = {name: self._part(name, self.settings[name]) for name in KINDS}
         for name, value in varied.items():
-            head, _, tail = name.partition(".")
+            head, _, tail = str(name).partition(".")
             if tail not in parts.get(head, ()):
                 known = ", ".join(f"{part}.{key}" for part in KINDS for key in parts[part] if key != "kind")
                 raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {known}", self.file)
             parts[head] = self._part(head, overlaid(self.settings[head], {tail: value}))
         shared = {name: self.settings[name] for name in ("effects", "load", "tolerance")}
         settings = {"study": self.name, "member": member, "seed": self.seed, "points": points} | shared | parts
-        coordinates = {name.rpartition(".")[2]: value for name, value in varied.items()}
+        if "file" in parts["surface"]:
+            settings["file_digest"] = self._file_digest(parts["surface"]["file"])
+        coordinates = {dataset.dimension(*name.split(".", 1)): value for name, value in varied.items()}
         variant = digest(varied, points if companion else None)[:8]
         return Run(self.name, variant, member, coordinates, settings, companion)
 
@@ -157,6 +161,13 @@ class Study:
         given = {"kind": section["kind"]} if "kind" in section else {}
         chosen = read(given, {"kind": kind}, self.file, prefix)["kind"]
         return read(section, {"kind": kind} | keys_of(class_of(chosen)), self.file, prefix)
+
+    def _file_digest(self, path: str) -> str:
+        """Digest of a measured profile's file, so that a changed file is pressed anew."""
+        try:
+            return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
+        except OSError as error:
+            raise SceneError(f"studies.{self.name}.surface.file", path, "a file that can be read", self.file) from error
 
     def _check(self, run: Run) -> None:
         """Build the run's scene once, so that nothing impossible is found out by a job."""

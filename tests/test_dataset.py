@@ -1,0 +1,224 @@
+from __future__ import annotations
+
+import re
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import contactsim
+from contactsim import dataset, provenance
+from contactsim.dataset import SETTINGS, SUFFIXES, VARIABLES, described, settings_of, stamped
+from contactsim.errors import SceneError
+from contactsim.solvers import SOLVERS, solver_class
+from contactsim.solvers.base import Status
+from contactsim.study import KINDS
+
+SOURCE = Path(contactsim.__file__).parent
+
+
+@pytest.fixture
+def data():
+    """A dataset with numbers of every kind, text, a scalar, and arrays small and large enough to be compressed."""
+    draw = np.random.default_rng(0)
+    made = xr.Dataset(
+        {
+            "relative_contact_area": (("hurst", "reduced_pressure"), [[0.1, np.nan], [0.2, 0.3]]),
+            "status": (("hurst", "reduced_pressure"), np.array([[0, 1], [2, 0]], np.int8)),
+            "iterations": ("reduced_pressure", np.array([3, 4], np.int32)),
+            "point": ("reduced_pressure", np.array(["one", "two"], object)),
+            "contact_bits": (("reduced_pressure", "byte"), draw.integers(0, 256, (2, 20000), np.uint8)),
+            "contact_pressure": ("contact_point", draw.random(5000, np.float32)),
+            "length": 160000.0,
+        },
+        {"hurst": [0.2, 0.8], "reduced_pressure": [0.01, 0.1]},
+    )
+    return stamped(described(made), "A title with κ", {"b": None, "a": [0.1, True]}, "abc")
+
+
+def names_in_source():
+    """Every word that the package says as a string, an attribute or a keyword, outside the table of variables."""
+    texts = []
+    for path in SOURCE.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        if path.name == "dataset.py":
+            text = text.partition("def described")[2]
+        texts.append(re.sub(r'"""[\s\S]*?"""', "", text))
+    source = "\n".join(texts)
+    return set(re.findall(r'"(\w+)"|\.(\w+)|\b(\w+)=', source)) and {
+        word for match in re.finditer(r'"(\w+)"|\.(\w+)|\b(\w+)=', source) for word in match.groups() if word
+    }
+
+
+def test_every_variable_in_the_table_occurs_elsewhere_in_the_package():
+    said = names_in_source()
+    assert "relative_contact_area" in said
+    unused = [name for name in VARIABLES if name not in said and f"{name}_mean" not in said]
+    assert unused == []
+
+
+def test_every_variable_has_a_unit_and_a_long_name_of_its_own():
+    assert all(unit and text and text == text.strip() for unit, text in VARIABLES.values())
+    texts = [text for _, text in VARIABLES.values()]
+    assert len(set(texts)) == len(texts)
+    assert {unit for unit, _ in VARIABLES.values()} == {"1", "nm", "1/nm", "GPa"}
+
+
+def test_described_variables_and_coordinates_have_units_and_a_long_name(data):
+    for name, item in data.variables.items():
+        assert (item.attrs["units"], item.attrs["long_name"]) == VARIABLES.get(name, SETTINGS.get(name)), name
+    assert data.relative_contact_area.long_name == "relative contact area"
+    assert data.length.units == "nm"
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_what_aggregation_derives_inherits_the_unit_and_says_what_it_is(suffix):
+    name = f"mean_gap{suffix}"
+    made = described(xr.Dataset({name: 1.0}))
+    assert made[name].units == "nm"
+    assert made[name].long_name == "mean gap" + SUFFIXES[suffix]
+
+
+def test_a_half_width_of_the_contact_is_no_half_width_of_an_interval():
+    made = described(xr.Dataset({"half_width": 1.0, "fit_b1_half_width": 1.0}))
+    assert made.half_width.long_name == "half-width of the contact"
+    assert made.fit_b1_half_width.long_name.startswith("parameter b1 of Eq. 3.11: half-width of the 95 %")
+
+
+def test_every_key_that_can_be_varied_gets_a_dimension_that_no_result_has_with_its_unit():
+    dimensions = {}
+    for section, (known, class_of) in KINDS.items():
+        for kind in known:
+            for key in ["kind", *dataset_keys(class_of(kind))]:
+                dimensions[section, key] = dataset.dimension(section, key)
+    assert not set(dimensions.values()) & set(VARIABLES)
+    assert len(set(dimensions.values())) == len({(section, key) for section, key in dimensions})
+    for (section, key), name in dimensions.items():
+        made = described(xr.Dataset(coords={name: [1.0]}))
+        if section != "solver":
+            assert (made[name].units, made[name].long_name) == SETTINGS[key], name
+        else:
+            assert made[name].units == "1"
+
+
+def dataset_keys(kind):
+    from contactsim.config import keys_of
+
+    return keys_of(kind)
+
+
+def test_the_status_says_what_its_numbers_mean(data):
+    flags = dict(zip(data.status.flag_values.tolist(), data.status.flag_meanings.split(), strict=True))
+    assert flags == {status.value[0]: status.name.lower() for status in Status}
+    assert data.status.flag_values.dtype == data.status.dtype
+
+
+def test_a_stamp_says_title_settings_source_and_versions(data):
+    assert data.attrs["title"] == "A title with κ"
+    assert data.attrs["settings"] == '{"a":[0.1,true],"b":null}'
+    assert data.attrs["source_digest"] == "abc"
+    assert data.attrs["versions"] == provenance.canonical(provenance.versions())
+    assert settings_of(data) == {"a": [0.1, True], "b": None}
+
+
+def test_what_is_written_is_read_back_the_same(data, tmp_path):
+    dataset.write(data, tmp_path / "new" / "folder" / "data.nc")
+    found = dataset.read(tmp_path / "new" / "folder" / "data.nc")
+    xr.testing.assert_identical(found.drop_attrs(deep=False), data.drop_attrs(deep=False))
+    assert found.attrs == data.attrs
+    for name, item in data.variables.items():
+        assert found[name].dtype == item.dtype, name
+
+
+def test_a_file_can_be_replaced_and_removed_once_it_is_read(data, tmp_path):
+    path = tmp_path / "data.nc"
+    dataset.write(data, path)
+    dataset.read(path)
+    dataset.write(data.assign(length=1.0), path)
+    assert float(dataset.read(path).length) == 1.0
+
+
+def test_writing_twice_gives_the_same_bytes_at_another_time(data, tmp_path):
+    one, other = tmp_path / "one.nc", tmp_path / "other.nc"
+    dataset.write(data, one)
+    time.sleep(1.1)  # HDF5 counts times in seconds, if it notes them at all
+    dataset.write(data.copy(deep=True), other)
+    assert one.read_bytes() == other.read_bytes()
+
+
+@pytest.mark.parametrize("failing", ["to_netcdf", "replace"])
+def test_a_failure_leaves_the_old_file_and_no_other(data, tmp_path, monkeypatch, failing):
+    path = tmp_path / "data.nc"
+    dataset.write(data, path)
+    before = path.read_bytes()
+
+    def fail(self_or_source, target_or_path, **options):
+        Path(target_or_path if failing == "to_netcdf" else self_or_source).write_bytes(b"half a file")
+        raise OSError("disk full")
+
+    monkeypatch.setattr(*((xr.Dataset, "to_netcdf") if failing == "to_netcdf" else (dataset.os, "replace")), fail)
+    with pytest.raises(OSError, match="disk full"):
+        dataset.write(data.assign(length=1.0), path)
+    assert [file.name for file in tmp_path.iterdir()] == ["data.nc"]
+    assert path.read_bytes() == before
+
+
+def test_what_netcdf_cannot_hold_leaves_no_file(tmp_path):
+    made = xr.Dataset({"length": ((), np.array({"a": 1}, object))})
+    with pytest.raises((TypeError, ValueError)):
+        dataset.write(made, tmp_path / "data.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_reader_never_sees_a_file_that_is_being_written(data, tmp_path, monkeypatch):
+    path, seen = tmp_path / "data.nc", []
+    to_netcdf = xr.Dataset.to_netcdf
+
+    def watched(self, target, **options):
+        to_netcdf(self, target, **options)
+        seen.append(path.exists())
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", watched)
+    dataset.write(data, path)
+    assert seen == [False]
+    assert path.exists()
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.3, 0.6, 0.9, 0.999])
+def test_a_truncated_file_is_an_error_that_names_it(data, tmp_path, share):
+    path = tmp_path / "data.nc"
+    dataset.write(data, path)
+    content = path.read_bytes()
+    path.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc.*allowed: a readable netCDF file"):
+        dataset.read(path)
+
+
+def test_a_file_with_damaged_blocks_is_an_error_or_reads_as_numbers_but_nothing_else(data, tmp_path):
+    path, damaged = tmp_path / "data.nc", 0
+    dataset.write(data, path)
+    content = path.read_bytes()
+    for start in range(0, len(content), len(content) // 40):
+        path.write_bytes(content[:start] + b"\xff" * 500 + content[start + 500 :])
+        try:
+            dataset.read(path)
+        except SceneError:
+            damaged += 1
+    assert damaged > 10
+
+
+@pytest.mark.parametrize("content", [None, b"", b"not a dataset"])
+def test_what_is_no_dataset_is_an_error_that_names_it(tmp_path, content):
+    path = tmp_path / "data.nc"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc"):
+        dataset.read(path)
+
+
+def test_a_solver_has_no_option_named_like_a_key_of_a_surface_or_a_body():
+    # Their dimensions would have one name, and the option the other's unit.
+    for kind in SOLVERS:
+        assert not set(dataset_keys(solver_class(kind))) & set(SETTINGS)

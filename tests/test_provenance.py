@@ -1,0 +1,152 @@
+from __future__ import annotations
+
+import ast
+import json
+import shutil
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import contactsim
+from contactsim import provenance
+from contactsim.provenance import canonical, digest, imports_of, modules_used, source_digest, versions
+from contactsim.solvers import SOLVERS, module_of
+
+SOURCE = Path(contactsim.__file__).parent
+MODULES = sorted(
+    ".".join(("contactsim", *path.relative_to(SOURCE).with_suffix("").parts)).removesuffix(".__init__")
+    for path in SOURCE.rglob("*.py")
+)
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A copy of the package, which provenance takes for the package itself."""
+    copy = tmp_path / "contactsim"
+    shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(provenance, "package_root", lambda: copy)
+    imports_of.cache_clear()
+    yield copy
+    imports_of.cache_clear()
+
+
+def write(package, **texts):
+    for name, text in texts.items():
+        (package / f"{name}.py").write_text(text, encoding="utf-8")
+    imports_of.cache_clear()
+
+
+def test_marching_uses_what_it_imports_directly_or_not_and_no_figure_and_no_solver():
+    used = modules_used("contactsim.march")
+    assert {"contactsim.march", "contactsim.grid", "contactsim.measured", "contactsim.solvers.base"} <= set(used)
+    assert not [name for name in used if "figures" in name]
+    assert not set(map(module_of, SOLVERS)) & set(used)
+    assert "contactsim.aggregate" not in used
+    assert list(used) == sorted(used)
+
+
+def test_marching_with_a_solver_uses_that_one_only():
+    solvers = set(map(module_of, SOLVERS))
+    for module in solvers:
+        assert solvers & set(modules_used("contactsim.march", module)) == {module}
+
+
+def test_other_packages_and_the_bare_package_are_no_modules_used():
+    for name in MODULES:
+        used = modules_used(name)
+        assert set(used) <= set(MODULES) - {"contactsim"}
+
+
+def test_every_import_in_the_package_is_one_that_is_followed():
+    # Relative imports would be missed, and so would a module named only in a string: solvers are, and are added.
+    for path in SOURCE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            assert not (isinstance(node, ast.ImportFrom) and node.level), f"relative import in {path}"
+
+
+def test_imports_of_every_form_and_at_any_depth_are_found(package):
+    write(
+        package,
+        one="import contactsim.grid\nimport numpy.linalg\n",
+        two="from contactsim import one, SceneError\nfrom contactsim.solvers import base\n",
+        three="def f():\n    if True:\n        from contactsim.two import one as other\n",
+    )
+    assert imports_of("contactsim.one") == {"contactsim.grid"}
+    assert imports_of("contactsim.two") == {
+        *("contactsim", "contactsim.one", "contactsim.solvers", "contactsim.solvers.base")
+    }
+    assert imports_of("contactsim.three") == {"contactsim.two"}
+    assert {"contactsim.one", "contactsim.two", "contactsim.grid"} < set(modules_used("contactsim.three"))
+
+
+def test_modules_that_import_each_other_are_used_once(package):
+    write(package, one="import contactsim.two\n", two="import contactsim.one\n")
+    assert modules_used("contactsim.one") == ("contactsim.one", "contactsim.two")
+
+
+def test_the_digest_changes_with_the_text_of_a_module_used_and_of_no_other(package):
+    write(package, one="import contactsim.two\n", two="x = 1\n", three="x = 1\n")
+    before = source_digest("contactsim.one")
+    write(package, three="x = 2\n")
+    assert source_digest("contactsim.one") == before
+    write(package, two="x = 1  # said better\n")
+    commented = source_digest("contactsim.one")
+    write(package, one="import contactsim.two\n\n")
+    assert len({before, commented, source_digest("contactsim.one")}) == 3
+
+
+def test_the_digest_changes_when_text_moves_from_one_module_to_another(package):
+    write(package, one="import contactsim.two\nx = 1\n", two="y = 1\n")
+    before = source_digest("contactsim.one")
+    write(package, one="import contactsim.two\n", two="x = 1\ny = 1\n")
+    assert source_digest("contactsim.one") != before
+
+
+def test_the_digest_does_not_depend_on_the_order_or_the_place_of_the_package(package):
+    here = source_digest("contactsim.march", "contactsim.solvers.verlet")
+    assert here == source_digest("contactsim.solvers.verlet", "contactsim.march", "contactsim.grid")
+    package.rename(package.with_name("moved"))
+    moved = package.with_name("moved")
+    provenance.package_root = lambda: moved  # undone by the fixture's monkeypatch
+    assert source_digest("contactsim.march", "contactsim.solvers.verlet") == here
+    assert len(here) == 16
+    assert int(here, 16) >= 0
+
+
+def test_the_copy_of_the_package_has_the_digest_of_the_package(package):
+    copied = source_digest("contactsim.march")
+    provenance.package_root = lambda: SOURCE  # undone by the fixture's monkeypatch
+    imports_of.cache_clear()
+    assert source_digest("contactsim.march") == copied
+
+
+def test_settings_have_one_text_whatever_the_order_of_their_keys():
+    one = {"b": [1, 2], "a": {"y": 0.1, "x": None}}
+    other = {"a": {"x": None, "y": 0.1}, "b": [1, 2]}
+    assert canonical(one) == canonical(other) == '{"a":{"x":null,"y":0.1},"b":[1,2]}'
+    assert digest(one) == digest(other)
+
+
+def test_the_text_of_settings_reads_back_as_the_same_settings():
+    settings = {"pressure": [1e-3, 0.1 + 0.2, 5e-324, 1e300], "title": "κ ≤ 1", "points": 2**60, "solver": None}
+    assert json.loads(canonical(settings)) == settings
+    assert canonical(json.loads(canonical(settings))) == canonical(settings)
+
+
+@pytest.mark.parametrize(
+    "other", [({"a": [2, 1]},), ({"a": [1, 2]}, None), ({"a": ["1", 2]},), ({"a": [1, 2.0000000000000004]},), ()]
+)
+def test_other_settings_have_another_digest(other):
+    assert digest(*other) != digest({"a": [1, 2]})
+
+
+def test_a_digest_is_sixteen_hexadecimal_digits_that_never_change():
+    # The value itself, since files of results are found by it; SHA-256 of `[{"a":1},"b"]`.
+    assert digest({"a": 1}, "b") == "76ebd2de3a65acdc"
+
+
+def test_versions_are_those_installed():
+    found = versions()
+    assert found["contactsim"] == metadata.version("contactsim")
+    assert set(found) == {"contactsim", "numpy", "scipy", "ducc0", "xarray", "netCDF4"}

@@ -1,0 +1,450 @@
+from __future__ import annotations
+
+import itertools
+from copy import deepcopy
+
+import numpy as np
+import pytest
+
+from contactsim import aggregate, dataset, march
+from contactsim.errors import SceneError
+from contactsim.provenance import canonical
+from contactsim.solvers.active_set import NestedActiveSet
+from contactsim.study import Study, points_of, scene_of
+from contactsim.traits import Trait
+
+ROUGH = {
+    "title": "Rough line",
+    "surface": {
+        "kind": "self_affine",
+        "hurst": 0.8,
+        "length": 64.0,
+        "rolloff_wavelength": 32.0,
+        "shortest_wavelength": 4.0,
+        "rms_gradient": 0.01,
+    },
+    "body": {"kind": "half_space", "contact_modulus": 2.0},
+    "effects": ["hard_wall"],
+    "load": {"reduced_pressure": [0.1, 0.01]},
+    "vary": {"surface.hurst": [0.2, 0.8], "surface.rolloff_wavelength": [16.0, 24.0, 32.0]},
+    "points": 128,
+    "members": 2,
+    "companion": {"points": 64, "members": 1},
+    "tolerance": 1e-3,
+}
+SURFACES = {
+    "flat": {"kind": "flat", "length": 64.0},
+    "cylinder": {"kind": "cylinder", "length": 64.0, "radius": 100.0},
+    "sinusoid": {"kind": "sinusoid", "length": 64.0, "amplitude": 1.0, "periods": 2},
+}
+GONE = object()
+
+
+def changed(changes):
+    """The rough study with some values changed: dotted keys to values, GONE to take one away."""
+    section = deepcopy(ROUGH)
+    for dotted, value in changes.items():
+        *path, last = dotted.split("/")
+        inner = section
+        for name in path:
+            inner = inner[name]
+        if value is GONE:
+            del inner[last]
+        else:
+            inner[last] = value
+    return section
+
+
+def study(changes=None, seed=1):
+    return Study.read("rough", changed(changes or {}), "ch9.yaml", seed)
+
+
+def smooth(kind, load, **changes):
+    return study({"surface": SURFACES[kind], "load": load, "vary": {}, "members": 1, "companion": GONE} | changes)
+
+
+def refusal(changes):
+    with pytest.raises(SceneError) as caught:
+        study(changes)
+    return caught.value
+
+
+def profile(run):
+    surface = scene_of(run.settings).upper.surface
+    return surface.heights(points_of(run.settings, surface))
+
+
+BAD = {
+    "negative pressure": ({"load": {"mean_pressure": [0.1, -0.1]}}, "load.mean_pressure", -0.1, "above 0"),
+    "zero pressure": ({"load": {"mean_pressure": [0.0]}}, "load.mean_pressure", 0.0, "above 0"),
+    "zero reduced pressure": ({"load": {"reduced_pressure": [0.1, 0]}}, "load.reduced_pressure", 0.0, "above 0"),
+    "no pressures": ({"load": {"mean_pressure": []}}, "load.mean_pressure", [], "a list of numbers"),
+    "one bare pressure": ({"load": {"mean_pressure": 0.1}}, "load.mean_pressure", 0.1, "a list of numbers"),
+    "a pressure twice": ({"load": {"mean_pressure": [1, 1.0]}}, "load.mean_pressure", [1, 1.0], "none twice"),
+    "text for a pressure": ({"load": {"mean_pressure": ["1e-3"]}}, "load.mean_pressure", ["1e-3"], "1.0e-3"),
+    "two kinds of load": (
+        {"load": {"mean_pressure": [0.1], "reduced_pressure": [0.1]}},
+        "load",
+        {"mean_pressure": [0.1], "reduced_pressure": [0.1]},
+        "exactly one of mean_pressure, reduced_pressure, contact_ratio",
+    ),
+    "no load": ({"load": {}}, "load", {}, "exactly one of"),
+    "load missing": ({"load": GONE}, "load", "nothing", "mean_pressure"),
+    "unknown load": ({"load": {"force": [0.1]}}, "load.force", [0.1], "mean_pressure"),
+    "contact ratio without a radius": (
+        {"load": {"contact_ratio": [0.1]}},
+        "load",
+        "contact_ratio",
+        "mean_pressure or reduced_pressure",
+    ),
+    "unknown key": ({"pionts": 64}, "pionts", 64, "points"),
+    "no title": ({"title": GONE}, "title", "nothing", "a line of text"),
+    "unknown surface": ({"surface/kind": "sphere"}, "surface.kind", "sphere", "cylinder, flat, measured, self_affine"),
+    "surface without kind": ({"surface/kind": GONE}, "surface.kind", "nothing", "self_affine"),
+    "surface that is no mapping": ({"surface": "flat"}, "surface", "flat", "a mapping with `kind`"),
+    "key of another surface": ({"surface/radius": 10.0}, "surface.radius", 10.0, "hurst, rolloff_wavelength"),
+    "surface without a key": ({"surface/rolloff_wavelength": GONE}, "surface.rolloff_wavelength", "nothing", "number"),
+    "generator from a config": ({"surface/rng": 1}, "surface.rng", 1, "no such key"),
+    "hurst above one": ({"surface/hurst": 1.2, "vary": {}}, "hurst", 1.2, "from 0 to 1"),
+    "varied hurst below nought": ({"vary": {"surface.hurst": [0.5, -0.1]}}, "hurst", -0.1, "from 0 to 1"),
+    "unknown amplitudes": ({"surface/amplitudes": "equal"}, "amplitudes", "equal", "gaussian"),
+    "points too few": ({"points": 30, "companion": GONE}, "points", 30, "more than 30: two points per shortest"),
+    "companion points too few": ({"companion/points": 30}, "points", 30, "more than 30: two points per shortest"),
+    "no points": ({"points": GONE, "companion": GONE}, "points", None, "only a measured surface"),
+    "one point": ({"points": 1}, "points", 1, "2 or more"),
+    "half a point": ({"points": 128.5}, "points", 128.5, "whole number"),
+    "no member": ({"members": 0}, "members", 0, "1 or more"),
+    "companion with more members": ({"companion/members": 3}, "companion.members", 3, "at most 2"),
+    "companion with more points": ({"companion/points": 256}, "companion.points", 256, "fewer than"),
+    "companion with as many points": ({"companion/points": 128}, "companion.points", 128, "fewer than"),
+    "companion with one point": ({"companion/points": 1}, "companion.points", 1, "whole number"),
+    "companion without members": ({"companion/members": GONE}, "companion.members", "nothing", "at most"),
+    "companion with another key": ({"companion/tolerance": 1.0}, "companion.tolerance", 1.0, "points, members"),
+    "vary on an unknown section": ({"vary": {"mood.swing": [1.0]}}, "vary", "mood.swing", "surface.hurst"),
+    "vary on an unknown key": ({"vary": {"surface.radius": [1.0]}}, "vary", "surface.radius", "surface.hurst"),
+    "vary on a key of no section": ({"vary": {"points": [64, 128]}}, "vary", "points", "surface.hurst"),
+    "vary on a whole section": ({"vary": {"surface": [1.0]}}, "vary", "surface", "surface.hurst"),
+    "vary on a number": ({"vary": {1: [2.0]}}, "vary", 1, "surface.hurst"),
+    "vary on a bare value": ({"vary": {"surface.hurst": 0.5}}, "vary.surface.hurst", 0.5, "a list with at least one"),
+    "vary on no values": ({"vary": {"surface.hurst": []}}, "vary.surface.hurst", [], "a list with at least one"),
+    "vary on a value twice": ({"vary": {"surface.hurst": [0.5, 0.5]}}, "vary.surface.hurst", [0.5, 0.5], "none twice"),
+    "vary on one value spelt twice": ({"vary": {"surface.hurst": [1, 1.0]}}, "vary.surface.hurst", [1, 1.0], "twice"),
+    "vary on text": ({"vary": {"surface.hurst": [0.5, "rough"]}}, "surface.hurst", "rough", "a number"),
+    "vary that is no mapping": ({"vary": ["surface.hurst"]}, "vary", ["surface.hurst"], "a mapping"),
+    "unknown body": ({"body/kind": "rubber"}, "body.kind", "rubber", "half_space"),
+    "negative modulus": ({"body/contact_modulus": -1.0}, "contact_modulus", -1.0, "positive"),
+    "no effects": ({"effects": []}, "effects", [], "hard_wall"),
+    "unknown effect": ({"effects": ["magic"]}, "effects", ["magic"], "hard_wall"),
+    "an effect twice": ({"effects": ["hard_wall"] * 2}, "effects", ["hard_wall"] * 2, "twice"),
+    "unknown solver": ({"solver": {"kind": "guess"}}, "solver.kind", "guess", "active_set, polonsky_keer, verlet"),
+    "solver without kind": ({"solver": {"budget": 5}}, "solver.kind", "nothing", "active_set"),
+    "option of another solver": ({"solver": {"kind": "verlet", "reduction": 0.1}}, "solver.reduction", 0.1, "damping"),
+    "private part of a solver": ({"solver": {"kind": "verlet", "_stiffness": 1}}, "solver._stiffness", 1, "damping"),
+    "wrong type of option": ({"solver": {"kind": "active_set", "budget": 2.5}}, "solver.budget", 2.5, "whole"),
+    "option out of range": ({"solver": {"kind": "verlet", "time_step": 1.5}}, "time_step", 1.5, "stability"),
+    "coarsest grid of no points": ({"solver": {"kind": "active_set", "coarsest": 0}}, "coarsest", 0, "whole number"),
+    "no tolerance": ({"tolerance": GONE}, "tolerance", "nothing", "a positive number"),
+    "zero tolerance": ({"tolerance": 0.0}, "tolerance", 0.0, "a positive number"),
+    "negative fit limit": ({"fit_limits": [-1.0]}, "fit_limits", [-1.0], "largest reduced pressures"),
+}
+
+
+@pytest.mark.parametrize(("changes", "key", "value", "allowed"), BAD.values(), ids=BAD)
+def test_a_bad_study_is_refused_with_file_key_value_and_what_is_allowed(changes, key, value, allowed):
+    error = refusal(changes)
+    assert error.file == "ch9.yaml"
+    assert error.key == f"studies.rough.{key}"
+    assert error.value == value
+    assert str(error).startswith(f"ch9.yaml: studies.rough.{key}: got ")
+    assert allowed in str(error)
+
+
+@pytest.mark.parametrize("section", [None, [], "a study"])
+def test_a_study_that_is_no_mapping_is_refused(section):
+    with pytest.raises(SceneError, match=r"^ch9\.yaml: studies\.rough: got "):
+        Study.read("rough", section, "ch9.yaml", 1)
+
+
+def test_a_solver_that_does_not_accept_the_scene_is_refused_with_the_trait(monkeypatch):
+    monkeypatch.setattr(NestedActiveSet, "accepts", NestedActiveSet.accepts - {Trait.MEAN_PRESSURE})
+    error = refusal({})
+    assert (error.file, error.key, error.value) == ("ch9.yaml", "studies.rough.solver", "NestedActiveSet")
+    assert "MEAN_PRESSURE" in str(error)
+
+
+def test_reduced_pressures_on_a_flat_surface_are_refused():
+    with pytest.raises(SceneError, match=r"load.*reduced_pressure.*allowed"):
+        smooth("flat", {"reduced_pressure": [0.1]})
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"vary": {}}, {"load": {"mean_pressure": [1e-3]}}, {"vary": {"surface.rms_gradient": [0.1, 0.2]}}],
+    ids=["nothing varied", "no reduced pressure", "another key varied"],
+)
+def test_fits_that_aggregation_cannot_make_are_refused_before_anything_runs(changes):
+    assert refusal({"fit_limits": [1.0]} | changes).key == "studies.rough.fit_limits"
+
+
+def test_a_fit_limit_below_two_of_the_loads_is_refused():
+    changes = {"vary": {"surface.hurst": [0.2, 0.8]}, "fit_limits": [0.05]}
+    assert refusal(changes).key == "studies.rough.fit_limits"
+
+
+@pytest.mark.parametrize(
+    "vary",
+    [
+        {"surface.rolloff_wavelength": [16.0, 32.0]},
+        {"surface.length": [64.0, 128.0]},
+        {"surface.amplitudes": ["gaussian", "fixed"]},
+        {"body.contact_modulus": [1.0, 2.0]},
+        {"solver.kind": ["active_set", "polonsky_keer"]},
+    ],
+    ids=lambda vary: next(iter(vary)),
+)
+def test_what_may_be_varied_can_also_be_aggregated(vary, tmp_path):
+    section = {"vary": vary, "members": 1, "companion": GONE, "load": {"reduced_pressure": [0.1]}}
+    read, runs = study(section), []
+    for number, run in enumerate(read.runs()):
+        path, costs = tmp_path / f"{number}.nc", tmp_path / f"{number}.json"
+        march.run(run.settings, "source", path, costs)
+        runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
+    data = aggregate.aggregate(runs, read.settings, "source")
+    ((name, values),) = vary.items()
+    assert sorted(data.indexes[dataset.dimension(*name.split("."))]) == sorted(values)
+
+
+def test_the_kinds_of_two_sections_are_varied_along_two_dimensions():
+    vary = {"surface.kind": ["flat"], "solver.kind": ["active_set", "polonsky_keer"]}
+    runs = smooth("flat", {"mean_pressure": [0.1]}, vary=vary).runs()
+    assert [len(run.coordinates) for run in runs] == [2, 2]
+
+
+def measured_section(file, **more):
+    return {"surface": {"kind": "measured", "file": str(file), "spacing": 1.0, **more}, "vary": {}, "points": GONE} | {
+        "companion": GONE,
+        "load": {"mean_pressure": [1e-3]},
+        "members": 1,
+    }
+
+
+@pytest.fixture
+def scan(tmp_path):
+    path = tmp_path / "scan.csv"
+    np.savetxt(path, np.random.default_rng(0).standard_normal(20))
+    return path
+
+
+def test_a_measured_surface_brings_its_own_points(scan):
+    (run,) = study(measured_section(scan, unit="nm")).runs()
+    assert run.settings["points"] is None
+    assert profile(run).size == 38  # mirrored: twice 20 less the two ends
+
+
+def test_a_measured_file_that_is_missing_is_named(tmp_path):
+    error = refusal(measured_section(tmp_path / "none.csv", unit="nm"))
+    assert (error.file, error.key) == ("ch9.yaml", "studies.rough.surface.file")
+    assert error.value == str(tmp_path / "none.csv")
+    assert "file that can be read" in error.allowed
+
+
+def test_a_folder_for_a_measured_file_is_refused(tmp_path):
+    assert str(tmp_path) in str(refusal(measured_section(tmp_path, unit="nm")))
+
+
+def test_a_measured_file_that_changes_makes_another_run(scan):
+    section = measured_section(scan, unit="nm")
+    before = study(section).runs()[0]
+    scan.write_text(scan.read_text() + "1.0\n")
+    assert study(section).runs()[0].digest != before.digest
+    assert study(section).runs()[0].stem == before.stem
+
+
+def test_a_measured_file_with_a_number_missing_is_refused_with_the_row(scan):
+    scan.write_text("1.0\nnan\n2.0\n")
+    error = refusal(measured_section(scan, unit="nm"))
+    assert (str(error.file), error.key) == (str(scan), "studies.rough.heights")
+    assert "nan in row 2" in error.value
+    assert "finite numbers" in error.allowed
+
+
+def test_a_measured_surface_refuses_another_number_of_points(scan):
+    error = refusal(measured_section(scan, unit="nm") | {"points": 64})
+    assert (error.key, error.value) == ("studies.rough.points", 64)
+    assert "38" in error.allowed
+
+
+def test_a_measured_surface_has_no_companion(scan):
+    error = refusal(measured_section(scan, unit="nm") | {"companion": {"points": 19, "members": 1}})
+    assert error.key == "studies.rough.companion.points"
+
+
+# --- runs ---------------------------------------------------------------------------------------------------------
+
+
+def test_there_is_one_run_per_variant_and_member_and_companions_come_last():
+    runs = study().runs()
+    assert [run.companion for run in runs] == [False] * 12 + [True] * 6
+    places = [(run.coordinates["hurst"], run.coordinates["rolloff_wavelength"], run.member) for run in runs]
+    values = [0.2, 0.8], [16.0, 24.0, 32.0]
+    assert places[:12] == list(itertools.product(*values, [0, 1]))
+    assert places[12:] == list(itertools.product(*values, [0]))
+    assert {run.settings["points"] for run in runs[:12]} == {128}
+    assert {run.settings["points"] for run in runs[12:]} == {64}
+
+
+def test_a_run_has_the_varied_values_in_its_settings():
+    for run in study().runs():
+        assert run.settings["surface"]["hurst"] == run.coordinates["hurst"]
+        assert run.settings["surface"]["rolloff_wavelength"] == run.coordinates["rolloff_wavelength"]
+        assert run.settings["member"] == run.member
+
+
+def test_settings_hold_what_a_run_depends_on_and_nothing_else():
+    run = study({"title": "Another title", "thesis_points": 999}).runs()[0]
+    assert set(run.settings) == {
+        *("study", "member", "seed", "points", "effects", "load", "tolerance", "surface", "body", "solver")
+    }
+    assert canonical(run.settings) == canonical(study().runs()[0].settings)
+
+
+def test_defaults_stand_in_the_settings_as_if_they_were_given():
+    given = {"surface/amplitudes": "gaussian", "solver": {"kind": "active_set", "budget": 200}}
+    assert canonical(study(given).runs()[0].settings) == canonical(study().runs()[0].settings)
+
+
+def test_no_two_runs_share_a_file_or_their_settings():
+    runs = study().runs()
+    assert len({run.stem for run in runs}) == len({canonical(run.settings) for run in runs}) == len(runs)
+
+
+def test_without_anything_varied_there_is_one_variant():
+    (run,) = smooth("cylinder", {"contact_ratio": [0.1]}).runs()
+    assert run.coordinates == {}
+    assert run.member == 0
+
+
+def by_place(runs):
+    return {(*sorted(run.coordinates.items()), run.member, run.companion): run for run in runs}
+
+
+def test_the_order_of_varied_keys_and_values_changes_no_run():
+    turned = study({"vary": {"surface.rolloff_wavelength": [32.0, 16.0, 24.0], "surface.hurst": [0.8, 0.2]}})
+    one, other = by_place(study().runs()), by_place(turned.runs())
+    assert one.keys() == other.keys()
+    for place, run in one.items():
+        assert run.stem == other[place].stem
+        assert canonical(run.settings) == canonical(other[place].settings)
+
+
+def test_a_variant_and_a_member_do_not_depend_on_the_others():
+    more = study({"vary": {"surface.hurst": [0.2, 0.5, 0.8], "surface.rolloff_wavelength": [24.0]}, "members": 5})
+    one, other = by_place(study().runs()), by_place(more.runs())
+    common = one.keys() & other.keys()
+    assert len(common) == 6  # two Hurst exponents at one roll-off: two members each, and a companion
+    for place in common:
+        assert one[place].stem == other[place].stem
+        assert canonical(one[place].settings) == canonical(other[place].settings)
+
+
+def test_settings_are_the_same_for_reordered_keys():
+    section = changed({})
+    turned = {
+        name: dict(reversed(value.items())) if isinstance(value, dict) else value for name, value in section.items()
+    }
+    turned = Study.read("rough", dict(reversed(turned.items())), "ch9.yaml", 1)
+    for one, other in zip(study().runs(), turned.runs(), strict=True):
+        assert (one.stem, one.digest) == (other.stem, other.digest)
+
+
+def test_loads_are_sorted_so_that_their_order_changes_nothing():
+    one, other = study(), study({"load": {"reduced_pressure": [0.01, 0.1]}})
+    assert one.settings["load"] == {"name": "reduced_pressure", "values": [0.01, 0.1]}
+    assert one.runs()[0].digest == other.runs()[0].digest
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"load": {"reduced_pressure": [0.01, 0.1, 0.2]}},
+        {"load": {"mean_pressure": [0.01, 0.1]}},
+        {"points": 256},
+        {"tolerance": 1e-4},
+        {"body/contact_modulus": 1.0},
+        {"surface/shortest_wavelength": 4.1},
+        {"surface/amplitudes": "fixed"},
+        {"solver": {"kind": "polonsky_keer"}},
+        {"solver": {"kind": "active_set", "reduction": 0.2}},
+    ],
+)
+def test_a_run_has_another_digest_when_anything_it_depends_on_changes(changes):
+    assert study(changes).runs()[0].digest != study().runs()[0].digest
+
+
+def test_a_run_has_another_digest_for_another_seed():
+    assert study(seed=2).runs()[0].digest != study().runs()[0].digest
+
+
+# --- surfaces and loads -------------------------------------------------------------------------------------------
+
+
+def test_the_same_seed_study_hurst_and_member_give_the_same_profile_whatever_else_changes():
+    one = study().runs()[0]
+    others = [
+        study({"members": 7, "companion": GONE}).runs()[0],
+        study({"load": {"mean_pressure": [0.5]}, "body/contact_modulus": 3.0, "tolerance": 1e-5}).runs()[0],
+        study({"solver": {"kind": "verlet"}, "title": "other"}).runs()[0],
+        study({"vary": {"surface.hurst": [0.2]}, "surface/rolloff_wavelength": 16.0}).runs()[0],
+    ]
+    for other in others:
+        assert np.array_equal(profile(one), profile(other))
+
+
+def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
+    def phases(run):
+        return np.angle(scene_of(run.settings).upper.surface.coefficients[1:])
+
+    low, high = (study({"vary": {"surface.hurst": [hurst]}, "companion": GONE}) for hurst in (0.2, 0.8))
+    renamed = Study.read("other", changed({"vary": {"surface.hurst": [0.2]}}), "ch9.yaml", 1)
+    seeded = study({"vary": {"surface.hurst": [0.2]}}, seed=2)
+    runs = [*low.runs(), *high.runs(), renamed.runs()[0], seeded.runs()[0]]
+    drawn = [phases(run) for run in runs]
+    for one, other in itertools.combinations(drawn, 2):
+        assert not np.isclose(one, other, rtol=0, atol=1e-6).any()  # 15 pairs each: chance 3e-7 a pair to be so near
+
+
+def test_a_companion_samples_the_same_surface():
+    runs = by_place(study().runs())
+    for (*place, member, companion), run in runs.items():
+        if companion:
+            fine, coarse = profile(runs[(*place, member, False)]), profile(run)
+            # Both are sums of the same waves: they differ by the rounding of two transforms only.
+            assert np.allclose(fine[::2], coarse, rtol=0, atol=1e-14 * np.abs(fine).max() * np.log2(fine.size))
+
+
+def pressures(run):
+    return np.array([step.value for step in scene_of(run.settings).path.steps])
+
+
+def test_reduced_pressures_are_times_modulus_and_the_gradient_asked_for():
+    for run in study({"vary": {"surface.rms_gradient": [0.01, 0.02]}}).runs():
+        expected = np.array([0.01, 0.1]) * 2.0 * run.settings["surface"]["rms_gradient"]
+        np.testing.assert_allclose(pressures(run), expected, rtol=1e-15)
+
+
+def test_reduced_pressures_without_a_prescribed_gradient_use_that_of_the_heights():
+    (run,) = smooth("sinusoid", {"reduced_pressure": [0.1]}, points=1024).runs()
+    exact = 2 * np.pi * 2 * 1.0 / 64.0 / np.sqrt(2)  # rms slope of a wave: its wavenumber times amplitude/√2
+    # Differences over a step d make the gradient sin(x)/x with x = qd/2 = 6e-3: smaller by x²/6 = 6e-6.
+    np.testing.assert_allclose(pressures(run), 0.1 * 2.0 * exact, rtol=1e-5)
+
+
+def test_mean_pressures_are_taken_as_they_are():
+    (run,) = smooth("flat", {"mean_pressure": [0.3, 0.1]}).runs()
+    assert pressures(run).tolist() == [0.1, 0.3]
+
+
+def test_contact_ratios_are_turned_into_hertzian_loads():
+    (run,) = smooth("cylinder", {"contact_ratio": [0.1]}).runs()
+    hertz = np.pi * 2.0 * 10.0**2 / (4 * 100.0)  # π E* c²/4R per unit thickness
+    np.testing.assert_allclose(pressures(run), hertz / 64.0, rtol=1e-14)
