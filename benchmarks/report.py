@@ -7,6 +7,7 @@ from pathlib import Path
 import measure
 import pandas as pd
 from matplotlib.axes import Axes
+
 from contactsim.figures import style
 from contactsim.figures.render import framed
 
@@ -28,10 +29,10 @@ FIGURE = {
     "size": [9.0, 4.2],
     "panels": 2,
     "title": "Line contacts: what a solution costs",
-    "caption": f"(a) One load at H = {SHOWN:g}, certified to 0.001 grid steps; solid arrows: stopped after {measure.CAP} s. "
+    "caption": f"(a) One load at H = {SHOWN:g}, to 0.001 grid steps; filled triangles: stopped after {measure.CAP} s. "
     "(b) Twelve loads, each from scratch with the active set, to two tolerances in grid steps; mean of the members.",
 }
-LIMITS = {2500: "limit", 1500: "aim"}
+LIMITS = {2500: "limit at tolerance 0.001", 1500: "aim at tolerance 0.001"}
 BEGIN, END = "<!-- tables: written by line_solvers.py -->", "<!-- end of tables -->"
 
 
@@ -117,7 +118,9 @@ def draw_loads(axes: Axes, rows: pd.DataFrame) -> None:
         stopped = group[group.area.isna()]
         axes.plot(stopped.reduced_pressure, stopped.seconds, "^", color=colour, markersize=8)
     axes.axhline(measure.CAP, color="#999999", linewidth=0.7, zorder=0)
+    axes.text(rows.reduced_pressure.min(), measure.CAP, f"{measure.CAP} s", fontsize=7, color="#666666", va="bottom")
     axes.set(xscale="log", yscale="log", xlabel="reduced pressure $p^*$", ylabel="CPU seconds, one load")
+    axes.set_ylim(top=1e4)  # room for the legend
     for name in SOLVERS:
         if name in set(rows.solver):
             axes.plot([], [], color=SOLVERS[name][1], label=SOLVERS[name][0])
@@ -138,12 +141,16 @@ def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
     colours = dict(zip(sorted(means.columns.levels[1], reverse=True), (style.WHOLE, style.CONTACT), strict=True))
     for hurst, group in means.transforms.groupby("hurst"):
         for tolerance, colour in colours.items():
-            look = style.hurst(hurst) | {"color": colour, "label": f"$H$ = {hurst:g}, {tolerance:g} steps"}
-            axes.plot(group.index.get_level_values("points"), group[tolerance], **look)
+            axes.plot(group.index.get_level_values("points"), group[tolerance], color=colour, **style.hurst(hurst))
+    colours = {f"tolerance {tolerance:g}": colour for tolerance, colour in colours.items()}
+    axes.legend(
+        loc="lower right",
+        ncols=2,
+        handles=style.key(colours, {}) + style.hurst_key(sorted(set(means.index.get_level_values("hurst")))),
+    )
     for limit, text in LIMITS.items():
         axes.axhline(limit, color="#999999", linewidth=0.7)
-        axes.text(2**18, limit, f"{text}, 0.001 steps", fontsize=7, color="#666666", ha="right", va="bottom")
+        axes.text(2**18, limit, text, fontsize=7, color="#666666", ha="right", va="bottom")
     axes.set_xscale("log", base=2)
     axes.set(ylim=(0, 2700), xlabel="points", ylabel="transforms of the finest grid, all 12 loads")
-    axes.legend(loc="lower right", ncols=2)
     style.letter(axes, "b")

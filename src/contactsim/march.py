@@ -55,7 +55,7 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     known = _earlier(target, costs)
     heights = scene.heights(points_of(settings, scene.upper.surface))
     method = solver(**settings["solver"])
-    points, spent = [], 0.0
+    points, spent, solved = [], 0.0, 0
     for count, (name, value, step) in enumerate(zip(names, values, scene.path.steps, strict=True), 1):
         if name in known:
             points.append(known[name])
@@ -63,8 +63,8 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
             continue
         result = solve(method, *pose(scene, step, heights, settings["tolerance"], threads))
         points.append(_point(name, result, heights, scene.length / heights.size))
-        spent += result.seconds
-        left = spent / count * (len(values) - count)
+        spent, solved = spent + result.seconds, solved + 1
+        left = spent / solved * sum(name not in known for name in names[count:])
         logger.info(
             "step %d/%d %s=%g residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
             *(count, len(values), settings["load"]["name"], value, points[-1].numbers["non_uniformity"]),

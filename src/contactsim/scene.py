@@ -15,7 +15,7 @@ where a is the approach beyond first touch, given or, with the mean pressure pre
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
 
 import numpy as np
@@ -176,7 +176,7 @@ class Certificate:
     penetration: float
     smallest_pressure: float
     load_error: float
-    gap: Array
+    gap: Array = field(repr=False)
     approach: float
 
     def met(self, tolerance: float) -> bool:

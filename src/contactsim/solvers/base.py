@@ -8,7 +8,7 @@ Inner iterations and coarser grids are the solver's own affair; their work is co
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Protocol
 
@@ -76,8 +76,8 @@ class Result:
     seconds: wall time, apart from the record because it is not reproducible.
     """
 
-    pressure: Array
-    gap: Array
+    pressure: Array = field(repr=False)
+    gap: Array = field(repr=False)
     approach: float
     status: Status
     record: Record

@@ -1,0 +1,42 @@
+"""What several tests need: the quick tier's results, made once, without the workflow."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from contactsim import aggregate, costs, dataset, march
+from contactsim.figures.render import render
+from contactsim.plan import Plan
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="session")
+def made(tmp_path_factory) -> Path:
+    """A folder in which `results/quick` holds everything of the quick tier."""
+    folder = tmp_path_factory.mktemp("made")
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        plan = Plan.read(ROOT / "config", "quick")
+        for study in plan.studies:
+            settings = plan.study_settings(study)
+            for run, entry in zip(plan.studies[study].runs(), settings["runs"], strict=True):
+                march.run(run.settings, run.source, entry["path"], entry["costs"])
+            name = plan.dataset_name(study)
+            data = aggregate.aggregate(settings["runs"], settings["settings"], settings["source"])
+            dataset.write(data, plan.results / f"datasets/{name}.nc")
+            costs.table(settings["runs"]).to_csv(plan.results / f"costs/{name}.csv", index=False)
+        (plan.results / "figures").mkdir()
+        for figure in plan.figures.values():
+            name = plan.dataset_name(figure.settings["study"])
+            targets = {kind: f"{plan.results}/figures/{figure.name}.{kind}" for kind in ("png", "pdf", "csv")}
+            shown = json.loads(json.dumps(plan.figure_settings(figure.name)))
+            render(shown, plan.results / f"datasets/{name}.nc", plan.results / f"costs/{name}.csv", targets)
+    finally:
+        os.chdir(before)
+    return folder

@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+
+from conftest import ROOT
+from contactsim import dataset
+from contactsim.figures import ch3, render, style
+from contactsim.plan import Plan
+
+PLAN = Plan.read(ROOT / "config", "quick")
+
+
+@pytest.mark.parametrize("name", PLAN.figures)
+def test_every_figure_is_drawn_and_gives_its_numbers(made, name):
+    folder = made / "results/quick/figures"
+    assert (folder / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    assert (folder / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+    assert len(pd.read_csv(folder / f"{name}.csv")) > 2
+
+
+def test_a_footer_says_grid_members_losses_and_time(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    costs = pd.read_csv(made / "results/quick/costs/ch3_rough_line.csv")
+    text = render.footer_text(data, costs)
+    for part in (
+        "quick tier",
+        "32768 points, 8 per shortest wavelength (thesis 64)",
+        "3 members",
+        "0 of 45 solutions unconverged",
+        "grid error of κᵣ up to",
+        f"solved in {costs.seconds.sum():.3g} s",
+    ):
+        assert part in text
+    data["status"][0, 0, 0] = 1
+    assert "1 of 45 solutions unconverged and left out" in render.footer_text(data, costs)
+
+
+def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    axes = list(Figure().subplots(1, 3))
+    shown = ch3.fig_3_2(data, axes, {"kappa_r": 1.75})
+    assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
+    assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
+    drawn = axes[1].containers[0].lines[0].get_ydata()
+    assert np.array_equal(drawn, data.kappa_mean.sel(hurst=0.2))
+    assert {"kappa_r_mean", "kappa_r_standard_error", "kappa_r_grid_error"} <= set(shown)
+
+
+def test_the_cylinder_is_drawn_beside_the_exact_line(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+    axes = Figure().subplots()
+    shown = ch3.fig_3_1(data, axes, {})
+    assert any(np.allclose(line.get_ydata(), 8 / (np.pi * np.sqrt(3))) for line in axes.lines)
+    inside = shown.contact_ratio.between(0.05, 0.25)
+    assert np.allclose(shown.kappa_r[inside], 1.470, rtol=0.08)  # at c/R = 0.05, two of 26 points
+
+
+def test_the_table_lists_exact_and_computed(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+    axes = Figure().subplots()
+    rows = ch3.table_3_1(data, axes, {})
+    assert list(rows) == list(ch3.TABLE)
+    assert np.allclose(rows.width_exact, 2 * rows.contact_ratio)
+    assert np.allclose(rows.line_load, np.pi / 4 * rows.contact_ratio**2)
+    assert len(axes.tables[0].get_celld()) == (len(rows) + 1) * len(rows.columns)
+
+
+def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
+    assert style.hurst(0.35)["marker"] == "x"
+
+
+def test_a_measured_surface_has_points_and_no_wavelength():
+    settings = {"surface": {"kind": "measured"}, "thesis_points": None}
+    assert style.points_text(settings, 100) == "100 points"
+
+
+def test_captions_and_footers_are_wrapped_below_the_panels():
+    settings = {"size": [4.0, 3.0], "panels": 2, "title": "T", "caption": "word " * 60}
+    figure, panels = render.framed(settings, "made " * 40)
+    assert len(panels) == 2
+    assert figure.get_size_inches()[1] > 3.0
+    assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())

@@ -1,0 +1,124 @@
+"""What the README shows, works."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+import yaml
+
+import contactsim
+from conftest import ROOT
+from contactsim.config import keys_of
+from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, Plan
+from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+KEYS = (ROOT / "config/README.md").read_text(encoding="utf-8")
+
+
+def blocks(language):
+    return re.findall(rf"^```{language}\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
+
+
+def test_the_python_of_the_readme_runs_and_reconstructs_the_solution(made, monkeypatch):
+    monkeypatch.chdir(made)
+    names = {}
+    for block in blocks("python"):
+        exec(block.replace("results/standard", "results/quick"), names)
+    modulus, load = names["modulus"], names["k"]
+    step = np.sqrt(np.mean(np.diff(names["heights"], append=names["heights"][0]) ** 2))
+    # the pressure is stored in single precision: about 1e-4 steps
+    assert np.abs(names["gap"][names["contact"]]).max() < 2e-3 * step
+    assert names["gap"].min() > -2e-3 * step
+    again = contactsim.press(
+        names["heights"],
+        spacing=names["length"] / names["n"],
+        contact_modulus=modulus,
+        mean_pressure=float(names["run"]["mean_pressure"][load]),
+    )
+    assert np.array_equal(again.contact, names["contact"])
+    assert np.allclose(again.pressure, names["pressure"], rtol=1e-5, atol=1e-7 * again.pressure.max())
+    assert np.allclose(again.gap, names["gap"], atol=2e-3 * step)
+
+
+def test_the_study_of_the_readme_can_be_added_to_the_config(made, tmp_path, monkeypatch):
+    monkeypatch.chdir(made)
+    np.savetxt(
+        "profile.csv",
+        np.c_[np.arange(50) / 100, np.sin(np.arange(50))],
+        delimiter=",",
+        header="x [um], z [nm]",
+        comments="",
+    )
+    (block,) = blocks("yaml")
+    for file in (ROOT / "config").glob("*.yaml"):
+        text = file.read_text(encoding="utf-8")
+        (tmp_path / file.name).write_text(
+            text.replace("studies:\n", f"studies:\n{block}\n", 1) if file.stem == "ch3" else text
+        )
+    plan = Plan.read(tmp_path, "quick")
+    assert plan.studies["my_profile"].settings["surface"]["file"] == "profile.csv"
+    assert set(Plan.read(ROOT / "config", "quick").studies) == set(plan.studies) - {"my_profile"}
+
+
+def test_every_command_names_a_target_or_an_option_that_exists():
+    targets = set(Plan.read(ROOT / "config").figures) | {
+        "all",
+        "test",
+        "setup",
+        "help",
+        "my_profile",
+        "smooth_line",
+        "rough_line",
+    }
+    commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", README, re.MULTILINE)
+    assert commands
+    assert set(commands) <= targets
+
+
+def test_every_link_leads_somewhere():
+    for text, folder in ((README, ROOT), (KEYS, ROOT / "config")):
+        for link in re.findall(r"\]\(([^)#:]+)\)", text):
+            assert (folder / link).exists(), link
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [CONFIG_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, dict.fromkeys(LOADS)],
+    ids=["main", "study", "figure", "companion", "load"],
+)
+def test_every_key_is_explained(keys):
+    for name in keys:
+        assert f"`{name}`" in KEYS, name
+
+
+@pytest.mark.parametrize("section", KINDS)
+def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
+    known, class_of = KINDS[section]
+    for kind in known:
+        part = KEYS[KEYS.index(f"### `{section}`") :]
+        block = part[part.index(f"| `{kind}` |") :].split("\n\n")[0]
+        own = re.split(r"\n\| `", block)[0]
+        for name, key in keys_of(class_of(kind)).items():
+            row = re.search(rf"^.*\| `{name}` \|.*$", own, re.MULTILINE)
+            assert row, f"{kind}.{name}"
+            default = row[0].rstrip("| ").rpartition("|")[2].strip()
+            if isinstance(key.default, int | float):
+                assert float(default) == key.default, f"{kind}.{name}"
+
+
+def test_the_settings_reference_explains_no_key_that_is_gone():
+    known = set(CONFIG_KEYS) | set(STUDY_KEYS) | set(FIGURE_KEYS) | set(COMPANION_KEYS) | set(LOADS) | {"kind"}
+    for classes, class_of in KINDS.values():
+        for kind in classes:
+            known |= {kind, *keys_of(class_of(kind))}
+    for name in re.findall(r"^\| (?:`\w+` )?\|? ?`(\w+)` \|", KEYS, re.MULTILINE):
+        assert name in known, name
+
+
+def test_the_citation_file_is_valid_yaml_and_names_the_thesis():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["references"][0]["title"] == "Modelling adhesion and friction in contact problems"
+    assert citation["version"] == contactsim.provenance.versions()["contactsim"]
