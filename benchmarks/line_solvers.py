@@ -1,7 +1,7 @@
 """What line contacts cost: the default solver over all loads, and beside other solvers at single loads.
 
     pip install -e .[benchmark]
-    python benchmarks/line_solvers.py            # about half an hour; --quick: a minute, and nothing is kept
+    python benchmarks/line_solvers.py            # about half an hour; --quick: ten seconds, and nothing here changes
 
 Cost is counted in transforms, in equivalents of one on the finest grid, and timed in CPU seconds on one thread.
 Surfaces, loads and tolerance are those of `rough_line` in config/ch3.yaml. Each row goes to the CSV as soon as it is
@@ -96,7 +96,7 @@ def compared(plan: Plan, table: Table, sizes: tuple[int, ...], hursts: tuple[flo
 def main() -> None:
     """Measure what is missing, then make the table and the picture."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--quick", action="store_true", help="the two coarsest grids, H = 0.8 alone; keeps nothing")
+    parser.add_argument("--quick", action="store_true", help="coarse grids and one round, in a temporary folder")
     parser.add_argument("--redraw", action="store_true", help="measure nothing: table and picture from the CSV")
     options = parser.parse_args()
     if os.environ.get("OMP_NUM_THREADS") != "1":  # read when numpy is loaded, hence the new start

@@ -29,7 +29,7 @@ FIGURE = {
     "size": [9.0, 4.2],
     "panels": 2,
     "title": "Line contacts: what a solution costs",
-    "caption": f"(a) One load at H = {SHOWN:g}, to 0.001 grid steps; filled triangles: stopped after {measure.CAP} s. "
+    "caption": f"(a) One load at H = {SHOWN:g}, to 0.001 grid steps; filled triangles: not solved in {measure.CAP} s. "
     "(b) Twelve loads, each from scratch with the active set, to two tolerances in grid steps; mean of the members.",
 }
 LIMITS = {2500: "limit at tolerance 0.001", 1500: "aim at tolerance 0.001"}
@@ -115,7 +115,7 @@ def draw_loads(axes: Axes, rows: pd.DataFrame) -> None:
     for (name, points), group in rows.groupby(["solver", "points"]):
         colour = SOLVERS[name][1]
         axes.plot(group.reduced_pressure, group.seconds, color=colour, **size_look(points))
-        stopped = group[group.area.isna()]
+        stopped = group[group.status != "CONVERGED"]
         axes.plot(stopped.reduced_pressure, stopped.seconds, "^", color=colour, markersize=8)
     axes.axhline(measure.CAP, color="#999999", linewidth=0.7, zorder=0)
     axes.text(rows.reduced_pressure.min(), measure.CAP, f"{measure.CAP} s", fontsize=7, color="#666666", va="bottom")
@@ -142,12 +142,9 @@ def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
     for hurst, group in means.transforms.groupby("hurst"):
         for tolerance, colour in colours.items():
             axes.plot(group.index.get_level_values("points"), group[tolerance], color=colour, **style.hurst(hurst))
-    colours = {f"tolerance {tolerance:g}": colour for tolerance, colour in colours.items()}
-    axes.legend(
-        loc="lower right",
-        ncols=2,
-        handles=style.key(colours, {}) + style.hurst_key(sorted(set(means.index.get_level_values("hurst")))),
-    )
+    colours = {f"tolerance {tolerance:g} steps": colour for tolerance, colour in colours.items()}
+    exponents = style.hurst_key(sorted(set(means.index.get_level_values("hurst"))))
+    axes.legend(loc="lower right", handles=style.key(colours, {}) + exponents)
     for limit, text in LIMITS.items():
         axes.axhline(limit, color="#999999", linewidth=0.7)
         axes.text(2**18, limit, text, fontsize=7, color="#666666", ha="right", va="bottom")
