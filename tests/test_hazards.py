@@ -11,6 +11,7 @@ import contactsim
 from cases import ALL, FAST, press, rough, wave
 from contactsim import analytic
 from contactsim.errors import SceneError
+from contactsim.hazards import HAZARDS, Outcome, judge
 from contactsim.solvers.base import Status
 
 
@@ -31,6 +32,35 @@ def test_few_points_carry_a_light_load(name):
         assert_right(result)
         assert result.contact.sum() <= 12
         assert result.contact[np.argmax(heights)]
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("severity", [0, 25, 50, 75, 100])
+@pytest.mark.parametrize("hazard", HAZARDS)
+def test_no_hazard_is_answered_wrongly(name, severity, hazard):
+    verdict = judge(HAZARDS[hazard](severity), name)
+    assert verdict.outcome in (Outcome.RIGHT, Outcome.CERTIFIED, Outcome.REFUSED, Outcome.FAILED), verdict.reason
+    if hazard == "tension":
+        assert verdict.outcome is Outcome.REFUSED
+    elif verdict.outcome is Outcome.FAILED:
+        assert hazard in ("flat", "tight_tolerance")  # below what rounding allows, and said so
+
+
+@pytest.mark.parametrize("name", ["active_set", "verlet"])
+def test_a_low_spike_lets_its_surroundings_touch(name):
+    heights = np.zeros(257)
+    heights[100] = 1.0
+    result = press(heights, 1e-3, name, tolerance=1e-6)
+    assert_right(result, 1e-6)
+    assert result.contact.sum() == 11
+
+
+def test_polonsky_keer_goes_in_circles_around_a_low_spike_and_says_so():
+    heights = np.zeros(257)
+    heights[100] = 1.0
+    result = press(heights, 1e-3, "polonsky_keer")
+    assert result.status is Status.BUDGET
+    assert result.record.certificate.non_uniformity > 1
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -44,7 +44,8 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     fine = _derived(_combined([run for run in runs if not run["companion"]]))
     coarse = [run for run in runs if run["companion"]]
     if "contact_ratio" in fine.dims:
-        fine["half_width_exact"] = fine.contact_ratio * settings["surface"]["radius"]
+        radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
+        fine["half_width_exact"] = fine.contact_ratio * radius
     data = fine.merge(_ensemble(fine))
     if coarse:
         data = data.merge(_grid_error(fine, _derived(_combined(coarse))))
@@ -143,6 +144,8 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
     """
     if data.member.size < 2:
         raise SceneError("members", data.member.size, "2 or more: without a spread nothing is significant")
+    if data[along].size < 2:
+        raise SceneError(along, data[along].size, "2 or more values: a difference needs two")
     values = converged(data[name], data)
     others = [dim for dim in values.dims if dim not in ("member", along)]
     best = None
@@ -152,8 +155,10 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
         one, two = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
         paired = along in LOADS
         gap = abs((one - two).mean("member")) if paired else abs(one.mean("member") - two.mean("member"))
-        square = (one - two).var("member", ddof=1) if paired else one.var("member", ddof=1) + two.var("member", ddof=1)
-        error = np.sqrt(square / data.member.size)
+        square = _squared_error(one - two) if paired else _squared_error(one) + _squared_error(two)
+        error = np.sqrt(square)
+        if not (gap / error).notnull().any():
+            continue
         place = (gap / error).argmax(...)
         found = Departure(
             float(gap[place]),
@@ -165,6 +170,11 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
         if best is None or found.in_errors > best.in_errors:
             best = found
     return best
+
+
+def _squared_error(values: xr.DataArray) -> xr.DataArray:
+    """Squared standard error of the mean over the members that are known."""
+    return values.var("member", ddof=1) / values.notnull().sum("member")
 
 
 WEIGHTINGS = ("area", "logarithm")
@@ -201,6 +211,8 @@ def fit_line_area(pressure: Array, area: Array, weighting: str) -> tuple[float, 
     weighting: "area" weighs the area itself, so the largest loads decide; "logarithm" weighs all alike.
     """
     known = np.isfinite(area) & (area > 0)
+    if not known.any():
+        return float("nan"), float("nan")
 
     def misfit(logarithms: Array) -> Array:
         model = np.broadcast_to(analytic.line_area(pressure, *np.exp(logarithms)), area.shape)[known]

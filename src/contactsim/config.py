@@ -8,6 +8,7 @@ laid over a study before it is read, so they are checked by the same table.
 from __future__ import annotations
 
 import dataclasses
+import sys
 import typing
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -47,7 +48,7 @@ def load_yaml(path: str | Path) -> dict:
         content = yaml.load(Path(path).read_text(encoding="utf-8"), _Loader)
     except OSError as error:
         raise SceneError("file", str(path), "a file that can be read", path) from error
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError) as error:
         raise SceneError("YAML", " ".join(str(error).split()), "valid YAML with each key once", path) from error
     if content is None:
         return {}
@@ -83,13 +84,15 @@ def number(value: object) -> float:
     """A finite number; text that only looks like one is refused."""
     if isinstance(value, str):
         try:
-            float(value)
+            finite = np.isfinite(float(value))
         except ValueError:
             raise ValueError from None
+        if not finite:
+            raise ValueError
         raise ValueError(
             f"this is text to YAML, which wants a decimal point and a signed exponent: {_with_point(value)}"
         )
-    if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= sys.float_info.max:
         raise ValueError
     return float(value)
 

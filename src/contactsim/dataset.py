@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +44,6 @@ VARIABLES = {
     "member": ("1", "member of the ensemble"),
     "reduced_pressure": ("1", "reduced pressure p* = p/(rms gradient × E*), over the whole surface"),
     "mean_pressure": ("GPa", "mean pressure"),
-    "approach": ("nm", "approach beyond coincidence of the mean planes' zero"),
     "contact_ratio": ("1", "exact contact half-width of the cylinder over its radius"),
     "reduced_pressure_contact": ("1", "reduced pressure p_r* = p/(rms gradient in contact × E*)"),
     "relative_contact_area": ("1", "relative contact area"),
@@ -90,7 +90,9 @@ def described(data: xr.Dataset) -> xr.Dataset:
     """The dataset with units and long_name on every variable; a derived one inherits those of its base name."""
     for name in data.variables:
         base, kind = base_name(str(name))
-        unit, text = VARIABLES.get(base) or SETTINGS.get(base.removeprefix("surface_")) or ("1", f"option {base}")
+        unit, text = (
+            VARIABLES.get(base) or SETTINGS.get(re.sub("^(surface|body|solver)_", "", base)) or ("1", f"option {base}")
+        )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
     if "status" in data:
         values = [status.value[0] for status in Status]
@@ -101,7 +103,7 @@ def described(data: xr.Dataset) -> xr.Dataset:
 
 def dimension(section: str, key: str) -> str:
     """Name of the dimension along which a key of a study is varied: the key's own, unless a result has it."""
-    return f"{section}_{key}" if key in VARIABLES else key
+    return f"{section}_{key}" if key in VARIABLES or key == "kind" else key
 
 
 SUFFIXES = {
@@ -152,7 +154,7 @@ def read(path: str | Path) -> xr.Dataset:
     """Read a dataset into memory and close the file."""
     try:
         return xr.load_dataset(path, engine="netcdf4")
-    except (OSError, ValueError) as error:
+    except (OSError, RuntimeError, ValueError) as error:
         raise SceneError("dataset", str(path), f"a readable netCDF file ({error})") from error
 
 

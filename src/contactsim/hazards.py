@@ -84,7 +84,9 @@ def judge(case: Case, solver: str) -> Verdict:
         return Verdict(Outcome.WRONG, spent, fault)
     if case.answer is None:
         return Verdict(Outcome.CERTIFIED, spent)
-    return Verdict(Outcome.RIGHT, spent) if case.answer(result) else Verdict(Outcome.WRONG, spent, "exact answer missed")
+    return (
+        Verdict(Outcome.RIGHT, spent) if case.answer(result) else Verdict(Outcome.WRONG, spent, "exact answer missed")
+    )
 
 
 def faults(case: Case, result: Result) -> str:
@@ -170,8 +172,8 @@ def full_contact(severity: float) -> Case:
 
 
 def spike(severity: float) -> Case:
-    """A single point sticks out of a plane, up to a million times its spacing: it carries the load."""
-    height, points = 10 ** (6 * severity / 100), 257
+    """A single point sticks out of a plane, ten to ten million spacings high: it carries the load."""
+    height, points = 10 ** (1 + 6 * severity / 100), 257
     heights = np.zeros(points)
     heights[100] = height
 

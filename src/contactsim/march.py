@@ -84,8 +84,11 @@ def write_text(text: str, path: str | Path) -> None:
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, path)
+    try:
+        temporary.write_text(text, encoding="utf-8")
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
 
 
 def _point(name: str, result: Result, heights: Array, spacing: float) -> Point:
@@ -112,6 +115,7 @@ def _collected(settings: dict, scene: Scene, heights: Array, values: list[float]
     variables = {
         name: (load, np.array([point.numbers[name] for point in points], kinds.get(name, float)))
         for name in points[0].numbers
+        if name != load
     }
     half = Grid((heights.size,), (scene.length,)).forward(heights)
     half = half[: getattr(scene.upper.surface, "modes", half.size) + 1]
@@ -151,6 +155,6 @@ def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
             bits = data.contact_bits.values[row]
             found[name] = Point(numbers | {"point": name}, bits, pressure, seconds.get(name, float("nan")))
         return found
-    except (SceneError, AttributeError, KeyError, ValueError) as error:
+    except (SceneError, AttributeError, KeyError, TypeError, ValueError) as error:
         logger.warning("%s cannot be reused and is computed anew: %s", target, error)
         return {}

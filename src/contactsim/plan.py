@@ -6,7 +6,7 @@ import ast
 from dataclasses import dataclass
 from pathlib import Path
 
-from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, read, text, whole
+from contactsim.config import Key, load_yaml, mapping, number, overlaid, positive, read, text, whole
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
@@ -24,17 +24,28 @@ CHAPTER_KEYS = {
 
 def pair(value: object) -> list[float]:
     """Two numbers."""
-    numbers = listed(number)(value)
-    if len(numbers) != 2:
+    if not isinstance(value, list) or len(value) != 2:
         raise ValueError
-    return numbers
+    return [number(entry) for entry in value]
+
+
+def size(value: object) -> list[float]:
+    """Two positive numbers."""
+    return [positive(entry) for entry in pair(value)]
+
+
+def limits(value: object) -> list[float]:
+    """Two numbers, the least first."""
+    if pair(value) != sorted(pair(value)):
+        raise ValueError
+    return pair(value)
 
 
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter"),
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
-    "size": Key(pair, "width and height in inches"),
+    "size": Key(size, "width and height in inches"),
     "panels": Key(whole(1), "number of axes side by side", 1),
     "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
@@ -74,13 +85,19 @@ class Plan:
         for file in sorted(folder.glob("ch*.yaml")):
             sections = read(load_yaml(file), CHAPTER_KEYS, file)
             for name, section in sections["studies"].items():
-                over = overrides["studies"].pop(name, None)
-                source = file if over is None else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
-                section = section if over is None or not isinstance(section, dict) else overlaid(section, over)
+                if name in studies:
+                    raise SceneError(f"studies.{name}", name, f"a name that {chapters[name]}.yaml has not taken", file)
+                over = overrides["studies"].pop(name, {})
+                if not isinstance(over, dict):
+                    raise SceneError(
+                        f"{tier}.studies.{name}", over, "a mapping of keys to override", folder / "tiers.yaml"
+                    )
+                source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
+                section = overlaid(section, over) if isinstance(section, dict) else section
                 studies[name] = Study.read(name, section, source, main["seed"])
                 chapters[name] = file.stem
             for name, section in sections["figures"].items():
-                figures[name] = _figure(name, section, file, sections["studies"])
+                figures[name] = _figure(name, section, file, {study: studies[study] for study in sections["studies"]})
         for name in overrides["studies"]:
             raise SceneError(
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
@@ -125,11 +142,10 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     settings = read(section, FIGURE_KEYS, file, prefix)
     if settings["study"] not in studies:
         raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(studies)}", file)
-    for dim, limits in settings["select"].items():
-        try:
-            pair(limits)
-        except ValueError as error:
-            raise SceneError(f"{prefix}.select.{dim}", limits, "least and largest value", file) from error
+    dims = studies[settings["study"]].dimensions
+    read(
+        settings["select"], dict.fromkeys(dims, Key(limits, "least and largest value", None)), file, f"{prefix}.select"
+    )
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from contactsim import analytic, dataset, loading
-from contactsim.config import Key, choice, keys_of, listed, mapping, number, overlaid, positive, read, text, whole
+from contactsim.config import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
 from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
@@ -111,7 +111,26 @@ class Study:
         for run in study.runs():
             if run.member == 0:
                 study._check(run)
+        study._check_fits()
         return study
+
+    def _check_fits(self) -> None:
+        """Fits need two loads below the limit, and Hurst exponents alone to be varied."""
+        load, limits = self.settings["load"], self.settings["fit_limits"]
+        if limits is None:
+            return
+        if self.dimensions != ["hurst", "member", "reduced_pressure"]:
+            allowed = "none, unless surface.hurst alone is varied and the load is a reduced_pressure"
+            raise SceneError(f"studies.{self.name}.fit_limits", limits, allowed, self.file)
+        if min(limits) < load["values"][min(1, len(load["values"]) - 1)]:
+            allowed = "limits with two loads or more below them"
+            raise SceneError(f"studies.{self.name}.fit_limits", min(limits), allowed, self.file)
+
+    @property
+    def dimensions(self) -> list[str]:
+        """Dimensions of the study's dataset."""
+        varied = [dataset.dimension(*name.split(".", 1)) for name in self.settings["vary"]]
+        return [*varied, "member", self.settings["load"]["name"]]
 
     def runs(self) -> list[Run]:
         """Every job of the study, in order: variants, then members; companions last."""
@@ -132,19 +151,25 @@ class Study:
 
     def _values(self, name: str) -> list:
         values = self.settings["vary"][name]
-        if not isinstance(values, list) or not values or len(set(map(repr, values))) < len(values):
+        if (
+            not isinstance(values, list)
+            or not values
+            or any(value in values[:place] for place, value in enumerate(values))
+        ):
             key = f"studies.{self.name}.vary.{name}"
             raise SceneError(key, values, "a list with at least one entry, none twice", self.file)
         return values
 
     def _run(self, varied: dict, member: int, points: int | None, companion: bool) -> Run:
         parts = {name: self._part(name, self.settings[name]) for name in KINDS}
+        sections = {name: self.settings[name] for name in KINDS}
         for name, value in varied.items():
             head, _, tail = str(name).partition(".")
             if tail not in parts.get(head, ()):
                 known = ", ".join(f"{part}.{key}" for part in KINDS for key in parts[part] if key != "kind")
                 raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {known}", self.file)
-            parts[head] = self._part(head, overlaid(self.settings[head], {tail: value}))
+            sections[head] = sections[head] | {tail: value}
+        parts = {name: self._part(name, section) for name, section in sections.items()}
         shared = {name: self.settings[name] for name in ("effects", "load", "tolerance")}
         settings = {"study": self.name, "member": member, "seed": self.seed, "points": points} | shared | parts
         if "file" in parts["surface"]:
@@ -223,6 +248,8 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
         if gradient is None:
             points = points_of(settings, surface)
             gradient = rms_gradient(surface.heights(points), surface.length / points)
+        if not gradient > 0:
+            raise SceneError("load", name, "mean_pressure: this surface is flat")
         values = values * contact_modulus * gradient
     elif name == "contact_ratio":
         radius = settings["surface"].get("radius")

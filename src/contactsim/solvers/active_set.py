@@ -23,6 +23,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
 from contactsim.scene import WallProblem
 from contactsim.solvers.base import State, iterate
@@ -206,6 +207,10 @@ class NestedActiveSet(ActiveSet):
     coarsest: int = 64
     coarse_tolerance: float = 0.1
     coarse_budget: int = 30
+
+    def __post_init__(self) -> None:
+        if self.coarsest < 2:
+            raise SceneError("coarsest", self.coarsest, "a whole number of points, 2 or more")
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or from the solution on half as many points, and so on down to the coarsest level."""

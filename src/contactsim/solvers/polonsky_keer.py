@@ -50,20 +50,24 @@ class PolonskyKeer:
     @staticmethod
     def _iteration(problem: WallProblem, state: PolonskyKeerState) -> PolonskyKeerState:
         pressure = state.pressure
-        contact = pressure > 0
+        active = pressure > 0
         gap = problem.compliance(pressure) - problem.heights
-        gap -= gap[contact].mean()
-        worst = max(np.max(np.abs(gap[contact])), -gap.min())
-        square = float(gap[contact] @ gap[contact])
-        if worst <= problem.tolerance or square == 0:
-            return PolonskyKeerState(pressure, True, state.direction, square, False)
-        factor = 0.0 if state.grown else square / state.square
-        direction = np.where(contact, gap + factor * state.direction, 0.0)
+        gap -= gap[active].mean()
+        uneven, overlap = np.max(np.abs(gap[active])), -gap.min()
+        if max(uneven, overlap) <= problem.tolerance:
+            return PolonskyKeerState(pressure, True, state.direction, 1.0, False)
+        settled = uneven <= 1e-3 * problem.tolerance  # no direction to follow, as when one point carries the load
+        if settled:
+            active |= gap < 0
+        square = float(gap[active] @ gap[active])
+        factor = 0.0 if state.grown or settled else square / state.square
+        direction = np.where(active, gap + factor * state.direction, 0.0)
         moved = problem.compliance(direction)
-        moved -= moved[contact].mean()
+        moved -= moved[active].mean()
         curvature = float(moved @ direction)
-        length = float(gap[contact] @ direction[contact]) / curvature if curvature > 0 else 0.0
+        length = float(gap[active] @ direction[active]) / curvature if curvature > 0 else 0.0
         pressure = np.maximum(pressure - length * direction, 0.0)
         overlapping = (pressure == 0) & (gap < 0)
         pressure[overlapping] -= length * gap[overlapping]
-        return PolonskyKeerState(problem.admissible(pressure), False, direction, square, bool(overlapping.any()))
+        grown = settled or bool(overlapping.any())
+        return PolonskyKeerState(problem.admissible(pressure), False, direction, square, grown)
