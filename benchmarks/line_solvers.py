@@ -26,7 +26,7 @@ import report
 
 from contactsim.plan import Plan
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
 CASE = ("part", "solver", "setting", "hurst", "points", "member", "reduced_pressure", "tolerance")
 FOUND = ("status", "area", "certificate", "transforms", "seconds", "rounds")
 RATIOS = ("seconds_of_transforms", "per_transforms", "seconds_of_replay", "per_replay", "per_active_set")

@@ -37,7 +37,7 @@ def module_path(name: str) -> Path | None:
 def imports_of(name: str) -> frozenset[str]:
     """Modules of this package that a module imports, anywhere in it."""
     found: set[str] = set()
-    for node in ast.walk(ast.parse(module_path(name).read_text())):
+    for node in ast.walk(ast.parse(module_path(name).read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             found.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:

@@ -201,7 +201,8 @@ class Study:
             require(solver(**run.settings["solver"]), scene)
             scene.heights(points_of(run.settings, scene.upper.surface))
         except SceneError as error:
-            raise error.within(self.file, f"studies.{self.name}") from error
+            section = next((f".{name}" for name in KINDS if error.key in run.settings[name]), "")
+            raise error.within(self.file, f"studies.{self.name}{section}") from error
 
 
 def _load(section: dict, file: object, prefix: str) -> dict:
