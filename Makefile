@@ -6,7 +6,7 @@ SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 
 .PHONY: setup test help
 help: $(READY)
-	@$(SNAKEMAKE)
+	@$(SNAKEMAKE) --dry-run 2>/dev/null
 
 setup: $(READY)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import measure
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.markers import CARETUPBASE
 
 from contactsim.figures import style
 from contactsim.figures.render import framed
@@ -29,7 +30,7 @@ FIGURE = {
     "size": [9.0, 4.2],
     "panels": 2,
     "title": "Line contacts: what a solution costs",
-    "caption": f"(a) One load at H = {SHOWN:g}, to 0.001 grid steps; filled triangles: not solved in {measure.CAP} s. "
+    "caption": f"(a) One load at H = {SHOWN:g}, to 0.001 grid steps; arrowheads: not solved in {measure.CAP} s. "
     "(b) Twelve loads, each from scratch with the active set, to two tolerances in grid steps; mean of the members.",
 }
 LIMITS = {2500: "limit at tolerance 0.001", 1500: "aim at tolerance 0.001"}
@@ -103,7 +104,7 @@ def compared(rows: pd.DataFrame) -> pd.DataFrame:
 
 def draw(rows: pd.DataFrame, path: Path) -> None:
     """(a) Time of single loads; (b) transforms of all loads against the size of the grid."""
-    footer = "surfaces of rough_line in config/ch3.yaml · one thread · every solution certified by recomputation"
+    footer = "surfaces of rough_line in config/ch3.yaml · one thread · what finished is certified by recomputation"
     figure, (left, right) = framed(FIGURE, footer)
     draw_loads(left, compared(rows[rows.hurst == SHOWN]))
     draw_sweeps(right, sweep_means(rows))
@@ -111,12 +112,19 @@ def draw(rows: pd.DataFrame, path: Path) -> None:
 
 
 def draw_loads(axes: Axes, rows: pd.DataFrame) -> None:
-    """CPU seconds against reduced pressure: colours are solvers, marks are sizes; arrows were stopped."""
+    """CPU seconds against reduced pressure: colours are solvers, marks are sizes; arrowheads were stopped."""
     for (name, points), group in rows.groupby(["solver", "points"]):
-        colour = SOLVERS[name][1]
-        axes.plot(group.reduced_pressure, group.seconds, color=colour, **size_look(points))
-        stopped = group[group.status != "CONVERGED"]
-        axes.plot(stopped.reduced_pressure, stopped.seconds, "^", color=colour, markersize=8)
+        colour, solved = SOLVERS[name][1], (group.status == "CONVERGED").to_numpy()
+        marked = {"color": colour, "markevery": list(solved.nonzero()[0])}
+        axes.plot(group.reduced_pressure, group.seconds, **marked, **size_look(points))
+        axes.plot(
+            group.reduced_pressure[~solved],
+            group.seconds[~solved],
+            marker=CARETUPBASE,
+            ls="",
+            color=colour,
+            markersize=8,
+        )
     axes.axhline(measure.CAP, color="#999999", linewidth=0.7, zorder=0)
     axes.text(rows.reduced_pressure.min(), measure.CAP, f"{measure.CAP} s", fontsize=7, color="#666666", va="bottom")
     axes.set(xscale="log", yscale="log", xlabel="reduced pressure $p^*$", ylabel="CPU seconds, one load")
@@ -147,7 +155,8 @@ def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
     axes.legend(loc="lower right", handles=style.key(colours, {}) + exponents)
     for limit, text in LIMITS.items():
         axes.axhline(limit, color="#999999", linewidth=0.7)
-        axes.text(2**18, limit, text, fontsize=7, color="#666666", ha="right", va="bottom")
+        look = {"fontsize": 7, "color": "#666666", "ha": "right", "va": "bottom"}
+        axes.text(0.98, limit, text, transform=axes.get_yaxis_transform(), **look)
     axes.set_xscale("log", base=2)
     axes.set(ylim=(0, 2700), xlabel="points", ylabel="transforms of the finest grid, all 12 loads")
     style.letter(axes, "b")

@@ -213,7 +213,7 @@ def test_another_source_digest_reuses_nothing(place, solved):
         {"points": 512},
         {"body": {"kind": "half_space", "contact_modulus": 1.0}},
         {"surface": "sinusoid"},
-        {"solver": {"kind": "active_set", "reduction": 0.2}},
+        {"solver": {"kind": "active_set", "reduction": 0.05}},
         {"load": "mean_pressure"},
     ],
     ids=["tolerance", "points", "body", "surface", "solver", "kind of load"],

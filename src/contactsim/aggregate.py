@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from scipy.optimize import least_squares
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from contactsim import analytic, dataset
 from contactsim.errors import SceneError
@@ -228,4 +228,4 @@ def _jackknife(pressure: Array, area: Array, weighting: str) -> Array:
         return np.full(2, np.nan)
     parts = [fit_line_area(pressure, np.delete(area, member, axis=1), weighting) for member in range(members)]
     error = np.sqrt((members - 1) / members * np.sum((parts - np.mean(parts, axis=0)) ** 2, axis=0))
-    return error * student.ppf(0.975, members - 1)
+    return error * stdtrit(members - 1, 0.975)

@@ -140,9 +140,12 @@ def write(data: xr.Dataset, path: str | Path) -> None:
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    packed = {name: {"zlib": True, "complevel": 1} for name, item in data.data_vars.items() if item.nbytes > 1 << 14}
-    plain = {name: {"_FillValue": None} for name, item in data.variables.items() if item.dtype.kind in "fiu"}
-    encoding = {name: plain.get(name, {}) | packed.get(name, {}) for name in plain.keys() | packed.keys()}
+    encoding = {}
+    for name, item in data.variables.items():
+        if item.dtype.kind in "fiu":
+            encoding[name] = {"_FillValue": None, "fletcher32": item.ndim > 0}  # checksums: damage is an error
+            if item.nbytes > 1 << 14:
+                encoding[name] |= {"zlib": True, "complevel": 1}
     try:
         data.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
         os.replace(temporary, path)

@@ -7,6 +7,7 @@ in units of one real transform on the finest grid, which is the price that all s
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -34,10 +35,10 @@ class Grid:
         if not isinstance(self.threads, int) or self.threads < 1:
             raise SceneError("threads", self.threads, "a whole number, 1 or more")
 
-    @property
+    @cached_property
     def size(self) -> int:
         """Number of points."""
-        return int(np.prod(self.shape))
+        return math.prod(self.shape)
 
     @property
     def spacing(self) -> tuple[float, ...]:

@@ -11,4 +11,5 @@ def logged(path: str) -> None:
     stream = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 - stays open for the life of the job
     sys.stdout = sys.stderr = stream
     logging.basicConfig(stream=stream, level="INFO", format="%(asctime)s %(levelname)s %(message)s")
+    logging.getLogger("fontTools").setLevel("WARNING")
     logging.captureWarnings(True)

@@ -97,6 +97,8 @@ class Plan:
                 studies[name] = Study.read(name, section, source, main["seed"])
                 chapters[name] = file.stem
             for name, section in sections["figures"].items():
+                if name in figures:
+                    raise SceneError(f"figures.{name}", name, "a name that no other chapter has taken", file)
                 figures[name] = _figure(name, section, file, {study: studies[study] for study in sections["studies"]})
         for name in overrides["studies"]:
             raise SceneError(

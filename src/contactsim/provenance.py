@@ -76,6 +76,7 @@ def digest(*parts: object) -> str:
     return hashlib.sha256(canonical(parts).encode()).hexdigest()[:16]
 
 
+@cache
 def versions() -> dict[str, str]:
     """Version of this package and of the libraries that results depend on."""
     return {name: metadata.version(name) for name in (PACKAGE, *LIBRARIES)}

@@ -21,7 +21,7 @@ from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
 from contactsim.loading import LoadPath
-from contactsim.provenance import digest, source_digest
+from contactsim.provenance import digest, source_digest, versions
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.solvers import SOLVERS, module_of, solver, solver_class
@@ -70,8 +70,8 @@ class Run:
 
     @property
     def source(self) -> str:
-        """Digest of the modules that compute the run: the marching, and the one solver it uses."""
-        return source_digest("contactsim.march", module_of(self.settings["solver"]["kind"]))
+        """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
+        return digest(source_digest("contactsim.march", module_of(self.settings["solver"]["kind"])), versions())
 
     @property
     def digest(self) -> str:

@@ -15,7 +15,7 @@ except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
 
-if workflow.is_main_process and not workflow.dryrun:
+if workflow.is_main_process and not workflow.output_settings.dryrun:
     Path(".snakemake").mkdir(exist_ok=True)
     LOCK = open(".snakemake/one-at-a-time", "w")
     try:

@@ -117,7 +117,7 @@ class ActiveSet:
     set which does not settle is met with exact inner solutions. inner_budget: most inner iterations.
     """
 
-    reduction: float = 0.1
+    reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE, Trait.APPROACH})
@@ -205,7 +205,7 @@ class NestedActiveSet(ActiveSet):
     """
 
     coarsest: int = 64
-    coarse_tolerance: float = 0.1
+    coarse_tolerance: float = 0.3
     coarse_budget: int = 30
 
     def __post_init__(self) -> None:
@@ -219,5 +219,6 @@ class NestedActiveSet(ActiveSet):
             coarse = problem.coarser(half, self.coarse_tolerance)
             if not coarse.untouched:
                 state, *_ = iterate(self, coarse, self.start(coarse), self.coarse_budget)
-                guess = np.interp(np.arange(size), np.arange(half) * size / half, state.pressure, period=size)
+                positions = np.arange(half + 1) * (size / half)
+                guess = np.interp(np.arange(size), positions, np.append(state.pressure, state.pressure[0]))
         return super().start(problem, guess)
