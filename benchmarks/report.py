@@ -33,7 +33,6 @@ FIGURE = {
     "caption": f"(a) One load at H = {SHOWN:g}, to 0.001 grid steps; arrowheads: not solved in {measure.CAP} s. "
     "(b) Twelve loads, each from scratch with the active set, to two tolerances in grid steps; mean of the members.",
 }
-LIMITS = {2500: "limit at tolerance 0.001", 1500: "aim at tolerance 0.001"}
 BEGIN, END = "<!-- tables: written by line_solvers.py -->", "<!-- end of tables -->"
 
 
@@ -153,10 +152,6 @@ def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
     colours = {f"tolerance {tolerance:g} steps": colour for tolerance, colour in colours.items()}
     exponents = style.hurst_key(sorted(set(means.index.get_level_values("hurst"))))
     axes.legend(loc="lower right", handles=style.key(colours, {}) + exponents)
-    for limit, text in LIMITS.items():
-        axes.axhline(limit, color="#999999", linewidth=0.7)
-        look = {"fontsize": 7, "color": "#666666", "ha": "right", "va": "bottom"}
-        axes.text(0.98, limit, text, transform=axes.get_yaxis_transform(), **look)
     axes.set_xscale("log", base=2)
     axes.set(ylim=(0, 2700), xlabel="points", ylabel="transforms of the finest grid, all 12 loads")
     style.letter(axes, "b")
