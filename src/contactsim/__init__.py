@@ -2,5 +2,6 @@
 
 from contactsim.api import press
 from contactsim.errors import SceneError
+from contactsim.march import simulate
 
-__all__ = ["SceneError", "press"]
+__all__ = ["SceneError", "press", "simulate"]

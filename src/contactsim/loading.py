@@ -7,6 +7,7 @@ is then minus the largest height. Paths are joined with `>>`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,10 +18,14 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class LoadStep:
-    """One state asked for: control is Trait.MEAN_PRESSURE (value in GPa) or Trait.APPROACH (value in nm)."""
+    """One state asked for: control is Trait.MEAN_PRESSURE (value in GPa) or Trait.APPROACH (value in nm).
+
+    label: how whoever asked for it calls it, for the log.
+    """
 
     control: Trait
     value: float
+    label: str = ""
 
     def __post_init__(self) -> None:
         pressure = self.control is Trait.MEAN_PRESSURE
@@ -29,6 +34,11 @@ class LoadStep:
             raise SceneError(key, self.value, "a finite number")
         if pressure and self.value < 0:
             raise SceneError(key, self.value, "0 or more, in GPa: without adhesion nothing can pull")
+
+    @property
+    def text(self) -> str:
+        """The step in a few words."""
+        return self.label or f"{self.control.name.lower()}={self.value:g}"
 
 
 @dataclass(frozen=True)
@@ -46,11 +56,13 @@ class LoadPath:
         return frozenset(step.control for step in self.steps)
 
 
-def press(mean_pressures: tuple[float, ...] | list[float]) -> LoadPath:
-    """A path through mean pressures (GPa)."""
-    return LoadPath(tuple(LoadStep(Trait.MEAN_PRESSURE, value) for value in mean_pressures))
+def press(mean_pressures: Sequence[float], labels: Sequence[str] = ()) -> LoadPath:
+    """A path through mean pressures (GPa), with a label for each if they have other names."""
+    labels = labels or [""] * len(mean_pressures)
+    pairs = zip(mean_pressures, labels, strict=True)
+    return LoadPath(tuple(LoadStep(Trait.MEAN_PRESSURE, value, label) for value, label in pairs))
 
 
-def approach(approaches: tuple[float, ...] | list[float]) -> LoadPath:
+def approach(approaches: Sequence[float]) -> LoadPath:
     """A path through approaches (nm)."""
     return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in approaches))

@@ -12,6 +12,7 @@ import json
 import logging
 import os
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +27,7 @@ from contactsim.provenance import digest
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
 from contactsim.solvers import solver
-from contactsim.solvers.base import Result, solve
+from contactsim.solvers.base import Result, Solver, require, solve
 from contactsim.study import points_of, scene_of
 
 logger = logging.getLogger(__name__)
@@ -36,10 +37,48 @@ logger = logging.getLogger(__name__)
 class Point:
     """One solved load: numbers by name, the contact set (packed bits) and the pressure on it; seconds it took."""
 
-    numbers: dict[str, float | int | str]
+    numbers: dict[str, float | int]
     bits: Array
     pressure: Array
     seconds: float
+
+
+def simulate(
+    scene: Scene,
+    *,
+    points: int | None = None,
+    tolerance: float = 1e-3,
+    method: str | Solver = "active_set",
+    threads: int = 1,
+    known: Mapping[int, Point] | None = None,
+) -> xr.Dataset:
+    """Follow a scene's load path; the workflow's runs are this function.
+
+    points: of the grid, None for those of a measured surface; tolerance: in grid steps; method: name of a solver or a
+    solver; known: points that need not be solved again, by step. Returns one dataset with dimension `step`: numbers,
+    contact sets, pressures on them, the profile's Fourier coefficients; and `seconds`, the one variable that is not
+    reproducible.
+    """
+    known = known or {}
+    heights = scene.heights(points or scene.upper.surface.points)
+    method = solver(method) if isinstance(method, str) else method
+    require(method, scene)
+    steps, found, spent = scene.path.steps, [], []
+    for count, step in enumerate(steps):
+        if count in known:
+            found.append(known[count])
+            logger.info("step %d/%d %s taken over", count + 1, len(steps), step.text)
+            continue
+        result = solve(method, *pose(scene, step, heights, tolerance, threads))
+        found.append(_point(result, heights, scene.length / heights.size))
+        spent.append(result.seconds)
+        left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
+        logger.info(
+            "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
+            *(count + 1, len(steps), step.text, found[-1].numbers["non_uniformity"]),
+            *(result.record.transforms, result.seconds, left, result.status.sentence),
+        )
+    return _collected(scene, heights, found)
 
 
 def run(settings: dict, source: str, target: str | Path, costs: str | Path, threads: int = 1) -> None:
@@ -49,31 +88,24 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     """
     begin = time.process_time()
     scene = scene_of(settings)
-    values = settings["load"]["values"]
-    apart = settings | {"load": settings["load"]["name"]}
-    names = [digest(apart, value, source) for value in values]
-    known = _earlier(target, costs)
-    heights = scene.heights(points_of(settings, scene.upper.surface))
-    method = solver(**settings["solver"])
-    points, spent, solved = [], 0.0, 0
-    for count, (name, value, step) in enumerate(zip(names, values, scene.path.steps, strict=True), 1):
-        if name in known:
-            points.append(known[name])
-            logger.info("step %d/%d %s=%g taken over", count, len(values), settings["load"]["name"], value)
-            continue
-        result = solve(method, *pose(scene, step, heights, settings["tolerance"], threads))
-        points.append(_point(name, result, heights, scene.length / heights.size))
-        spent, solved = spent + result.seconds, solved + 1
-        left = spent / solved * sum(name not in known for name in names[count:])
-        logger.info(
-            "step %d/%d %s=%g residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
-            *(count, len(values), settings["load"]["name"], value, points[-1].numbers["non_uniformity"]),
-            *(result.record.transforms, result.seconds, left, result.status.sentence),
-        )
-    data = _collected(settings, scene, heights, values, points)
-    dataset.write(dataset.stamped(data, f"contactsim run of {settings['study']}", settings, source), target)
+    load, values = settings["load"]["name"], settings["load"]["values"]
+    names = [digest(settings | {"load": load}, value, source) for value in values]
+    earlier = _earlier(target, costs)
+    data = simulate(
+        scene,
+        points=points_of(settings, scene.upper.surface),
+        tolerance=settings["tolerance"],
+        method=solver(**settings["solver"]),
+        threads=threads,
+        known={step: earlier[name] for step, name in enumerate(names) if name in earlier},
+    )
+    seconds = data.seconds.values.tolist()
+    data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
+    data = data.assign(seed=settings["seed"], point=(load, np.array(names, object)))
+    title = f"contactsim run of {settings['study']}"
+    dataset.write(dataset.stamped(dataset.described(data), title, settings, source), target)
     price = {
-        "seconds": {name: point.seconds for name, point in zip(names, points, strict=True)},
+        "seconds": dict(zip(names, seconds, strict=True)),
         "cpu_seconds_of_last_run": time.process_time() - begin,
     }
     write_text(json.dumps(price, indent=1), costs)
@@ -91,7 +123,7 @@ def write_text(text: str, path: str | Path) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _point(name: str, result: Result, heights: Array, spacing: float) -> Point:
+def _point(result: Result, heights: Array, spacing: float) -> Point:
     certificate = result.record.certificate
     contact = result.contact
     numbers = wall_observables(heights, spacing, result.pressure, result.gap) | {
@@ -104,36 +136,34 @@ def _point(name: str, result: Result, heights: Array, spacing: float) -> Point:
         "load_error": certificate.load_error,
         "status": result.status.value[0],
         "contact_points": int(contact.sum()),
-        "point": name,
     }
     return Point(numbers, np.packbits(contact), result.pressure[contact].astype(np.float32), result.seconds)
 
 
-def _collected(settings: dict, scene: Scene, heights: Array, values: list[float], points: list[Point]) -> xr.Dataset:
-    load, spacing = settings["load"]["name"], scene.length / heights.size
-    kinds = {"status": np.int8, "iterations": np.int32, "contact_points": np.int32, "point": object}
+def _collected(scene: Scene, heights: Array, found: list[Point]) -> xr.Dataset:
+    spacing = scene.length / heights.size
+    kinds = {"status": np.int8, "iterations": np.int32, "contact_points": np.int32}
     variables = {
-        name: (load, np.array([point.numbers[name] for point in points], kinds.get(name, float)))
-        for name in points[0].numbers
-        if name != load
+        name: ("step", np.array([point.numbers[name] for point in found], kinds.get(name, float)))
+        for name in found[0].numbers
     }
     half = Grid((heights.size,), (scene.length,)).forward(heights)
     half = half[: getattr(scene.upper.surface, "modes", half.size) + 1]
     variables |= {
+        "seconds": ("step", [point.seconds for point in found]),
         "rms_height": rms_height(heights),
         "rms_gradient": rms_gradient(heights, spacing),
         "rms_curvature": rms_curvature(heights, spacing),
         "approach_first_touch": -float(heights.max()),
-        "seed": settings["seed"],
-        "contact_bits": ((load, "byte"), np.stack([point.bits for point in points])),
-        "contact_pressure": ("contact_point", np.concatenate([point.pressure for point in points])),
+        "contact_bits": (("step", "byte"), np.stack([point.bits for point in found])),
+        "contact_pressure": ("contact_point", np.concatenate([point.pressure for point in found])),
         "profile_real": ("mode", half.real.copy()),
         "profile_imag": ("mode", half.imag.copy()),
         "points": heights.size,
         "length": scene.length,
         "contact_modulus": scene.contact_modulus,
     }
-    return dataset.described(xr.Dataset(variables, {load: values}))
+    return dataset.described(xr.Dataset(variables))
 
 
 def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
@@ -144,16 +174,15 @@ def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
         data = dataset.read(target)
         ends = np.cumsum(data.contact_points.values)
         seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}
-        names = [
-            name for name, item in data.variables.items() if item.dims == data.status.dims and name not in data.dims
-        ]
+        apart = set(data.dims) - {"mean_pressure"} | {"point"}
+        names = [name for name, item in data.variables.items() if item.dims == data.status.dims and name not in apart]
         found = {}
         for row, end in enumerate(ends):
-            numbers = {name: data[name].values[row].item() for name in names if name != "point"}
+            numbers = {name: data[name].values[row].item() for name in names}
             name = str(data.point.values[row])
             pressure = data.contact_pressure.values[end - data.contact_points.values[row] : end]
             bits = data.contact_bits.values[row]
-            found[name] = Point(numbers | {"point": name}, bits, pressure, seconds.get(name, float("nan")))
+            found[name] = Point(numbers, bits, pressure, seconds.get(name, float("nan")))
         return found
     except (SceneError, AttributeError, KeyError, TypeError, ValueError) as error:
         logger.warning("%s cannot be reused and is computed anew: %s", target, error)

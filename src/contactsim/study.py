@@ -244,6 +244,7 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
     what a cylinder needs for a half-width of that part of its radius (Eq. 3.5).
     """
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
+    labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
         gradient = settings["surface"].get("rms_gradient")
         if gradient is None:
@@ -257,4 +258,4 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
         if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
         values = analytic.cylinder_load(values * radius, radius, contact_modulus) / surface.length
-    return loading.press([float(value) for value in values])
+    return loading.press([float(value) for value in values], labels)
