@@ -11,7 +11,9 @@ from cases import ALL, press, rough
 from contactsim import loading
 from contactsim.elasticity import HalfSpace
 from contactsim.errors import SceneError
+from contactsim.explain import explain
 from contactsim.laws import HardWall
+from contactsim.march import simulate
 from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
@@ -77,15 +79,52 @@ def test_complete_contact_costs_next_to_nothing():
     assert press(0.01 * rough(4096), 1.0).record.transforms < 20
 
 
-def test_peak_memory_is_a_few_fields():
-    points = 2**16
+@pytest.mark.parametrize("pressure", [1e-3, 0.05, 3.0])
+@pytest.mark.parametrize("name", ALL)
+def test_peak_memory_is_the_few_fields_that_are_explained(name, pressure):
+    points = 2**15
+    method = solver(name) if name == "active_set" else solver(name, budget=2)
     heights = rough(points)
-    press(heights, 0.01)
     tracemalloc.start()
-    press(heights, 0.01)
+    press(heights, pressure, method)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert peak < 22 * 8 * points  # fields of the fine grid; a tangential component would add as many again
+    told = 1e6 * explain(scene(path=loading.press([pressure])), points, name).megabytes
+    assert 0.6 * told < peak < 1.1 * told  # a tangential component would add as much again
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_an_iteration_takes_the_transforms_that_are_explained(name):
+    subject = scene()
+    points, counts = 512, []
+    batch = {"active_set": "inner_budget", "polonsky_keer": "batch", "verlet": "batch"}[name]
+    for iterations in (3, 8):
+        method = solver(name, **{batch: iterations, "budget": 1})
+        if name == "active_set":
+            method.coarsest, method.reduction = points, 1e-12
+        problem, scale = pose(subject, subject.path.steps[0], rough(points), 1e-12, 1)
+        counts.append(solve(method, problem, scale).record.transforms)
+    assert (counts[1] - counts[0]) / 5 == explain(subject, points, name).transforms
+
+
+def test_what_is_not_listed_is_not_stored():
+    data = simulate(scene(), points=256)
+    assert set(data.dims) == {"step", "byte", "contact_point", "mode"}  # no component axis: there is one
+    assert not [name for name in data if "tangential" in str(name) or "shear" in str(name)]
+
+
+def test_an_explanation_says_what_is_on_what_is_not_and_who_may_solve_it():
+    told = explain(scene(), 256, "active_set")
+    assert told.fields == ("normal displacement", "normal traction")
+    assert told.left_out["tangential displacement and traction"] == "no effect reads or exerts them"
+    assert told.left_out["deformation of the upper body"].startswith("rigid")
+    assert told.unknowns == 256
+    assert dict.fromkeys(ALL, "") == told.solvers
+    moved = explain(scene(path=loading.approach([-0.5])), 256, "active_set")
+    assert "approach" in moved.solvers["verlet"]
+    assert "verlet: does not take load step given by an approach" in moved.text
+    both = scene(Body(Flat(64.0), HalfSpace(2.0)), Body(Sinusoid(64.0, 1.0), HalfSpace(2.0)))
+    assert "the second displacement field" in explain(both, 256, "active_set").left_out
 
 
 def test_a_smooth_scene_asks_for_no_random_numbers():

@@ -57,6 +57,11 @@ class Continuation:
         return np.add.reduceat(values, self._begin) - right + np.roll(right, 1)
 
 
+def block_of(points: int) -> int:
+    """Points of a block of the preconditioner's stiffness: 8, or 1 where the grid does not divide."""
+    return 8 if points % 8 == 0 and points >= 512 else 1
+
+
 class BlockStiffness:
     """Stiffness K for preconditioning: nearest neighbours, and the rest on blocks of points.
 
@@ -69,7 +74,8 @@ class BlockStiffness:
         """uniform: whether the uniform mode is free (K = 0 there) or as stiff as the longest wave."""
         grid = compliance.grid
         size = grid.size
-        self.block, self.reach = (8, (1, 3, 5)) if size % 8 == 0 and size >= 512 else (1, ())
+        self.block = block_of(size)
+        self.reach = (1, 3, 5) if self.block > 1 else ()
         coarse = grid.coarser(size // self.block)
         stiffness = np.zeros(coarse.size // 2 + 1)
         stiffness[1:] = 1 / compliance.symbol[1 : coarse.size // 2 + 1]
@@ -120,9 +126,14 @@ class ActiveSet:
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
+    fields = 24
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE, Trait.APPROACH})
     _stiffness: BlockStiffness | None = field(default=None, init=False, repr=False)
     _work: Array | None = field(default=None, init=False, repr=False)
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of an inner iteration on a grid of that size: two, and two on the blocks."""
+        return 2 + 2 / block_of(points)
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or with a load from uniform pressure, with an approach from the overlap of the bodies."""

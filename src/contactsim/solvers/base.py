@@ -42,10 +42,19 @@ class State:
 
 
 class Solver(Protocol):
-    """A method for some kinds of scene."""
+    """A method for some kinds of scene.
+
+    accepts: the traits it can take; budget: most outer steps; fields: doubles a point and component that it holds at
+    its peak, with the problem's own.
+    """
 
     accepts: frozenset[Trait]
     budget: int
+    fields: int
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of an iteration on a grid of that size."""
+        ...
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> State:
         """The first state, from a guess of the pressure where there is one."""

@@ -32,7 +32,12 @@ class PolonskyKeer:
 
     batch: int = 25
     budget: int = 400
+    fields = 18
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of an iteration on a grid of that size."""
+        return 4.0
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> PolonskyKeerState:
         """From a guess or uniform pressure."""

@@ -40,6 +40,7 @@ class WallVerlet:
     damping: float = 1.0
     batch: int = 100
     budget: int = 2000
+    fields = 18
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
     _stiffness: Operator | None = field(default=None, init=False, repr=False)
 
@@ -48,6 +49,10 @@ class WallVerlet:
             raise SceneError("time_step", self.time_step, "above 0 and below 1, the stability limit")
         if not self.damping > 0:
             raise SceneError("damping", self.damping, "a positive number")
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of an iteration on a grid of that size."""
+        return 2.0
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> VerletState:
         """At rest and undeformed, the highest point just touching, or deformed by the guess."""

@@ -1,0 +1,102 @@
+"""`contactsim explain | run`: one scene from the shell.
+
+A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion` and `fit_limits`, and
+may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+from pathlib import Path
+
+from contactsim import dataset
+from contactsim.config import load_yaml, whole
+from contactsim.errors import SceneError
+from contactsim.explain import explain
+from contactsim.march import simulate
+from contactsim.plan import Plan
+from contactsim.scene import Scene
+from contactsim.solvers import solver
+from contactsim.study import Study, points_of, scene_of
+
+
+def read_scene(path: str) -> Study:
+    """The one-run study in a scene file."""
+    section = load_yaml(path)
+    seed = section.pop("seed", 0)
+    try:
+        whole(0)(seed)
+    except ValueError as error:
+        raise SceneError("seed", seed, "a whole number, 0 or more", path) from error
+    study = Study.read(Path(path).stem, {"title": Path(path).stem} | section, path, seed)
+    if len(study.runs()) > 1:
+        raise SceneError("vary, members, companion", len(study.runs()), "one run: these belong to studies", path)
+    return study
+
+
+def named(scene: str, tier: str | None) -> Study:
+    """A study, from a scene file or by its name in ./config."""
+    if Path(scene).suffix in (".yaml", ".yml"):
+        return read_scene(scene)
+    studies = Plan.read("config", tier).studies
+    if scene not in studies:
+        raise SceneError("scene", scene, f"a .yaml file or one of {', '.join(studies)}")
+    return studies[scene]
+
+
+def first_scene(study: Study) -> tuple[Scene, dict, int]:
+    """Scene, settings and grid points of a study's first run."""
+    settings = study.runs()[0].settings
+    scene = scene_of(settings)
+    return scene, settings, points_of(settings, scene.upper.surface)
+
+
+def explain_scene(options: argparse.Namespace) -> None:
+    """Print what a scene does and costs; draw it if asked to."""
+    study = named(options.scene, options.tier)
+    scene, settings, points = first_scene(study)
+    runs = len(study.runs())
+    sys.stdout.write(f"{study.settings['title']}: {points} points, {runs} run{'s' * (runs > 1)}\n")
+    sys.stdout.write(explain(scene, points, settings["solver"]["kind"]).text + "\n")
+    if options.draw:
+        from contactsim.figures.sketch import save_sketch
+
+        save_sketch(scene, points, options.draw)
+
+
+def run_scene(options: argparse.Namespace) -> None:
+    """Simulate a scene file and write its dataset beside it, or where asked."""
+    study = read_scene(options.scene)
+    scene, settings, points = first_scene(study)
+    method = solver(**settings["solver"])
+    data = simulate(scene, points=points, tolerance=settings["tolerance"], method=method, threads=options.threads)
+    target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
+    run = study.runs()[0]
+    stamped = dataset.stamped(data.drop_vars("seconds"), study.settings["title"], run.settings, run.source)
+    dataset.write(stamped, target)
+    columns = ["mean_pressure", "relative_contact_area", "mean_gap", "non_uniformity", "transforms", "status"]
+    sys.stdout.write(data[columns].to_dataframe().to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="contactsim", description="One scene from the shell.")
+    commands = parser.add_subparsers(required=True)
+    telling = commands.add_parser("explain", help="which effects are on, what exists, what it costs")
+    telling.add_argument("scene", help="a scene file, or the name of a study in ./config")
+    telling.add_argument("--tier", help="tier of the study")
+    telling.add_argument("--draw", metavar="FILE", help="draw the scene into a .png, .pdf or .svg")
+    telling.set_defaults(call=explain_scene)
+    running = commands.add_parser("run", help="simulate it")
+    running.add_argument("scene", help="a scene file")
+    running.add_argument("--output", metavar="FILE", help="dataset to write, default beside the scene file")
+    running.add_argument("--threads", type=int, default=1)
+    running.set_defaults(call=run_scene)
+    options = parser.parse_args(arguments)
+    logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
+    try:
+        options.call(options)
+    except SceneError as error:
+        sys.exit(f"Error: {error}")

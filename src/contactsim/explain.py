@@ -1,0 +1,117 @@
+"""What a scene will cost and why: its effects, the fields that exist, what was left out, who may solve it.
+
+Everything said here is read off the scene and the solvers' own declarations, so it is what the simulation does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from contactsim.laws import EFFECTS
+from contactsim.scene import Scene
+from contactsim.solvers import SOLVERS, solver
+from contactsim.traits import Trait
+
+COMPONENTS = {"n": "normal", "t": "tangential"}
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A scene in words and numbers.
+
+    effects: those that are on, with what they read and exert; fields: what exists at each point; left_out: what does
+    not, and why; unknowns: of one load step; transforms: of an iteration; megabytes: peak, about; solvers: for each
+    that exists, why not, or nothing; chosen: the solver that will be used.
+    """
+
+    bodies: tuple[str, str]
+    effects: dict[str, str]
+    fields: tuple[str, ...]
+    left_out: dict[str, str]
+    unknowns: int
+    steps: int
+    transforms: float
+    megabytes: float
+    solvers: dict[str, str]
+    chosen: str
+
+    @property
+    def text(self) -> str:
+        """The explanation as it is printed."""
+        refused = [
+            f"{name}: {why}" if why else f"{name}{' (chosen)' * (name == self.chosen)}"
+            for name, why in self.solvers.items()
+        ]
+        parts = {
+            "above": [self.bodies[0]],
+            "below": [self.bodies[1]],
+            "effects on": [f"{name}: {what}" for name, what in self.effects.items()],
+            "fields that exist": list(self.fields),
+            "left out, and why": [f"{name}: {why}" for name, why in self.left_out.items()],
+            "unknowns": [f"{self.unknowns} at each of {self.steps} load steps"],
+            "cost": [f"{self.transforms:g} real transforms an iteration, about {self.megabytes:.3g} MB"],
+            "solvers": refused,
+        }
+        return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
+
+
+def explain(scene: Scene, points: int, method: str) -> Explanation:
+    """Explain a scene on a grid of `points` with the solver named `method`."""
+    chosen = solver(method)
+    return Explanation(
+        bodies=(_body(scene, "upper"), _body(scene, "lower")),
+        effects={_name(effect): _effect(effect) for effect in scene.effects},
+        fields=tuple(
+            f"{COMPONENTS[component]} {field}"
+            for component in scene.components
+            for field in ("displacement", "traction")
+        ),
+        left_out=_left_out(scene),
+        unknowns=points * len(scene.components),
+        steps=len(scene.path.steps),
+        transforms=chosen.transforms(points),
+        megabytes=chosen.fields * len(scene.components) * points * 8 / 1e6,
+        solvers={name: _why_not(scene, name) for name in SOLVERS},
+        chosen=method,
+    )
+
+
+def _body(scene: Scene, side: str) -> str:
+    body = getattr(scene, side)
+    kind = type(body.surface).__name__
+    if body.elasticity is None:
+        return f"{kind}, rigid"
+    return f"{kind}, {type(body.elasticity).__name__} with E* = {body.elasticity.contact_modulus:g} GPa"
+
+
+def _name(effect: object) -> str:
+    return next(name for name, kind in EFFECTS.items() if isinstance(effect, kind))
+
+
+def _effect(effect: object) -> str:
+    reads, exerts = (" and ".join(COMPONENTS[c] for c in sorted(parts)) for parts in (effect.reads, effect.exerts))
+    first = type(effect).__doc__.split("\n")[0].rstrip(".")
+    return f"{first}; reads the {reads} gap, exerts {exerts} traction"
+
+
+def _left_out(scene: Scene) -> dict[str, str]:
+    """What does not exist in a scene, and why."""
+    out = {
+        f"{COMPONENTS[component]} displacement and traction": "no effect reads or exerts them"
+        for component in COMPONENTS
+        if component not in scene.components
+    }
+    for side in ("upper", "lower"):
+        if getattr(scene, side).elasticity is None:
+            out[f"deformation of the {side} body"] = "rigid: absent, not stiff"
+    if len(scene.elasticities) == 2:
+        out["the second displacement field"] = "aligned bodies: their compliances add"
+    if Trait.HALF_SPACE in scene.traits:
+        out["mean displacement"] = "free on a half-space: zero by convention"
+    unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(on, kind) for on in scene.effects)]
+    return out | dict.fromkeys(unlisted, "not listed")
+
+
+def _why_not(scene: Scene, name: str) -> str:
+    missing = sorted(trait.value for trait in scene.traits - solver(name).accepts)
+    return f"does not take {missing[0]}" if missing else ""

@@ -1,0 +1,56 @@
+"""A scene drawn from itself: the bodies, what is rigid, what drives them (as thesis Figs 2.1, 4.1, 5.1)."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from contactsim.figures import style
+from contactsim.scene import Body, Scene
+from contactsim.traits import Trait
+
+ELASTIC, RIGID = "#cfe3d4", "#d9d9d9"
+
+
+def save_sketch(scene: Scene, points: int, path: str) -> None:
+    """Draw a scene into a file."""
+    figure = Figure(figsize=(5.2, 3.2), layout="constrained")
+    sketch(scene, points, figure.subplots())
+    figure.savefig(path)
+
+
+def sketch(scene: Scene, points: int, axes: Axes) -> None:
+    """Both bodies before they touch, heights enlarged to be seen; at most 2000 points of the profile are drawn."""
+    shown = np.linspace(0, points - 1, min(points, 2000)).astype(int)
+    x = shown / points * scene.length
+    lower, upper = (body.surface.heights(points)[shown] for body in (scene.lower, scene.upper))
+    span = max(np.ptp(lower), np.ptp(upper)) or 1.0
+    depth, gap = 1.6 * span, 0.35 * span
+    top = lower.max() + gap + upper.max()
+    _body(axes, scene.lower, x, lower, lower.min() - depth, "lower")
+    _body(axes, scene.upper, x, top - upper, top - upper.min() + 0.8 * span, "upper")
+    _drive(axes, scene, top - upper.min() + 0.8 * span, span)
+    for edge in (0.0, scene.length):
+        axes.axvline(edge, color=style.EXACT, lw=0.8, ls=(0, (4, 4)))
+    axes.set(xlabel=r"$x$ (nm), periodic", ylabel=r"$z$ (nm)", xlim=(-0.02 * scene.length, 1.02 * scene.length))
+    ratio = scene.length / (6 * span)
+    axes.set_title(f"heights enlarged about {ratio:.2g} times" if ratio > 1.5 else "", fontsize=7, loc="right")
+
+
+def _body(axes: Axes, body: Body, x: np.ndarray, surface: np.ndarray, far: float, side: str) -> None:
+    rigid = body.elasticity is None
+    axes.fill_between(x, surface, far, color=RIGID if rigid else ELASTIC, lw=0)
+    axes.plot(x, surface, color=style.EXACT, lw=0.8)
+    kind = "rigid" if rigid else rf"{type(body.elasticity).__name__}, $E^*$ = {body.elasticity.contact_modulus:g} GPa"
+    place = 0.75 * far + 0.25 * (surface.min() if side == "lower" else surface.max())
+    axes.text(x.mean(), place, f"{type(body.surface).__name__}, {kind}", ha="center", va="center", fontsize=8)
+
+
+def _drive(axes: Axes, scene: Scene, height: float, span: float) -> None:
+    pressed = Trait.MEAN_PRESSURE in scene.traits
+    for place in np.linspace(0.1, 0.9, 5) * scene.length if pressed else (0.5 * scene.length,):
+        axes.annotate("", (place, height), (place, height + 0.6 * span), arrowprops={"arrowstyle": "-|>", "color": "k"})
+    label = r"$p$" if pressed else r"$\delta$"
+    axes.text(0.53 * scene.length, height + 0.4 * span, label, fontsize=9, va="center")
+    axes.set_ylim(top=height + 0.75 * span)
