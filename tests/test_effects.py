@@ -99,9 +99,8 @@ def test_an_iteration_takes_the_transforms_that_are_explained(name):
     points, counts = 512, []
     batch = {"active_set": "inner_budget", "polonsky_keer": "batch", "verlet": "batch"}[name]
     for iterations in (3, 8):
-        method = solver(name, **{batch: iterations, "budget": 1})
-        if name == "active_set":
-            method.coarsest, method.reduction = points, 1e-12
+        alone = {"coarsest": points, "reduction": 1e-12} if name == "active_set" else {}
+        method = solver(name, **{batch: iterations, "budget": 1}, **alone)
         problem, scale = pose(subject, subject.path.steps[0], rough(points), 1e-12, 1)
         counts.append(solve(method, problem, scale).record.transforms)
     assert (counts[1] - counts[0]) / 5 == explain(subject, points, name).transforms

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 from scipy.optimize import nnls
@@ -12,6 +14,7 @@ from contactsim import analytic, loading
 from contactsim.elasticity import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.laws import HardWall
+from contactsim.measured import Profile, prepare
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import SOLVERS, solver
@@ -283,3 +286,36 @@ def test_the_cascade_costs_less_than_starting_on_the_fine_grid():
         assert_solved(result)
         work[name] = result.record.transforms
     assert work["nested"] < 0.8 * work["plain"]
+
+
+# ---- hard for rounding
+
+
+@pytest.mark.parametrize("load", [1e-10, 1e-20, 1e-200])
+def test_a_load_far_below_the_rounding_of_the_gaps_stands_on_one_point(load):
+    heights = np.random.default_rng(1).standard_normal(4096)
+    result = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=load)
+    assert result.status is Status.CONVERGED
+    assert result.contact.nonzero()[0].tolist() == [heights.argmax()]
+
+
+@pytest.mark.parametrize("name", list(SOLVERS))
+def test_a_profile_that_is_flat_but_for_rounding_is_in_full_contact(name):
+    plane = prepare(Profile(np.linspace(0.0, 50.0, 1000), 2.0, None), detrend="linear")
+    assert 0 < np.ptp(plane.heights) < 1e-12
+    result = contactsim.press(plane.heights, spacing=2.0, contact_modulus=70.0, mean_pressure=0.1, solver=name)
+    assert result.status is Status.CONVERGED
+    assert result.contact.all()
+
+
+def test_one_solver_serves_several_threads_at_once():
+    heights = np.random.default_rng(1).standard_normal(4096)
+    shared = solver("active_set")
+
+    def area(load):
+        pressed = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=load, solver=shared)
+        return pressed.relative_contact_area
+
+    loads = [0.01, 0.02, 0.05, 0.1] * 4
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(area, loads)) == [area(load) for load in loads]

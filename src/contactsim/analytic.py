@@ -32,9 +32,6 @@ def cylinder_rms_gradient(half_width: Array, radius: float) -> Array:
 CYLINDER_KAPPA_R = 8 / (np.pi * np.sqrt(3))
 """Proportionality of area and reduced pressure for a cylinder, 1.470 (Eq. 3.7)."""
 
-HERTZ_KAPPA_R = float(3 * np.pi / (4 * np.sqrt(2)))
-"""The same for a sphere: πc²·ḡ_r E*/L with L = 4E*c³/(3R) and ḡ_r = c/(R√2), 1.666 (Table 3.1)."""
-
 
 def full_contact_pressure(amplitude: float, length: float, contact_modulus: float) -> float:
     """Mean pressure π E* h₀/L above which a sinusoid of amplitude h₀ is in complete contact (Westergaard 1939)."""

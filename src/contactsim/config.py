@@ -162,7 +162,7 @@ def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
 
 _TYPES = {
     float: (number, "a number"),
-    int: (whole(0), "a whole number"),
+    int: (whole(1), "a whole number, 1 or more"),
     str: (text, "text"),
     float | None: (number, "a number, or leave the key out"),
     str | None: (text, "text, or leave the key out"),

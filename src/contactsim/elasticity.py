@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim.errors import SceneError
+from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -36,7 +36,7 @@ class HalfSpace:
     traits = frozenset({Trait.HALF_SPACE})
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.contact_modulus) and self.contact_modulus > 0):
+        if not (is_number(self.contact_modulus) and self.contact_modulus > 0):
             raise SceneError("contact_modulus", self.contact_modulus, "a positive, finite number in GPa")
 
     def compliance(self, wavenumber: Array) -> Array:

@@ -6,6 +6,9 @@ Numerical failure is not an error but a `Status` stored with the result.
 
 from __future__ import annotations
 
+import math
+from numbers import Real
+
 
 class SceneError(ValueError):
     """Input that cannot be simulated.
@@ -23,6 +26,11 @@ class SceneError(ValueError):
         """Return the same error with the file, and the section of it, in which the key was read."""
         key = f"{prefix}.{self.key}" if prefix else self.key
         return SceneError(key, self.value, self.allowed, self.file if self.file is not None else file)
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is one finite real number; text, booleans and arrays are not."""
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def shown(value: object) -> str:

@@ -32,7 +32,7 @@ class Grid:
             raise SceneError("points", self.shape, "at least 2 points in each direction")
         if any(not (np.isfinite(length) and length > 0) for length in self.lengths):
             raise SceneError("length", self.lengths, "a positive, finite period in nm")
-        if not isinstance(self.threads, int) or self.threads < 1:
+        if isinstance(self.threads, bool) or not isinstance(self.threads, int | np.integer) or self.threads < 1:
             raise SceneError("threads", self.threads, "a whole number, 1 or more")
 
     @cached_property

@@ -10,9 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from contactsim.errors import SceneError
+from contactsim.errors import SceneError, is_number
 from contactsim.traits import Trait
 
 
@@ -30,7 +28,7 @@ class LoadStep:
     def __post_init__(self) -> None:
         pressure = self.control is Trait.MEAN_PRESSURE
         key = "mean_pressure" if pressure else "approach"
-        if isinstance(self.value, bool | str) or not np.isfinite(self.value):
+        if not is_number(self.value):
             raise SceneError(key, self.value, "a finite number")
         if pressure and self.value < 0:
             raise SceneError(key, self.value, "0 or more, in GPa: without adhesion nothing can pull")

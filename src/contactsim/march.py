@@ -11,6 +11,8 @@ from __future__ import annotations
 import json
 import logging
 import os
+import resource
+import sys
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -107,8 +109,14 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     price = {
         "seconds": dict(zip(names, seconds, strict=True)),
         "cpu_seconds_of_last_run": time.process_time() - begin,
+        "peak_memory_of_last_run": peak_memory(),
     }
     write_text(json.dumps(price, indent=1), costs)
+
+
+def peak_memory() -> float:
+    """Largest resident memory of this process so far (MiB)."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
 
 
 def write_text(text: str, path: str | Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +17,9 @@ CONFIG_KEYS = {
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
 }
+RESERVED = ("all", "targets", "run", "aggregate", "unknown_target")
+"""Names that the workflow's own rules have."""
+
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies"),
     "figures": Key(mapping, "a mapping from names to figures"),
@@ -85,6 +89,9 @@ class Plan:
         for file in sorted(folder.glob("ch*.yaml")):
             sections = read(load_yaml(file), CHAPTER_KEYS, file)
             for name, section in sections["studies"].items():
+                if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or name in (*RESERVED, *sections["figures"]):
+                    allowed = f"letters, digits and underscores; no figure's name and none of {', '.join(RESERVED)}"
+                    raise SceneError("studies", name, allowed, file)
                 if name in studies:
                     raise SceneError(f"studies.{name}", name, f"a name that {chapters[name]}.yaml has not taken", file)
                 over = overrides["studies"].pop(name, {})

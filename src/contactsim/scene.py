@@ -21,12 +21,15 @@ from functools import cached_property, reduce
 import numpy as np
 
 from contactsim.elasticity import Elasticity
-from contactsim.errors import SceneError
+from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Operator, Tally
 from contactsim.laws import HardWall
 from contactsim.loading import LoadPath, LoadStep
 from contactsim.surface import Surface
 from contactsim.traits import Trait
+
+FLATTEST = 1e-10
+"""Smallest grid step told from rounding, over p·spacing/E*: below it the latter counts as the length."""
 
 
 @dataclass(frozen=True)
@@ -187,17 +190,18 @@ class Certificate:
 
 def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int) -> tuple[WallProblem, Scale]:
     """The problem that a scene poses at one load step on the grid of `heights` (n,), nm; and its units."""
-    if not (np.isfinite(tolerance) and tolerance > 0):
+    if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
     grid = Grid((heights.size,), (scene.length,), threads)
     flexibility = grid.spacing[0] / scene.contact_modulus
     highest = float(heights.max())
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
-    unit = grid_step(heights) or (pressure or 1.0) * flexibility
+    # A profile that is flat but for rounding has no grid step of its own: what the load moves takes its place.
+    unit = max(grid_step(heights), FLATTEST * (pressure or 0.0) * flexibility) or flexibility
     approach = None if pressure is not None else (step.value + highest) / unit
     free = Trait.HALF_SPACE in scene.traits
     if free and approach is not None and approach > 0 and step.value >= -heights.mean():
-        allowed = f"below {-heights.mean():.6g} nm, where the half-space would be in full contact"
+        allowed = f"below {-heights.mean():.17g} nm, where the half-space would be in full contact"
         raise SceneError("approach", step.value, allowed)
     scale = Scale(unit, unit / flexibility, highest)
     tally = Tally(heights.size)

@@ -108,7 +108,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], reference: Mapping[str, float]) 
         handles=style.key(colours | {r"$\bar g_r$ over pairs in contact": style.PAIRS}, lines), loc="upper right"
     )
     middle.set_ylim(top=middle.get_ylim()[1] * 1.25)
-    right.text(0.03, 0.03, _constancy(data), transform=right.transAxes, fontsize=6.5, va="bottom")
+    right.text(0.03, 0.03, _constancy(data), transform=right.transAxes, fontsize=6, va="bottom")
     return style.averages(data, AVERAGES)
 
 
@@ -117,11 +117,12 @@ def _constancy(data: xr.Dataset) -> str:
     if data.member.size < 2:
         return ""
     lines = []
-    for along, text in (("reduced_pressure", "$p^*$"), ("hurst", "$H$")):
+    for along, text, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst", "$H$", "$p^*$")):
         found = departure(data, "kappa_r", along)
-        lines.append(
-            f"most significant change with {text}: {found.difference:.3f} = {found.in_errors:.1f} standard errors"
-        )
+        first, second = (place[along] for place in found.places)
+        (at,) = (value for name, value in found.places[0].items() if name != along)
+        lines.append(rf"{text} from {first:g} to {second:g} at {other} = {at:g}: $\kappa_r$ changes")
+        lines.append(f"    by {found.difference:.3f}, {found.in_errors:.1f} standard errors")
     return "\n".join(lines)
 
 
@@ -133,7 +134,7 @@ def fig_3_3(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.
         for name in data.fitted.values:
             fit = lowest.sel(weighting=weighting, fitted=name)
             curve = analytic.line_area(dense, float(fit.fit_b1), float(fit.fit_b2)) / dense
-            color, line = (style.PAIRS, "--") if name == "all" else (style.WHOLE, style.hurst(float(name))["linestyle"])
+            color, line = (style.PAIRS, "-") if name == "all" else (style.WHOLE, style.hurst(float(name))["linestyle"])
             axes.plot(dense, curve, color=color, ls=line, lw=width, alpha=alpha)
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value) | {"linestyle": "none"}
@@ -141,8 +142,7 @@ def fig_3_3(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.
     axes.plot(dense, analytic.persson_area(dense) / dense, color=style.EXACT, lw=0.8)
     axes.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}_{\mathrm{fit}}$")
     axes.set_ylim(top=axes.get_ylim()[1] * 1.22)
-    faint = "#e0938f"
-    colours = {"one $H$, fit of the area": style.WHOLE, "one $H$, fit of its logarithm": faint, "all $H$": style.PAIRS}
+    colours = {"fit to one $H$": style.WHOLE, "fit to all $H$": style.PAIRS}
     keys = style.hurst_key(data.hurst.values) + style.key(colours, {"Persson (2D)": "-"})
     axes.legend(handles=keys, ncols=2, loc="upper right")
     names = [name for name in data.data_vars if str(name).startswith("fit_")]

@@ -19,7 +19,7 @@ in place of 4.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -109,13 +109,18 @@ class BlockStiffness:
 
 @dataclass(frozen=True)
 class ActiveSetState(State):
-    """Pressure (n,), zero outside the contact set that `continuation` describes, and the outer step."""
+    """Pressure (n,), zero outside the contact set that `continuation` describes; outer steps done; what they need.
+
+    stiffness: of the preconditioner; work: (3, n), overwritten by every step.
+    """
 
     continuation: Continuation
     count: int
+    stiffness: BlockStiffness
+    work: Array
 
 
-@dataclass
+@dataclass(frozen=True)
 class ActiveSet:
     """One outer step solves on a contact set and updates the set.
 
@@ -128,8 +133,10 @@ class ActiveSet:
     budget: int = 200
     fields = 24
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE, Trait.APPROACH})
-    _stiffness: BlockStiffness | None = field(default=None, init=False, repr=False)
-    _work: Array | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if not 0 < self.reduction < 1:
+            raise SceneError("reduction", self.reduction, "above 0 and below 1")
 
     def transforms(self, points: int) -> float:
         """Real transforms of an inner iteration on a grid of that size: two, and two on the blocks."""
@@ -137,36 +144,39 @@ class ActiveSet:
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or with a load from uniform pressure, with an approach from the overlap of the bodies."""
-        self._stiffness = BlockStiffness(problem.compliance, uniform=problem.load is not None)
-        self._work = np.empty((3, problem.heights.size))
         pressure = np.zeros_like(problem.heights) if guess is None else problem.admissible(guess)
         contact = pressure > 0
         if not contact.any():
             contact = problem.heights > (-np.inf if problem.load is not None else -problem.approach)
             pressure[contact] = problem.load or 0.0
-        return ActiveSetState(pressure, False, Continuation(_solvable(problem, contact)), 0)
+        stiffness = BlockStiffness(problem.compliance, uniform=problem.load is not None)
+        work = np.empty((3, problem.heights.size))
+        return ActiveSetState(pressure, False, Continuation(_solvable(problem, contact)), 0, stiffness, work)
 
     def step(self, problem: WallProblem, state: ActiveSetState) -> ActiveSetState:
         """Solve on the contact set, then drop what pulls and add what overlaps."""
         pressure, index = state.pressure.copy(), state.continuation.index
         reduction = self.reduction ** (2 ** (state.count // 10))
-        gap, approach = self._relax(problem, pressure, state.continuation, reduction)
+        gap, approach = self._relax(problem, pressure, state, reduction)
         residual = np.max(np.abs(gap[index] - approach))
         overlapping = gap < approach - problem.tolerance / 2
         overlapping[index] = False
         if not (overlapping.any() or (pressure < 0).any()):
-            return ActiveSetState(pressure, residual <= problem.tolerance, state.continuation, state.count + 1)
+            return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=state.count + 1)
         continuation = Continuation(_solvable(problem, (pressure > 0) | overlapping))
         moved = continuation.restrict(np.roll(pressure, -continuation.index[0]))
         pressure[:] = 0.0
+        if problem.load is not None and moved.size == 1:
+            moved[:] = problem.load * pressure.size  # exactly: a small load is lost in the rounding of what moved
         pressure[continuation.index] = moved  # what dropped points carried went to their neighbours: the load stays
-        return ActiveSetState(pressure, False, continuation, state.count + 1)
+        return replace(state, pressure=pressure, continuation=continuation, count=state.count + 1)
 
     def _relax(
-        self, problem: WallProblem, pressure: Array, continuation: Continuation, reduction: float
+        self, problem: WallProblem, pressure: Array, state: ActiveSetState, reduction: float
     ) -> tuple[Array, float]:
         """Conjugate gradients on the contact set, in place; returns the gap less the approach, and the approach."""
-        index, (gap, spread, moved) = continuation.index, self._work
+        continuation, stiffness, (gap, spread, moved) = state.continuation, state.stiffness, state.work
+        index = continuation.index
         problem.compliance(pressure, out=gap)
         gap -= problem.heights
         residual, approach = _residual(problem, gap[index])
@@ -175,8 +185,8 @@ class ActiveSet:
         for _ in range(self.inner_budget):
             if np.max(np.abs(residual)) <= target:
                 break
-            continuation.extend(residual, self._stiffness.field, moved)
-            corrected = continuation.restrict(self._stiffness(spread, moved), moved)
+            continuation.extend(residual, stiffness.field, moved)
+            corrected = continuation.restrict(stiffness(spread, moved), moved)
             previous, energy = energy, float(residual @ corrected)
             if not energy > 0:
                 break
@@ -207,7 +217,7 @@ def _solvable(problem: WallProblem, contact: Array) -> Array:
     return contact
 
 
-@dataclass
+@dataclass(frozen=True)
 class NestedActiveSet(ActiveSet):
     """The active set started from a cascade of coarser grids of the same profile.
 
@@ -220,6 +230,9 @@ class NestedActiveSet(ActiveSet):
     coarse_budget: int = 30
 
     def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.coarse_tolerance > 0:
+            raise SceneError("coarse_tolerance", self.coarse_tolerance, "a positive number of grid steps")
         if self.coarsest < 2:
             raise SceneError("coarsest", self.coarsest, "a whole number of points, 2 or more")
 

@@ -26,7 +26,7 @@ class PolonskyKeerState(State):
     grown: bool
 
 
-@dataclass
+@dataclass(frozen=True)
 class PolonskyKeer:
     """One outer step is a batch of iterations, ended early when the gap is uniform enough."""
 

@@ -9,7 +9,7 @@ wrong, so those are not offered. The force with which the wall holds the clipped
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,13 +22,14 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class VerletState(State):
-    """Pressure (n,), and the surface's present and previous positions (n,), in grid steps."""
+    """Pressure (n,), the surface's present and previous positions (n,), in grid steps, and its stiffness."""
 
     surface: Array
     previous: Array
+    stiffness: Operator
 
 
-@dataclass
+@dataclass(frozen=True)
 class WallVerlet:
     """One outer step is a batch of time steps, after which the force outside the contact is looked at.
 
@@ -42,7 +43,6 @@ class WallVerlet:
     budget: int = 2000
     fields = 18
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
-    _stiffness: Operator | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
         if not 0 < self.time_step < 1:
@@ -58,24 +58,24 @@ class WallVerlet:
         """At rest and undeformed, the highest point just touching, or deformed by the guess."""
         symbol = np.zeros_like(problem.compliance.symbol)
         symbol[1:] = 1 / problem.compliance.symbol[1:]
-        self._stiffness = Operator(problem.compliance.grid, symbol, problem.tally)
+        stiffness = Operator(problem.compliance.grid, symbol, problem.tally)
         surface = np.zeros_like(problem.heights)
         if guess is not None:
             surface = problem.compliance(guess)
             surface += np.max(problem.heights - surface)
-        return VerletState(np.full_like(surface, problem.load), False, surface, surface)
+        return VerletState(np.full_like(surface, problem.load), False, surface, surface, stiffness)
 
     def step(self, problem: WallProblem, state: VerletState) -> VerletState:
         """A batch of time steps, then the reaction of the wall as pressure."""
-        stiffness = self._stiffness.symbol
-        square = 4 * self.time_step**2 / stiffness.max()
-        friction = min(2 * self.damping * np.sqrt(stiffness[1] * square), 1.0)
+        stiffness = state.stiffness
+        square = 4 * self.time_step**2 / stiffness.symbol.max()
+        friction = min(2 * self.damping * np.sqrt(stiffness.symbol[1] * square), 1.0)
         surface, previous = state.surface, state.previous
         for _ in range(self.batch):
-            force = -problem.load - self._stiffness(surface)
+            force = -problem.load - stiffness(surface)
             moved = surface + (1 - friction) * (surface - previous) + square * force
             surface, previous = np.maximum(moved, problem.heights), surface
-        reaction = problem.load + self._stiffness(surface)
+        reaction = problem.load + stiffness(surface)
         contact = surface <= problem.heights
         pressure = np.where(contact, reaction, 0.0)
-        return VerletState(pressure, bool(contact.any()), surface, previous)
+        return VerletState(pressure, bool(contact.any()), surface, previous, stiffness)

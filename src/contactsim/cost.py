@@ -1,0 +1,235 @@
+"""What accuracy costs: each knob turned on its own, its error against what it took.
+
+A case is a scene of a study. Its points, its tolerance and the size of the ensemble are turned one at a time, with each
+solver that may take it. The error of points is measured against a finer grid, that of the tolerance against the same
+grid solved far more tightly; neither reference is on a curve. The error of the ensemble is its standard error. Cost is
+transforms, in equivalents of one on the grid at hand times its size, so that grids compare; seconds are kept apart.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from contactsim.aggregate import AVERAGED, LOADS, combined
+from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, text, whole
+from contactsim.errors import SceneError
+from contactsim.march import labelled, simulate
+from contactsim.plan import Plan, size
+from contactsim.provenance import digest, source_digest
+from contactsim.solvers import SOLVERS, module_of, solver
+from contactsim.solvers.base import Status
+from contactsim.study import Study, scene_of
+
+SETTING_KEYS = {
+    "points": Key(whole(2), "a whole number of grid points"),
+    "tolerance": Key(positive, "a positive number of grid steps"),
+}
+KNOB_KEYS = {
+    "points": Key(listed(whole(2)), "a list of grid points", []),
+    "tolerance": Key(listed(positive), "a list of tolerances in grid steps", []),
+}
+CASE_KEYS = {
+    "title": Key(text, "a line of text"),
+    "caption": Key(text, "text"),
+    "size": Key(size, "width and height in inches"),
+    "study": Key(text, "the name of a study"),
+    "load": Key(listed(number), "a list of the study's loads"),
+    "members": Key(whole(1), "a whole number, 1 or more", 1),
+    "quantities": Key(listed(choice(AVERAGED)), f"a list from {', '.join(AVERAGED)}"),
+    "settled": Key(mapping, "`points` and `tolerance` at which the other knob is turned"),
+    "reference": Key(mapping, "`points` and `tolerance` of the references"),
+    "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
+    "repeats": Key(whole(1), "how often each setting is timed", 1),
+}
+REFERENCE = "reference"
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One place of one knob: which knob is turned, grid points, tolerance in grid steps."""
+
+    knob: str
+    points: int
+    tolerance: float
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene to price: its name, settings as read, and the study that it belongs to."""
+
+    name: str
+    settings: dict
+    study: Study
+
+    def jobs(self) -> list[str]:
+        """The jobs of a case: its reference and its solvers."""
+        return [REFERENCE, *self.settings["solvers"]]
+
+    def turned(self, job: str) -> list[Setting]:
+        """The settings that a job measures."""
+        settled, reference = self.settings["settled"], self.settings["reference"]
+        if job == REFERENCE:
+            finest = Setting("points", reference["points"], reference["tolerance"])
+            return [finest, Setting("tolerance", settled["points"], reference["tolerance"])]
+        knobs = self.settings["solvers"][job]
+        return [Setting("points", points, settled["tolerance"]) for points in knobs["points"]] + [
+            Setting("tolerance", settled["points"], tolerance) for tolerance in knobs["tolerance"]
+        ]
+
+    def job_settings(self, job: str) -> dict:
+        """Everything that a job's result depends on but the code."""
+        kept = ("load", "members", "quantities", "settled", "reference", "repeats")
+        own = {name: self.settings[name] for name in kept} | {"turned": [vars(one) for one in self.turned(job)]}
+        runs = [run.settings for run in self._study(self.turned(job)[0], job).runs()]
+        return {"case": self.name, "job": job, "settings": own, "runs": runs}
+
+    def _study(self, setting: Setting, job: str) -> Study:
+        load = {"name": self.study.settings["load"]["name"], "values": sorted(self.settings["load"])}
+        kind = "active_set" if job == REFERENCE else job
+        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": kind}, "load": load}
+        apart = {"members": self.settings["members"], "companion": None, "fit_limits": None}
+        return replace(self.study, settings=self.study.settings | changed | apart)
+
+    def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:
+        """Quantities and transforms of every setting of a job, dims (setting, varied keys, member, load); seconds."""
+        found, seconds = [], []
+        for setting in self.turned(job):
+            runs, times = self._study(setting, job).runs(), []
+            for _ in range(self.settings["repeats"]):
+                parts = [(simulated(run.settings), run) for run in runs]
+                times.append(float(sum(data.seconds.sum() for data, _ in parts)))
+            data = combined(
+                [
+                    (labelled(data, run.settings, [""] * data.step.size), run.coordinates | {"member": run.member})
+                    for data, run in parts
+                ]
+            )
+            kept = data[[*self.settings["quantities"], "transforms", "status"]]
+            found.append(kept.assign(points=setting.points, tolerance=setting.tolerance, knob=setting.knob))
+            seconds.append(min(times))
+        return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
+
+
+def simulated(settings: dict) -> xr.Dataset:
+    """The simulation of a run's settings."""
+    method = solver(**settings["solver"])
+    return simulate(scene_of(settings), points=settings["points"], tolerance=settings["tolerance"], method=method)
+
+
+def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
+    """The cases of accuracy.yaml at the plan's tier, by name."""
+    file = Path(folder) / "accuracy.yaml"
+    tiers = load_yaml(file)
+    if plan.tier not in tiers:
+        raise SceneError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
+    return {name: _case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
+
+
+def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
+    prefix = f"{plan.tier}.{name}"
+    settings = read(section, CASE_KEYS, file, prefix)
+    if settings["study"] not in plan.studies:
+        raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
+    for part in ("settled", "reference"):
+        settings[part] = read(settings[part], SETTING_KEYS, file, f"{prefix}.{part}")
+    for kind, knobs in settings["solvers"].items():
+        if kind not in SOLVERS:
+            raise SceneError(f"{prefix}.solvers", kind, f"one of {', '.join(sorted(SOLVERS))}", file)
+        settings["solvers"][kind] = read(knobs, KNOB_KEYS, file, f"{prefix}.solvers.{kind}")
+        finest = max(settings["solvers"][kind]["points"], default=0)
+        if finest >= settings["reference"]["points"]:
+            allowed = f"fewer than the reference's, {settings['reference']['points']}"
+            raise SceneError(f"{prefix}.solvers.{kind}.points", finest, allowed, file)
+    return Case(name, settings, plan.studies[settings["study"]])
+
+
+def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
+    """What the figure of a case depends on: settings, jobs and their digests, the study's, the grids of all tiers."""
+    tiers = load_yaml(Path(folder) / "tiers.yaml")
+    marks = {tier: Plan.read(folder, tier).studies[case.study.name].settings["points"] for tier in tiers}
+    thesis = case.study.settings["thesis_points"]
+    return {
+        "settings": case.settings,
+        "jobs": case.jobs(),
+        "digests": [job_plan(case, job) for job in case.jobs()],
+        "marks": marks | ({"thesis": thesis} if thesis else {}),
+        "tier": plan.tier,
+        "load": case.study.settings["load"]["name"],
+        "source": source_digest("contactsim.figures.accuracy"),
+        "study": digest(plan.study_settings(case.study.name)),
+    }
+
+
+def job_plan(case: Case, job: str) -> dict:
+    """What a job depends on: its settings and its code."""
+    kind = "active_set" if job == REFERENCE else job
+    return {"job": case.job_settings(job), "source": source_digest("contactsim.cost", module_of(kind))}
+
+
+def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset) -> pd.DataFrame:
+    """One row a setting: solver, knob, points, tolerance, members, error of each quantity, work, share unconverged.
+
+    jobs: datasets by solver, with the reference's; study: the study's dataset, for the size of the ensemble. Errors are
+    relative, root mean square over variants, members and loads; work is transforms times points.
+    """
+    rows = []
+    references = {str(one.knob.item()): one for one in _each(jobs[REFERENCE])}
+    for kind, data in jobs.items():
+        for one in _each(data) if kind != REFERENCE else ():
+            reference = references[one.knob.item()]
+            rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", "points", "tolerance")})
+            for name in case_settings["quantities"]:
+                rows[-1][name] = float(np.sqrt(((one[name] / reference[name] - 1) ** 2).mean()))
+            rows[-1]["work"] = float(one.transforms.sum() * one.points)
+            rows[-1]["unconverged"] = float((one.status != Status.CONVERGED.value[0]).mean())
+    return pd.DataFrame(rows + list(_ensembles(case_settings, study)))
+
+
+def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:
+    return (data.isel(setting=place) for place in range(data.setting.size))
+
+
+def _ensembles(case_settings: dict, study: xr.Dataset) -> Iterable[dict]:
+    """The standard error of ensembles of two members up to all, from the study's own scatter."""
+    most = study.member.size
+    load = next(name for name in LOADS if name in study.dims)
+    chosen = study.sel({load: case_settings["load"]}, method="nearest")
+    for members in range(2, most + 1) if most > 1 else ():
+        row = {"solver": "active_set", "knob": "members", "points": int(study.points), "members": members}
+        for name in case_settings["quantities"]:
+            share = chosen[f"{name}_standard_error"] / chosen[f"{name}_mean"] * np.sqrt(most / members)
+            row[name] = float(np.sqrt((share**2).mean()))
+        yield row | {"work": float(chosen.transforms.mean("member").sum() * members * study.points), "unconverged": 0.0}
+
+
+def order(table: pd.DataFrame, quantity: str) -> float:
+    """Observed order of convergence in the number of points: slope of log error, by least squares."""
+    return -float(np.polyfit(np.log(table.points), np.log(table[quantity]), 1)[0]) if len(table) > 1 else float("nan")
+
+
+def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
+    """Least cost at which the error is met, on straight lines between the points of a curve; NaN if it is not."""
+    curve = table.sort_values(cost)
+    lowest = np.minimum.accumulate(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
+    errors, costs = np.log(lowest), np.log(curve[cost])
+    if not (errors.min() <= np.log(error) <= errors.max()):
+        return float("nan")
+    return float(np.exp(np.interp(-np.log(error), -errors, costs)))
+
+
+def compared(table: pd.DataFrame, quantity: str, levels: Iterable[float], costs: Iterable[str]) -> pd.DataFrame:
+    """At equal error, how many times more each solver costs than the default one: one row a knob, level and cost."""
+    rows = []
+    for knob, level, cost in itertools.product(("points", "tolerance"), levels, costs):
+        part = table[(table.knob == knob) & (table.unconverged == 0)]
+        found = {kind: cost_at(curve, quantity, level, cost) for kind, curve in part.groupby("solver")}
+        least = found.get("active_set", float("nan"))
+        rows.append({"knob": knob, "error": level, "cost": cost} | {kind: at / least for kind, at in found.items()})
+    return pd.DataFrame(rows)

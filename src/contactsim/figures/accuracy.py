@@ -1,0 +1,140 @@
+"""What accuracy costs, drawn: error across, cost up, one column a knob."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from contactsim import cost, dataset
+from contactsim.figures import style
+from contactsim.figures.render import framed, save
+
+SOLVERS = {"active_set": ("o", style.WHOLE), "polonsky_keer": ("s", style.CONTACT), "verlet": ("^", "#8c6d31")}
+KNOBS = {"points": "grid points", "tolerance": "tolerance", "members": "members"}
+COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}
+LEVELS = (1e-1, 1e-2, 1e-3)
+ROUNDING = 1e-10
+"""Errors below it are not drawn: both solutions have the same contact."""
+
+
+def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) -> None:
+    """Draw one case into its files.
+
+    plan: of `contactsim.cost.figure_settings`; files: the jobs' datasets and costs in the plan's order, the study's
+    dataset and costs; targets: png, pdf and csv.
+    """
+    settings, jobs = plan["settings"], plan["jobs"]
+    data = {job: dataset.read(path) for job, path in zip(jobs, files["data"], strict=True)}
+    table = cost.table(settings, data, dataset.read(files["study"]))
+    seconds = [second for path in files["costs"][1:] for second in json.loads(Path(path).read_text())]
+    alone = pd.read_csv(files["study_costs"]).query("not companion")
+    load = plan["load"]
+    chosen = alone[np.isclose(alone[load].to_numpy()[:, None], settings["load"], rtol=1e-6).any(axis=1)]
+    members = table.members.dropna() * chosen.seconds.sum() / max(alone.member.nunique(), 1)
+    table["seconds"] = [*seconds, *members]
+    footer = f"{plan['tier']} tier · {len(table)} settings · best of {settings['repeats']} timings on one thread"
+    figure, panels = framed(settings | {"panels": 4}, footer, rows=2)
+    draw(table, data["active_set"], np.reshape(panels, (2, 4)), settings["quantities"][0], plan["marks"])
+    save(figure, table, targets)
+
+
+def draw(table: pd.DataFrame, values: xr.Dataset, axes: np.ndarray, quantity: str, marks: Mapping[str, int]) -> None:
+    """All panels of one case.
+
+    table: `cost.table` with a column of seconds; values: the default solver's dataset; axes (2, 4); quantity: whose
+    error is drawn; marks: grid points by what uses them.
+    """
+    for row, (measure, label) in enumerate(COSTS.items()):
+        for column, (knob, title) in enumerate(KNOBS.items()):
+            panel = axes[row, column]
+            part = table[(table.knob == knob) & (table[quantity] > ROUNDING)]
+            if part.empty:
+                panel.axis("off")
+                continue
+            for kind, curve in part.groupby("solver"):
+                _curve(panel, curve, quantity, measure, kind)
+            if knob == "points":
+                _front(panel, part, quantity, measure)
+                _marks(panel, part[part.solver == "active_set"], quantity, measure, marks)
+            panel.set(xscale="log", yscale="log", xlabel=f"relative error of {style.SYMBOLS[quantity]}")
+            panel.set_ylabel(label if column == 0 else "")
+            panel.set_title(title if row == 0 else "", fontsize=9)
+            _decades(panel)
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    axes[0, 1].legend(handles, labels, loc="upper left")
+    _grid_dependence(axes[0, 3], values)
+    _words(axes[1, 3], table, quantity)
+
+
+def _decades(axes: Axes) -> None:
+    """At least a decade on both axes, and no labels between decades."""
+    for axis, limits, put in (
+        (axes.xaxis, axes.get_xlim(), axes.set_xlim),
+        (axes.yaxis, axes.get_ylim(), axes.set_ylim),
+    ):
+        put(10.0 ** np.floor(np.log10(limits[0])), 10.0 ** np.ceil(np.log10(limits[1])))
+        axis.set_major_locator(LogLocator(numticks=6))
+        axis.set_minor_formatter(NullFormatter())
+
+
+def _curve(axes: Axes, curve: pd.DataFrame, quantity: str, measure: str, kind: str) -> None:
+    marker, color = SOLVERS.get(kind, ("x", "#777777"))
+    good = curve.unconverged == 0
+    look = {"marker": marker, "color": color, "markersize": 4, "linewidth": 1.0, "markerfacecolor": "white"}
+    axes.plot(curve[quantity][good], curve[measure][good], label=kind.replace("_", " "), **look)
+    axes.plot(curve[quantity][~good], curve[measure][~good], "x", color=color, markersize=7)
+
+
+def _front(axes: Axes, part: pd.DataFrame, quantity: str, measure: str) -> None:
+    """The settings that no other beats in both error and cost."""
+    front = part[part.unconverged == 0].sort_values(measure)
+    front = front[front[quantity] <= front[quantity].cummin()]
+    axes.step(front[quantity], front[measure], where="pre", color="#bbbbbb", lw=4, alpha=0.5, zorder=0, label="front")
+
+
+def _marks(axes: Axes, part: pd.DataFrame, quantity: str, measure: str, marks: Mapping[str, int]) -> None:
+    for points in sorted(set(marks.values())):
+        here = part[part.points == points]
+        names = [name for name, at in marks.items() if at == points]
+        axes.plot(here[quantity], here[measure], "o", markersize=9, markerfacecolor="none", color=style.EXACT)
+        for x, y in zip(here[quantity], here[measure], strict=True):
+            axes.annotate(", ".join(names), (x, y), (7, 3), textcoords="offset points", fontsize=6.5)
+
+
+def _grid_dependence(axes: Axes, values: xr.Dataset) -> None:
+    """κ_r by Eq. 3.8 and by pairs against the number of points, mean over members and loads."""
+    part = values.isel(setting=np.flatnonzero(values.knob == "points"))
+    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_bond", style.PAIRS)):
+        mean = part[name].mean([dim for dim in part[name].dims if dim not in ("setting", "hurst")])
+        for value in part.hurst.values if "hurst" in part.dims else (None,):
+            one, look = (mean, style.hurst(0.5)) if value is None else (mean.sel(hurst=value), style.hurst(value))
+            axes.plot(part.points, one, color=color, **look)
+    axes.set(xlabel="grid points", ylabel=style.SYMBOLS["kappa_r"])
+    axes.set_xscale("log", base=2)
+    colours = {"Eq. 3.8": style.CONTACT, "pairs in contact": style.PAIRS}
+    keys = style.hurst_key(part.hurst.values) if "hurst" in part.dims else []
+    axes.legend(handles=keys + style.key(colours, {}))
+
+
+def _words(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
+    """Observed orders, and cost at equal error over that of the default solver."""
+    axes.axis("off")
+    grids = table[(table.knob == "points") & (table.solver == "active_set")]
+    lines = ["observed order in points:"]
+    names = [name for name in style.SYMBOLS if name in table]
+    lines += [f"   {style.SYMBOLS[name]}: {cost.order(grids, name):.2f}" for name in names]
+    lines += ["", "cost at equal error, in that of the active set", "(transforms; seconds):"]
+    ratios = cost.compared(table, quantity, LEVELS, COSTS)
+    for (knob, level), pair in ratios.groupby(["knob", "error"], sort=False):
+        for kind in (column for column in pair if column in SOLVERS and column != "active_set"):
+            if pair[kind].notna().all():
+                both = "; ".join(f"{value:.3g}" for value in pair[kind])
+                lines.append(f"   {KNOBS[knob]}, {level:g}: {kind.replace('_', ' ')} {both}")
+    axes.text(0, 1, "\n".join(lines), fontsize=7, va="top", linespacing=1.4)

@@ -1,0 +1,51 @@
+# What accuracy costs: one job a case and solver, alone on the machine, since it is timed.
+def case_params(wildcards):
+    return canonical(cost.job_plan(CASES[wildcards.case], wildcards.job))
+
+
+def case_files(ending, folder):
+    def files(wildcards):
+        return [RESULTS / folder / f"{wildcards.case}/{job}.{ending}" for job in CASES[wildcards.case].jobs()]
+    return files
+
+
+def case_study(ending, folder):
+    def file(wildcards):
+        return RESULTS / folder / f"{PLAN.dataset_name(CASES[wildcards.case].study.name)}.{ending}"
+    return file
+
+
+def case_figure(wildcards):
+    return canonical(cost.figure_settings(CASES[wildcards.case], PLAN, CONFIG))
+
+
+rule price:
+    output:
+        data=RESULTS / "accuracy/{case}/{job}.nc",
+        costs=RESULTS / "costs/accuracy/{case}/{job}.json",
+    log: RESULTS / "logs/accuracy/{case}/{job}.log"
+    params: plan=case_params
+    threads: workflow.cores
+    message: "accuracy of {wildcards.case}: {wildcards.job}"
+    script: "../scripts/price.py"
+
+
+rule accuracy_figure:
+    input:
+        data=case_files("nc", "accuracy"),
+        costs=case_files("json", "costs/accuracy"),
+        study=case_study("nc", "datasets"),
+        study_costs=case_study("csv", "costs"),
+    output:
+        png=RESULTS / "figures/accuracy_{case}.png",
+        pdf=RESULTS / "figures/accuracy_{case}.pdf",
+        csv=RESULTS / "figures/accuracy_{case}.csv",
+    log: RESULTS / "logs/figures/accuracy_{case}.log"
+    params: plan=case_figure
+    message: "accuracy_{wildcards.case}: {output.png}"
+    script: "../scripts/accuracy.py"
+
+
+rule accuracy:
+    localrule: True
+    input: [file for case in CASES for file in figure_files(f"accuracy_{case}")]

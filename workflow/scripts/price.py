@@ -1,0 +1,16 @@
+"""One solver of one accuracy case: errors and transforms of every setting, and seconds apart."""
+
+import json
+
+from contactsim import dataset
+from contactsim.cost import read_cases
+from contactsim.joblog import logged
+from contactsim.march import write_text
+from contactsim.plan import Plan
+
+logged(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+case = read_cases(snakemake.params.config, Plan.read(snakemake.params.config, snakemake.params.tier))[snakemake.wildcards.case]
+data, seconds = case.measure(snakemake.wildcards.job)
+dataset.write(dataset.stamped(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
+write_text(json.dumps(seconds), snakemake.output.costs)
