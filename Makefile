@@ -1,12 +1,13 @@
-# make fig_3_2 | make test | make setup | make TARGET TIER=quick
+# make fig_3_2 | make test | make setup | make help | make TARGET TIER=quick
 PYTHON ?= python3
 CORES ?= 2
+TIER ?= $(tier)
 READY := .venv/.ready
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 
-.PHONY: setup test help
+.PHONY: setup test help FORCE
 help: $(READY)
-	@$(SNAKEMAKE) --dry-run 2>/dev/null
+	@$(SNAKEMAKE) --dry-run 2>.venv/help || { cat .venv/help >&2; exit 1; }
 
 setup: $(READY)
 
@@ -20,5 +21,5 @@ test: $(READY)
 	.venv/bin/python -m pytest
 
 Makefile environment.txt pyproject.toml: ;
-%: $(READY)
+%: $(READY) FORCE
 	$(SNAKEMAKE) $@ $(if $(TIER),--config tier=$(TIER))

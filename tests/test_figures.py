@@ -31,7 +31,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
         "3 members",
         "0 of 45 solutions unconverged",
         "grid error of κᵣ up to",
-        f"solved in {costs.seconds.sum():.3g} s",
+        f"solved in {costs.seconds.sum():.3g} CPU s",
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
@@ -41,7 +41,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
 def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
     axes = list(Figure().subplots(1, 3))
-    shown = ch3.fig_3_2(data, axes, {"kappa_r": 1.75})
+    shown = ch3.fig_3_2(data, axes, kappa_r=1.75)
     assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
     assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
     drawn = axes[1].containers[0].lines[0].get_ydata()
@@ -52,7 +52,7 @@ def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
 def test_the_cylinder_is_drawn_beside_the_exact_line(made):
     data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
     axes = Figure().subplots()
-    shown = ch3.fig_3_1(data, axes, {})
+    shown = ch3.fig_3_1(data, axes)
     assert any(np.allclose(line.get_ydata(), 8 / (np.pi * np.sqrt(3))) for line in axes.lines)
     inside = shown.contact_ratio.between(0.05, 0.25)
     assert np.allclose(shown.kappa_r[inside], 1.470, rtol=0.08)  # at c/R = 0.05, two of 26 points
@@ -61,7 +61,7 @@ def test_the_cylinder_is_drawn_beside_the_exact_line(made):
 def test_the_table_lists_exact_and_computed(made):
     data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
     axes = Figure().subplots()
-    rows = ch3.table_3_1(data, axes, {})
+    rows = ch3.table_3_1(data, axes)
     assert list(rows) == list(ch3.TABLE)
     assert np.allclose(rows.width_exact, 2 * rows.contact_ratio)
     assert np.allclose(rows.line_load, np.pi / 4 * rows.contact_ratio**2)

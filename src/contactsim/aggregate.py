@@ -41,14 +41,13 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
 
     runs: path, coordinates, member and companion of each; settings: of the study; source: digest of the code.
     """
-    fine = _derived(_combined([run for run in runs if not run["companion"]]))
-    coarse = [run for run in runs if run["companion"]]
+    fine = _read(runs, companion=False)
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
         fine["half_width_exact"] = fine.contact_ratio * radius
     data = fine.merge(_ensemble(fine))
-    if coarse:
-        data = data.merge(_grid_error(fine, _derived(_combined(coarse))))
+    if any(run["companion"] for run in runs):
+        data = data.merge(_grid_error(fine, _read(runs, companion=True)))
     if settings["fit_limits"] is not None:
         data = data.merge(fits(fine, settings["fit_limits"]))
     return dataset.stamped(dataset.described(data), settings["title"], settings, source)
@@ -69,16 +68,19 @@ def left_out(data: xr.Dataset) -> tuple[int, int]:
     return int((data.status != Status.CONVERGED.value[0]).sum()), data.status.size
 
 
-def _combined(runs: list[dict]) -> xr.Dataset:
-    parts = []
-    for run in runs:
-        places = run["coordinates"] | {"member": run["member"]}
-        parts.append(dataset.read(run["path"]).drop_vars(APART).expand_dims({k: [v] for k, v in places.items()}))
-    data = xr.combine_by_coords(parts, combine_attrs="drop")
+def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
+    """Datasets of runs, each with its place among the varied keys and members, as one, with κ and κ_r."""
+    places = [data.drop_vars(APART).expand_dims({name: [at] for name, at in place.items()}) for data, place in parts]
+    data = xr.combine_by_coords(places, combine_attrs="drop")
     for name in ("points", "length", "contact_modulus", "seed"):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
-    return data
+    return _derived(data)
+
+
+def _read(runs: list[dict], companion: bool) -> xr.Dataset:
+    chosen = [run for run in runs if bool(run["companion"]) is companion]
+    return combined([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in chosen])
 
 
 def _derived(data: xr.Dataset) -> xr.Dataset:

@@ -33,7 +33,8 @@ def press(
     contact_modulus: E*. Exactly one of mean_pressure (≥ 0) and approach: how far the profile's height zero has
     moved past the undeformed surface; first touch is at -max(heights), full contact at -mean(heights), which an
     approach must stay below. tolerance: of gap in contact and of overlap outside, in grid steps (the rms height
-    difference of neighbouring points). solver: a name, or a solver with options of its own. Units are free but
+    difference of neighbouring points); close to full contact, and on flat tops at a light load, choose it well below
+    the mean gap, and below p*, in such steps. solver: a name, or a solver with options of its own. Units are free but
     consistent: lengths in one, pressures in that of E*.
 
     Returns pressure (n,), never negative; gap (n,); contact (n,); relative_contact_area; approach; status; record

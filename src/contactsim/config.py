@@ -35,7 +35,8 @@ class _Loader(yaml.SafeLoader):
     """Safe YAML in which a key given twice is an error."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
-        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
+        own = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:merge"]
+        keys = [self.construct_object(key, deep=True) for key in own]
         for key in keys:
             if keys.count(key) > 1:
                 raise yaml.MarkedYAMLError(problem=f"key {key!r} is given twice", problem_mark=node.start_mark)
@@ -49,7 +50,9 @@ def load_yaml(path: str | Path) -> dict:
     except OSError as error:
         raise SceneError("file", str(path), "a file that can be read", path) from error
     except (yaml.YAMLError, ValueError) as error:
-        raise SceneError("YAML", " ".join(str(error).split()), "valid YAML with each key once", path) from error
+        raise SceneError(
+            "YAML", "text that is not", f"YAML with each key once ({' '.join(str(error).split())})", path
+        ) from error
     if content is None:
         return {}
     if not isinstance(content, dict):

@@ -189,7 +189,8 @@ def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset) -
                 rows[-1][name] = float(np.sqrt(((one[name] / reference[name] - 1) ** 2).mean()))
             rows[-1]["work"] = float(one.transforms.sum() * one.points)
             rows[-1]["unconverged"] = float((one.status != Status.CONVERGED.value[0]).mean())
-    return pd.DataFrame(rows + list(_ensembles(case_settings, study)))
+    columns = ["solver", "knob", "points", "tolerance", "members", *case_settings["quantities"], "work", "unconverged"]
+    return pd.DataFrame(rows + list(_ensembles(case_settings, study)), columns=columns)
 
 
 def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:

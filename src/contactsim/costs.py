@@ -18,13 +18,17 @@ def table(runs: list[dict]) -> pd.DataFrame:
     rows = []
     for run in runs:
         data = dataset.read(run["path"])
-        seconds = json.loads(Path(run["costs"]).read_text())["seconds"]
+        spent = json.loads(Path(run["costs"]).read_text())
         load = data.status.dims[0]
         for row in range(data.status.size):
             here = data.isel({load: row})
             rows.append(
                 {"run": run["path"], **run["coordinates"], "member": run["member"], "companion": run["companion"]}
                 | {load: here[load].item(), "points": here.points.item(), "transforms": here.transforms.item()}
-                | {"seconds": seconds[str(here.point.item())], "status": here.status.item()}
+                | {
+                    "seconds": spent["seconds"][str(here.point.item())],
+                    "memory_mib": spent["peak_memory_of_last_run"],
+                    "status": here.status.item(),
+                }
             )
     return pd.DataFrame(rows)

@@ -68,7 +68,7 @@ VARIABLES = {
     "load_error": ("1", "relative error of the load"),
     "status": ("1", "status of the solution"),
     "seed": ("1", "root of the random numbers"),
-    "seconds": ("s", "wall time of the solution"),
+    "seconds": ("s", "CPU time of the solution"),
     "point": ("1", "digest of the code and settings that made the point"),
     "contact_points": ("1", "number of points in contact"),
     "contact_bits": ("1", "contact set, eight points a byte, first point in the highest bit"),

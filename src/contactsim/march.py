@@ -102,10 +102,8 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
         known={step: earlier[name] for step, name in enumerate(names) if name in earlier},
     )
     seconds = data.seconds.values.tolist()
-    data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
-    data = data.assign(seed=settings["seed"], point=(load, np.array(names, object)))
     title = f"contactsim run of {settings['study']}"
-    dataset.write(dataset.stamped(dataset.described(data), title, settings, source), target)
+    dataset.write(dataset.stamped(labelled(data, settings, names), title, settings, source), target)
     price = {
         "seconds": dict(zip(names, seconds, strict=True)),
         "cpu_seconds_of_last_run": time.process_time() - begin,
@@ -117,6 +115,13 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
 def peak_memory() -> float:
     """Largest resident memory of this process so far (MiB)."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
+
+
+def labelled(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
+    """A simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
+    load, values = settings["load"]["name"], settings["load"]["values"]
+    data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
+    return dataset.described(data.assign(seed=settings["seed"], point=(load, np.array(names, object))))
 
 
 def write_text(text: str, path: str | Path) -> None:

@@ -45,6 +45,9 @@ def limits(value: object) -> list[float]:
     return pair(value)
 
 
+LEAST_WIDTH = 2.8
+"""Inches that a panel needs for its labels and legend."""
+
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter"),
     "title": Key(text, "a line of text"),
@@ -83,7 +86,7 @@ class Plan:
         tiers = load_yaml(folder / "tiers.yaml")
         tier = main["tier"] if tier is None else tier
         if tier not in tiers:
-            raise SceneError("tier", tier, f"one of {', '.join(tiers)}", folder / "tiers.yaml")
+            raise SceneError("tier", tier, f"one of {', '.join(tiers)}, as in {folder / 'tiers.yaml'}")
         overrides = read(tiers[tier] or {}, {"studies": Key(mapping, "a mapping", {})}, folder / "tiers.yaml", tier)
         studies, chapters, figures = {}, {}, {}
         for file in sorted(folder.glob("ch*.yaml")):
@@ -100,7 +103,9 @@ class Plan:
                         f"{tier}.studies.{name}", over, "a mapping of keys to override", folder / "tiers.yaml"
                     )
                 source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
-                section = overlaid(section, over) if isinstance(section, dict) else section
+                if over:
+                    Study.read(name, section, file, main["seed"])  # what a tier hides must be right too
+                    section = overlaid(section, over)
                 studies[name] = Study.read(name, section, source, main["seed"])
                 chapters[name] = file.stem
             for name, section in sections["figures"].items():
@@ -149,6 +154,8 @@ class Plan:
 def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     prefix = f"figures.{name}"
     settings = read(section, FIGURE_KEYS, file, prefix)
+    if settings["size"][0] < LEAST_WIDTH * settings["panels"]:
+        raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
     if settings["study"] not in studies:
         raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(studies)}", file)
     dims = studies[settings["study"]].dimensions
@@ -158,10 +165,14 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
+    numbers = dict.fromkeys(known[name], Key(number, "a value of the thesis, a number"))
+    read(settings["reference"], numbers, file, f"{prefix}.reference")
     return Figure(name, file.stem, settings)
 
 
-def _functions(module: str) -> list[str]:
+def _functions(module: str) -> dict[str, list[str]]:
+    """The public functions of a module, with their keywords; read, not imported, since matplotlib takes a second."""
     path = module_path(module)
     tree = ast.parse(path.read_text(encoding="utf-8")) if path else ast.Module([], [])
-    return [node.name for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
+    public = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
+    return {node.name: [argument.arg for argument in node.args.kwonlyargs] for node in public}

@@ -201,7 +201,8 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     approach = None if pressure is not None else (step.value + highest) / unit
     free = Trait.HALF_SPACE in scene.traits
     if free and approach is not None and approach > 0 and step.value >= -heights.mean():
-        allowed = f"below {-heights.mean():.17g} nm, where the half-space would be in full contact"
+        limit = 0.0 if abs(heights.mean()) < 1e-12 * np.abs(heights).max() else -heights.mean()
+        allowed = f"below {limit:.17g}, where the half-space would be in full contact"
         raise SceneError("approach", step.value, allowed)
     scale = Scale(unit, unit / flexibility, highest)
     tally = Tally(heights.size)

@@ -192,7 +192,8 @@ class Study:
         try:
             return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
         except OSError as error:
-            raise SceneError(f"studies.{self.name}.surface.file", path, "a file that can be read", self.file) from error
+            allowed = f"a file that can be read; looked for at {Path(path).resolve()}"
+            raise SceneError(f"studies.{self.name}.surface.file", path, allowed, self.file) from error
 
     def _check(self, run: Run) -> None:
         """Build the run's scene once, so that nothing impossible is found out by a job."""

@@ -1,8 +1,10 @@
 # Reads and checks the config once, and keeps two runs in one folder apart.
 import fcntl
+import shlex
 import sys
 from pathlib import Path
 
+from contactsim import cost
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical
@@ -10,10 +12,13 @@ from contactsim.provenance import canonical
 try:
     if set(config) - {"tier"}:
         raise SceneError("--config", sorted(set(config) - {"tier"}), "tier=NAME")
-    PLAN = Plan.read(Path(workflow.basedir) / "config", config.get("tier"))
+    CONFIG = Path(workflow.basedir) / "config"
+    PLAN = Plan.read(CONFIG, config.get("tier"))
+    CASES = cost.read_cases(CONFIG, PLAN)
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
+sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it and does not quote it
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     Path(".snakemake").mkdir(exist_ok=True)
@@ -29,18 +34,20 @@ def figure_files(name):
 
 
 def all_figures(wildcards):
-    return [file for name in PLAN.figures for file in figure_files(name)]
+    names = [*PLAN.figures, *(f"accuracy_{case}" for case in CASES)]
+    return [file for name in names for file in figure_files(name)]
 
 
 def target_lines():
     lines = [f"  {name:14} {figure.settings['title']}" for name, figure in PLAN.figures.items()]
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
+    lines += [f"  {'accuracy':14} error against cost of {', '.join(CASES)}"]
     return "\n".join([*lines, f"  {'all':14} every figure and table"])
 
 
 def list_targets(wildcards):
-    print(f"Targets (tier {PLAN.tier}; another: --config tier=NAME):\n{target_lines()}")
-    return Path(workflow.basedir) / "config/config.yaml"
+    print(f"Targets (tier {PLAN.tier}; another: make TARGET TIER=NAME, or --config tier=NAME):\n{target_lines()}")
+    return CONFIG / "config.yaml"
 
 
 def refuse_target(wildcards):

@@ -10,7 +10,8 @@ from contactsim.plan import Plan
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-case = read_cases(snakemake.params.config, Plan.read(snakemake.params.config, snakemake.params.tier))[snakemake.wildcards.case]
+config, tier = snakemake.params.config, snakemake.params.tier
+case = read_cases(config, Plan.read(config, tier))[snakemake.wildcards.case]
 data, seconds = case.measure(snakemake.wildcards.job)
 dataset.write(dataset.stamped(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
 write_text(json.dumps(seconds), snakemake.output.costs)

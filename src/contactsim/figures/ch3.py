@@ -1,8 +1,9 @@
-"""Chapter 3: contact without adhesion. Each function draws one figure and returns the numbers that it shows."""
+"""Chapter 3: contact without adhesion. Each function draws one figure and returns the numbers that it shows.
+
+Values of the thesis, from `reference` in the config, come as keywords.
+"""
 
 from __future__ import annotations
-
-from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
@@ -44,7 +45,7 @@ TABLE = {
 }
 
 
-def fig_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.DataFrame:
+def fig_3_1(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """κ_r of the cylinder does not depend on the load (thesis Fig. 3.1, line)."""
     one = _cylinder(data)
     pressure, exact = one.reduced_pressure_contact, analytic.CYLINDER_KAPPA_R
@@ -59,13 +60,14 @@ def fig_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.
         *axes.plot(pressure, one.kappa_r_bond, "+", color=style.PAIRS, ms=6, label="pairs in contact"),
         axes.axhline(exact, color=style.EXACT, lw=1, label=rf"exact, $8/(\pi\sqrt{{3}})={exact:.3f}$"),
     ]
-    axes.set(xscale="log", xlim=(low, high), ylim=(exact - 0.2, exact + 0.2))
+    axes.set(xscale="log", xlim=(low, high))
+    style.keep_in_view(axes, exact - 0.2, exact + 0.2)
     axes.set(xlabel=r"reduced pressure $p_r^*$", ylabel=r"$\kappa_r^{1D}$")
     axes.legend(handles=shown, loc="upper right")
     return one[["reduced_pressure_contact", "resolution", *list(TABLE)[1:]]].to_dataframe().reset_index()
 
 
-def table_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.DataFrame:
+def table_3_1(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Cylinder: width, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1, line)."""
     least, most = FREE_OF_EDGES
     rows = _cylinder(data).sel(contact_ratio=slice(least, most)).to_dataframe().reset_index()[list(TABLE)]
@@ -76,8 +78,11 @@ def table_3_1(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> p
 AVERAGES = ("relative_contact_area", "kappa", "kappa_r", "kappa_r_bond")
 
 
-def fig_3_2(data: xr.Dataset, axes: list[Axes], reference: Mapping[str, float]) -> pd.DataFrame:
-    """Area against both reduced pressures, and the proportionality factors (thesis Fig. 3.2)."""
+def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
+    """Area against both reduced pressures, and the proportionality factors (thesis Fig. 3.2).
+
+    kappa_r: the thesis's constant.
+    """
     left, middle, right = axes
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value)
@@ -94,16 +99,17 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], reference: Mapping[str, float]) 
     left.plot(dense, persson, color=style.EXACT, lw=0.8)
     middle.plot(dense, persson / dense, color=style.EXACT, lw=0.8)
     for panel in (middle, right):
-        panel.axhline(reference["kappa_r"], color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
+        panel.axhline(kappa_r, color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
     left.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
     middle.set(ylabel=r"$\kappa^{1D}$, $\kappa_r^{1D}$")
-    right.set(ylabel=r"$\kappa_r^{1D}$", ylim=(reference["kappa_r"] - 0.15, reference["kappa_r"] + 0.15))
+    right.set(ylabel=r"$\kappa_r^{1D}$")
+    style.keep_in_view(right, kappa_r - 0.15, kappa_r + 0.15)
     for panel, letter in zip(axes, "abc", strict=True):
         panel.set(xscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$")
         style.letter(panel, letter)
     left.legend(handles=style.hurst_key(data.hurst.values), loc="upper left")
     colours = {r"$\bar g$ over the whole surface": style.WHOLE, r"$\bar g_r$ over the contact (Eq. 3.8)": style.CONTACT}
-    lines = {f"thesis, {reference['kappa_r']:g}": (0, (6, 3)), r"Persson (2D), erf$(\sqrt{2}p^*)$": "-"}
+    lines = {f"thesis, {kappa_r:g}": (0, (6, 3)), r"Persson (2D), erf$(\sqrt{2}p^*)$": "-"}
     middle.legend(
         handles=style.key(colours | {r"$\bar g_r$ over pairs in contact": style.PAIRS}, lines), loc="upper right"
     )
@@ -126,7 +132,7 @@ def _constancy(data: xr.Dataset) -> str:
     return "\n".join(lines)
 
 
-def fig_3_3(data: xr.Dataset, axes: Axes, reference: Mapping[str, float]) -> pd.DataFrame:
+def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Eq. 3.11 fitted to each Hurst exponent and to all (thesis Fig. 3.3)."""
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 200)
     lowest = data.sel(fit_limit=float(data.fit_limit.min()))

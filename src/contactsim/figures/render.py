@@ -30,16 +30,14 @@ def render(plan: Mapping, data_path: str, costs_path: str, targets: Mapping[str,
     for dim, (least, largest) in settings["select"].items():
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
     figure, panels = framed(settings, footer)
-    shown = draw(data, panels if len(panels) > 1 else panels[0], settings["reference"])
-    _move(targets["png"], figure.savefig)
-    _move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
-    _move(targets["csv"], lambda path: shown.to_csv(path, index=False))
+    shown = draw(data, panels if len(panels) > 1 else panels[0], **settings["reference"])
+    save(figure, shown, targets)
 
 
-def framed(settings: Mapping, footer: str) -> tuple[Figure, list]:
-    """An empty figure with its panels, the title above, caption and footer below them.
+def framed(settings: Mapping, footer: str, rows: int = 1) -> tuple[Figure, list]:
+    """An empty figure with its panels, row by row, the title above, caption and footer below them.
 
-    settings: of a figure, with size, panels, title and caption; the text below adds to the height.
+    settings: of a figure, with size, panels a row, title and caption; the text below adds to the height.
     """
     width, height = settings["size"]
     caption = textwrap.wrap(settings["caption"], int(width * 19.5))
@@ -52,7 +50,7 @@ def framed(settings: Mapping, footer: str) -> tuple[Figure, list]:
     bottom = LINE_INCHES * 0.4 / (height + below)
     figure.text(0.01, share - 0.3 * LINE_INCHES / (height + below), "\n".join(caption), fontsize=7, va="top")
     figure.text(0.01, bottom, "\n".join(made), fontsize=6, color="#777777", va="bottom")
-    return figure, list(figure.subplots(1, settings["panels"], squeeze=False)[0])
+    return figure, list(figure.subplots(rows, settings["panels"], squeeze=False).flat)
 
 
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
@@ -69,7 +67,14 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     for name, symbol in (("kappa", "κ"), ("kappa_r", "κᵣ"), ("kappa_r_bond", "κᵣ of pairs")):
         if f"{name}_grid_error" in data:
             parts.append(f"grid error of {symbol} up to {float(data[f'{name}_grid_error'].max()):.1g}")
-    return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} s on one thread"])
+    return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} CPU s"])
+
+
+def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:
+    """Save a figure as PNG and PDF, and the numbers that it shows as CSV."""
+    _move(targets["png"], figure.savefig)
+    _move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    _move(targets["csv"], lambda path: shown.to_csv(path, index=False))
 
 
 def _move(path: str, save: Callable[[Path], object]) -> None:

@@ -17,6 +17,13 @@ HURST = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
 WHOLE, CONTACT, PAIRS = "#c1272d", "#1f4e9c", "#2a9d6f"
 """Gradient over the whole surface, over the contact (Eq. 3.8), over pairs in contact."""
 EXACT = "#333333"
+SYMBOLS = {
+    "kappa": r"$\kappa$",
+    "kappa_r": r"$\kappa_r$",
+    "kappa_r_bond": r"$\kappa_r$ of pairs",
+    "relative_contact_area": r"$a_{\mathrm{rel}}$",
+}
+"""Symbols of quantities."""
 
 mpl.rcParams.update(
     {
@@ -63,6 +70,12 @@ def grid_band(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, color: s
     if f"{name}_grid_error" in data:
         mean, error = data[f"{name}_mean"], data[f"{name}_grid_error"]
         axes.fill_between(x, mean - error, mean + error, color=color, alpha=0.07, lw=0)
+
+
+def keep_in_view(axes: Axes, least: float, most: float) -> None:
+    """Show at least this range of the vertical axis, and all that is drawn."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, least), max(high, most))
 
 
 def letter(axes: Axes, name: str) -> None:

@@ -82,7 +82,7 @@ class Result:
     """One solved load step.
 
     pressure (n,), GPa, never negative; gap (n,), nm; approach, nm (see `contactsim.loading`); mean_pressure, GPa;
-    seconds: wall time, apart from the record because it is not reproducible.
+    seconds: of CPU, apart from the record because it is not reproducible.
     """
 
     pressure: Array = field(repr=False)
@@ -136,7 +136,7 @@ def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> 
 
 def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
     """Solve one load step and certify it; in physical units."""
-    begin = time.perf_counter()
+    begin = time.process_time()
     pressure, certificate, status, spent = np.zeros_like(problem.heights), None, Status.CONVERGED, 0
     if not problem.untouched:
         state = solver.start(problem)
@@ -159,5 +159,5 @@ def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
         approach=certificate.approach * scale.step - scale.highest,
         status=status,
         record=record,
-        seconds=time.perf_counter() - begin,
+        seconds=time.process_time() - begin,
     )

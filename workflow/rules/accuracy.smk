@@ -24,7 +24,7 @@ rule price:
         data=RESULTS / "accuracy/{case}/{job}.nc",
         costs=RESULTS / "costs/accuracy/{case}/{job}.json",
     log: RESULTS / "logs/accuracy/{case}/{job}.log"
-    params: plan=case_params
+    params: plan=case_params, config=str(CONFIG), tier=PLAN.tier
     threads: workflow.cores
     message: "accuracy of {wildcards.case}: {wildcards.job}"
     script: "../scripts/price.py"
