@@ -31,9 +31,9 @@ def render(plan: Mapping, data_path: str, costs_path: str, targets: Mapping[str,
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
     figure, panels = framed(settings, footer)
     shown = draw(data, panels if len(panels) > 1 else panels[0], settings["reference"])
-    _move(targets["png"], figure.savefig)
-    _move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
-    _move(targets["csv"], lambda path: shown.to_csv(path, index=False))
+    move(targets["png"], figure.savefig)
+    move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    move(targets["csv"], lambda path: shown.to_csv(path, index=False))
 
 
 def framed(settings: Mapping, footer: str) -> tuple[Figure, list]:
@@ -72,7 +72,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} s on one thread"])
 
 
-def _move(path: str, save: Callable[[Path], object]) -> None:
+def move(path: str, save: Callable[[Path], object]) -> None:
     """Save under a temporary name, with the same ending, and move it into place."""
     temporary = Path(path).with_name(f".{os.getpid()}.{Path(path).name}")
     save(temporary)
