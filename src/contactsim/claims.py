@@ -10,7 +10,8 @@ The rule: let e be both errors in quadrature and d the distance from the number 
 e ≥ d, or with either unknown, the statement is not decidable: a finer grid or more members could turn the verdict.
 Otherwise it is reproduced inside the band and not reproduced outside. Where the whole selection does not reproduce it
 but a narrower condition does, it is reproduced with a condition. The condition may be part of the loads, or the
-thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does not count.
+thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does not count. A statement about
+that grid itself is not decidable on another.
 Errors are one standard error, so a number near an edge is decided wrongly about one time in six; and noise adds to
 every spread, which works against statements that something is constant.
 """
@@ -64,6 +65,7 @@ CLAIM_KEYS = {
     "within": Key(positive, "a positive number, with `expect`", None),
     "at_least": Key(number, "a number", None),
     "at_most": Key(number, "a number", None),
+    "grid": Key(choice(("thesis",)), "thesis, where the statement is about its own number of points", None),
     "condition": Key(mapping, "a mapping with `words` and `select` or `grid`", None),
 }
 CONDITION_KEYS = {
@@ -129,16 +131,15 @@ class Finding:
 
 def find(claim: Mapping, data: xr.Dataset, condition: Mapping | None = None) -> Finding:
     """The number that answers a claim, from the dataset of its study, on all of its selection or on the condition."""
-    condition = condition or {"select": {}, "grid": None}
-    study = dataset.settings_of(data)
-    for dim, (least, largest) in [*claim["select"].items(), *condition["select"].items()]:
+    study, parts = dataset.settings_of(data), [claim] if condition is None else [claim, condition]
+    for dim, (least, largest) in [ends for part in parts for ends in part["select"].items()]:
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
     if 0 in data.sizes.values():
         return Finding()
     value = _number(claim, data)
     ensemble = _jackknife(claim, data) if data.member.size > 1 else _alone(study)
     grid = _shifted(claim, data, value)
-    if condition["grid"] == "thesis":
+    if "thesis" in [part["grid"] for part in parts]:
         grid = 0.0 if int(data.points) == study["thesis_points"] else NAN
     return Finding(value, ensemble, grid)
 
@@ -172,6 +173,14 @@ def _shifted(claim: Mapping, data: xr.Dataset, value: float) -> float:
         shifts = {name: data[name] + sign * data[f"{name}_grid_error"] for name, sign in zip(moved, signs, strict=True)}
         changes.append(abs(_number(claim, data.assign(shifts)) - value))
     return max(changes)
+
+
+def measure(claim: Mapping) -> str:
+    """What is compared, in the names of the config."""
+    if claim["study"] is None:
+        return ""
+    given = [f" {need} {claim[need]}" for need in needs(claim["take"])]
+    return f"{claim['take']} of {claim['of']}{''.join(given)}"
 
 
 def band(claim: Mapping) -> tuple[float, float]:
@@ -217,7 +226,10 @@ def verdicts(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) -> p
     """All claims of a chapter, one a row; data: the datasets by study."""
     rows = []
     for name, claim in claims.items():
-        words = {key: claim[key] for key in ("source", "statement")} | {"expected": expected(claim)}
+        words = {key: claim[key] for key in ("source", "statement")} | {
+            "measure": measure(claim),
+            "expected": expected(claim),
+        }
         found = judge(claim, data.get(claim["study"]))
         rows.append({"claim": name, **words, **found, "because": claim["because"], "study": claim["study"] or ""})
     return pd.DataFrame(rows)

@@ -17,17 +17,18 @@ from contactsim.figures.render import LINE_INCHES, move
 
 COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
 COLUMNS = {
-    "source": ("thesis", 1.45),
-    "statement": ("statement", 2.75),
+    "source": ("thesis", 1.3),
+    "statement": ("statement", 2.6),
+    "measure": ("what is compared", 1.75),
     "expected": ("expected", 0.85),
     "value": ("found", 0.65),
     "ensemble_error": ("ensemble\nerror", 0.75),
     "grid_error": ("grid\nerror", 0.65),
     "verdict": ("verdict", 1.75),
-    "because": ("why this band", 2.95),
+    "because": ("why this band", 2.85),
 }
 """Head and width in inches of each column."""
-CHARACTERS = 16.5
+CHARACTERS = 18
 """Characters of the table's font in an inch."""
 PADDING = 0.07
 
@@ -72,7 +73,7 @@ def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
 
 def _cells(row: dict) -> dict[str, str]:
     """The text of each cell; under a condition, what was found there follows the verdict."""
-    texts = {name: row[name] for name in ("source", "statement", "expected", "because", "verdict")}
+    texts = {name: row[name] for name in ("source", "statement", "measure", "expected", "because", "verdict")}
     texts |= {
         name: _rounded(row[name], 4 if name == "value" else 2) for name in ("value", "ensemble_error", "grid_error")
     }
