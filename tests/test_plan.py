@@ -207,7 +207,7 @@ BAD = {
         8,
         "more than 30",
     ),
-    "unknown key of a chapter": ({"ch3.yaml": {"claims": {}}}, "ch3.yaml", "claims", {}, "studies, figures"),
+    "unknown key of a chapter": ({"ch3.yaml": {"clams": {}}}, "ch3.yaml", "clams", {}, "studies, figures, claims"),
     "bad study": ({"ch3.yaml": {"studies/rough/members": 0}}, "ch3.yaml", "studies.rough.members", 0, "1 or more"),
     "study that is no mapping": ({"ch3.yaml": {"studies/rough": 5}}, "ch3.yaml", "studies.rough", 5, "a mapping"),
     "figure of an unknown study": (

@@ -2,18 +2,19 @@
 
 A claim in the config names a quantity, how it is reduced to one number, and the band in which the statement puts that
 number. Its verdict is computed, never written down, and depends on three things: the number from the ensemble means,
-its ensemble error (jackknife over members) and its grid error (change when all means move by theirs). The grid error's
-sign is not stored; within one quantity it was the same at every load, so all points of a quantity move together, and
-of two quantities the worse of all combinations counts.
+its ensemble error (jackknife over members) and its grid error (change when all means move by theirs). Of the grid
+error only the size is stored. Of rough lines its sign was the same at every load and H, so all points of a quantity
+move together, and of two quantities the worse of all combinations counts. Of a cylinder, where it is the rounding of
+two edges to grid points, that understates the error of a spread.
 
 The rule: let e be both errors in quadrature and d the distance from the number to the nearest edge of the band. With
 e ≥ d, or with either unknown, the statement is not decidable: a finer grid or more members could turn the verdict.
 Otherwise it is reproduced inside the band and not reproduced outside. Where the whole selection does not reproduce it
-but a narrower condition does, it is reproduced with a condition. The condition may be part of the loads, or the
-thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does not count. A statement about
-that grid itself is not decidable on another.
-Errors are one standard error, so a number near an edge is decided wrongly about one time in six; and noise adds to
-every spread, which works against statements that something is constant.
+but a narrower condition does, it is reproduced with a condition. The condition may be part of the loads or variants,
+or the thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does
+not count. A statement about that grid itself is not decidable on another. Errors are one standard error, so a number
+near an edge is decided wrongly about one time in six; and noise adds to every spread, which works against statements
+that something is constant.
 """
 
 from __future__ import annotations
@@ -89,8 +90,8 @@ class Claim:
         prefix = f"claims.{name}"
         settings = read(section, CLAIM_KEYS, file, prefix)
         if settings["study"] is None:
-            for key in set(settings) - {"source", "statement", "because"}:
-                if settings[key] is not None:
+            for key in settings:
+                if key not in ("source", "statement", "because") and settings[key] is not None:
                     raise SceneError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
             return cls(name, settings)
         _one_of(settings, "study", studies, file, prefix)
@@ -100,8 +101,8 @@ class Claim:
         _one_of(settings, "take", known["take"], file, prefix)
         for key in ("of", *needs(settings["take"])):
             _one_of(settings, key, known[key], file, prefix)
-        for key in {"against", "along"} - set(needs(settings["take"])):
-            if settings[key] is not None:
+        for key in ("against", "along"):
+            if key not in needs(settings["take"]) and settings[key] is not None:
                 allowed = f"left out: {settings['take']} does not use it"
                 raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)
         settings["select"] = selection(settings["select"] or {}, dims, file, f"{prefix}.select")
