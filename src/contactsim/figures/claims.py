@@ -74,12 +74,11 @@ def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
 def _cells(row: dict) -> dict[str, str]:
     """The text of each cell; under a condition, what was found there follows the verdict."""
     texts = {name: row[name] for name in ("source", "statement", "measure", "expected", "because", "verdict")}
-    texts |= {
-        name: _rounded(row[name], 4 if name == "value" else 2) for name in ("value", "ensemble_error", "grid_error")
-    }
+    numbers = {"value": 4, "ensemble_error": 2, "grid_error": 2}
+    texts |= {name: _rounded(row[name], digits) for name, digits in numbers.items()}
     if row["condition"]:
-        found = [_rounded(row[f"condition_{name}"], 3) for name in ("value", "ensemble_error", "grid_error")]
-        texts["verdict"] += f": {row['condition']}; there {found[0]} ± {found[1]} ± {found[2]}"
+        found = [_rounded(row[f"condition_{name}"], digits) for name, digits in numbers.items()]
+        texts["verdict"] += f": {row['condition']}; there {' ± '.join(found)}"
     return {name: textwrap.fill(texts[name], int(width * CHARACTERS)) for name, (_, width) in COLUMNS.items()}
 
 
