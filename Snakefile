@@ -10,10 +10,11 @@ rule targets:
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/present.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/judge.smk"
 
 
 rule all:
-    input: all_figures
+    input: all_figures, all_claims
 
 
 rule unknown_target:

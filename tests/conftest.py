@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from contactsim import aggregate, costs, dataset, march
+from contactsim.figures.claims import render_claims
 from contactsim.figures.render import render
 from contactsim.plan import Plan
 
@@ -37,6 +38,11 @@ def made(tmp_path_factory) -> Path:
             targets = {kind: f"{plan.results}/figures/{figure.name}.{kind}" for kind in ("png", "pdf", "csv")}
             shown = json.loads(json.dumps(plan.figure_settings(figure.name)))
             render(shown, plan.results / f"datasets/{name}.nc", plan.results / f"costs/{name}.csv", targets)
+        (plan.results / "claims").mkdir()
+        for chapter in plan.claims:
+            data = {study: plan.results / f"datasets/{chapter}_{study}.nc" for study in plan.claims_studies(chapter)}
+            targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in ("png", "pdf", "csv")}
+            render_claims(json.loads(json.dumps(plan.claims_settings(chapter))), data, targets)
     finally:
         os.chdir(before)
     return folder

@@ -44,7 +44,7 @@ FILES = {
     "tiers.yaml": {"plain": {}, "small": {"studies": {"smooth": {"points": 32}}}},
     "ch3.yaml": {
         "studies": {"smooth": SMOOTH, "rough": ROUGH},
-        "figures": {"fig_3_1": FIGURE, "fig_3_2": FIGURE | {"study": "rough", "select": {"hurst": [0.1, 0.5]}}},
+        "figures": {"fig_3_1": FIGURE, "fig_3_3": FIGURE | {"study": "rough", "select": {"hurst": [0.1, 0.5]}}},
     },
 }
 
@@ -127,12 +127,12 @@ def test_every_tier_has_the_loads_that_a_figure_selects_and_a_fit_needs(tiers):
             assert sum(least <= value <= largest for value in load["values"]) >= 3
 
 
-def test_every_figure_has_a_function_that_takes_data_axes_and_reference(tiers):
+def test_every_figure_has_a_function_that_takes_data_axes_and_the_values_of_the_thesis(tiers):
     figures = tiers["standard"].figures
     assert figures
     for name, figure in figures.items():
         draw = getattr(import_module(f"contactsim.figures.{figure.chapter}"), name)
-        assert list(inspect.signature(draw).parameters) == ["data", "axes", "reference"]
+        assert list(inspect.signature(draw).parameters) == ["data", "axes", *figure.settings["reference"]]
         assert draw.__doc__
 
 
@@ -150,7 +150,7 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.tier == "plain"
     assert plan.results == Path("made/plain")
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
-    assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_2": "ch3"}
+    assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
     assert plan.figures["fig_3_1"].settings == FIGURE | {"panels": 1, "select": {}, "reference": {}}
     assert plan.dataset_name("smooth") == "ch3_smooth"
 
@@ -207,7 +207,7 @@ BAD = {
         8,
         "more than 30",
     ),
-    "unknown key of a chapter": ({"ch3.yaml": {"claims": {}}}, "ch3.yaml", "claims", {}, "studies, figures"),
+    "unknown key of a chapter": ({"ch3.yaml": {"clams": {}}}, "ch3.yaml", "clams", {}, "studies, figures, claims"),
     "bad study": ({"ch3.yaml": {"studies/rough/members": 0}}, "ch3.yaml", "studies.rough.members", 0, "1 or more"),
     "study that is no mapping": ({"ch3.yaml": {"studies/rough": 5}}, "ch3.yaml", "studies.rough", 5, "a mapping"),
     "figure of an unknown study": (
@@ -265,9 +265,9 @@ for size in ([4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -
     )
 for limits in ([0.1], [0.1, 0.2, 0.3], 0.1, {"least": 0.1}, [0.1, "all"], None, [0.5, 0.1]):
     BAD[f"select {limits}"] = (
-        {"ch3.yaml": {"figures/fig_3_2/select": {"hurst": limits}}},
+        {"ch3.yaml": {"figures/fig_3_3/select": {"hurst": limits}}},
         "ch3.yaml",
-        "figures.fig_3_2.select.hurst",
+        "figures.fig_3_3.select.hurst",
         limits,
         "least and largest value",
     )
@@ -284,8 +284,8 @@ def test_a_bad_config_is_refused_with_file_key_value_and_what_is_allowed(folder,
 
 
 def test_a_figure_that_selects_along_what_its_study_does_not_have_is_refused(folder):
-    error = refusal(folder({"ch3.yaml": {"figures/fig_3_2/select": {"speed": [0.1, 0.2]}}}))
-    assert error.key == "figures.fig_3_2.select.speed"
+    error = refusal(folder({"ch3.yaml": {"figures/fig_3_3/select": {"speed": [0.1, 0.2]}}}))
+    assert error.key == "figures.fig_3_3.select.speed"
 
 
 def test_an_unknown_tier_on_the_command_line_names_tiers_yaml_and_what_exists(folder):
@@ -360,15 +360,15 @@ def test_what_the_workflow_is_given_is_the_same_read_twice(folder):
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [
-        ({"studies/rough/load": {"reduced_pressure": [0.01, 0.2]}}, {"rough", "fig_3_2"}),
-        ({"studies/rough/members": 3}, {"rough", "fig_3_2"}),
-        ({"studies/rough/vary": {"surface.hurst": [0.2, 0.7]}}, {"rough", "fig_3_2"}),
-        ({"studies/rough/title": "Rougher"}, {"rough", "fig_3_2"}),
-        ({"studies/rough/thesis_points": 9}, {"rough", "fig_3_2"}),
+        ({"studies/rough/load": {"reduced_pressure": [0.01, 0.2]}}, {"rough", "fig_3_3"}),
+        ({"studies/rough/members": 3}, {"rough", "fig_3_3"}),
+        ({"studies/rough/vary": {"surface.hurst": [0.2, 0.7]}}, {"rough", "fig_3_3"}),
+        ({"studies/rough/title": "Rougher"}, {"rough", "fig_3_3"}),
+        ({"studies/rough/thesis_points": 9}, {"rough", "fig_3_3"}),
         ({"studies/smooth/load": {"contact_ratio": [0.1]}}, {"smooth", "fig_3_1"}),
-        ({"figures/fig_3_2/caption": "Something else."}, {"fig_3_2"}),
+        ({"figures/fig_3_3/caption": "Something else."}, {"fig_3_2"}),
         ({"figures/fig_3_1/size": [5.0, 3.0]}, {"fig_3_1"}),
-        ({"figures/fig_3_1/reference": {"kappa": 1.0}}, {"fig_3_1"}),
+        ({"figures/fig_3_1/caption": "Another."}, {"fig_3_1"}),
     ],
 )
 def test_an_edit_changes_the_studies_and_figures_that_use_it_and_no_others(folder, changes, expected):
@@ -376,7 +376,7 @@ def test_an_edit_changes_the_studies_and_figures_that_use_it_and_no_others(folde
 
 
 def test_another_seed_changes_everything(folder):
-    assert changed_by(folder, {"config.yaml": {"seed": 2}}) == {"smooth", "rough", "fig_3_1", "fig_3_2"}
+    assert changed_by(folder, {"config.yaml": {"seed": 2}}) == {"smooth", "rough", "fig_3_1", "fig_3_3"}
 
 
 def test_a_longer_list_of_members_changes_no_run_that_was_there(folder):
@@ -404,14 +404,14 @@ def edited(monkeypatch):
 @pytest.mark.parametrize(
     ("module", "expected", "runs"),
     [
-        ("contactsim.solvers.polonsky_keer", {"rough", "fig_3_2"}, {"rough"}),
+        ("contactsim.solvers.polonsky_keer", {"rough", "fig_3_3"}, {"rough"}),
         ("contactsim.solvers.active_set", {"smooth", "fig_3_1"}, {"smooth"}),
         ("contactsim.solvers.verlet", set(), set()),
-        ("contactsim.grid", {"smooth", "rough", "fig_3_1", "fig_3_2"}, {"smooth", "rough"}),
-        ("contactsim.aggregate", {"smooth", "rough", "fig_3_1", "fig_3_2"}, set()),
-        ("contactsim.costs", {"smooth", "rough", "fig_3_1", "fig_3_2"}, set()),
-        ("contactsim.figures.ch3", {"fig_3_1", "fig_3_2"}, set()),
-        ("contactsim.figures.style", {"fig_3_1", "fig_3_2"}, set()),
+        ("contactsim.grid", {"smooth", "rough", "fig_3_1", "fig_3_3"}, {"smooth", "rough"}),
+        ("contactsim.aggregate", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.costs", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.figures.ch3", {"fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.figures.style", {"fig_3_1", "fig_3_3"}, set()),
         ("contactsim.plan", set(), set()),
     ],
 )

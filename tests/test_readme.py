@@ -10,9 +10,11 @@ import yaml
 
 import contactsim
 from conftest import ROOT
+from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.config import keys_of
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, Plan
 from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS
+from contactsim.takes import FITTED, TAKES, needs
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 KEYS = (ROOT / "config/README.md").read_text(encoding="utf-8")
@@ -72,6 +74,7 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "my_profile",
         "smooth_line",
         "rough_line",
+        "claims",
     }
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", README, re.MULTILINE)
     assert commands
@@ -86,12 +89,18 @@ def test_every_link_leads_somewhere():
 
 @pytest.mark.parametrize(
     "keys",
-    [CONFIG_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, dict.fromkeys(LOADS)],
-    ids=["main", "study", "figure", "companion", "load"],
+    [CONFIG_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, dict.fromkeys(LOADS), CLAIM_KEYS, CONDITION_KEYS, FITTED],
+    ids=["main", "study", "figure", "companion", "load", "claim", "condition", "fitted"],
 )
 def test_every_key_is_explained(keys):
     for name in keys:
         assert f"`{name}`" in KEYS, name
+
+
+@pytest.mark.parametrize("take", TAKES)
+def test_every_take_is_explained_with_what_it_uses(take):
+    uses = ", ".join(f"`{need}`" for need in needs(take))
+    assert re.search(rf"^\| `{take}` \| .+ \| {uses} ?\|$", KEYS, re.MULTILINE)
 
 
 @pytest.mark.parametrize("section", KINDS)
@@ -111,6 +120,7 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
     known = set(CONFIG_KEYS) | set(STUDY_KEYS) | set(FIGURE_KEYS) | set(COMPANION_KEYS) | set(LOADS) | {"kind"}
+    known |= {*CLAIM_KEYS, *CONDITION_KEYS, *TAKES}
     for classes, class_of in KINDS.values():
         for kind in classes:
             known |= {kind, *keys_of(class_of(kind))}

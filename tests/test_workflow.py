@@ -78,7 +78,7 @@ CONFIG = {
     "tiers": {"standard": {}, "quick": {"studies": {"smooth": {"points": 256}}}},
 }
 DRAW = """
-def {name}(data, axes, reference):
+def {name}(data, axes):
     axes.plot(data.relative_contact_area.values.ravel())
     return data[["relative_contact_area_mean"]].to_dataframe().reset_index()
 """

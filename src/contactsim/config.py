@@ -51,7 +51,7 @@ def load_yaml(path: str | Path) -> dict:
         raise SceneError("file", str(path), "a file that can be read", path) from error
     except (yaml.YAMLError, ValueError) as error:
         raise SceneError(
-            "YAML", "text that is not", f"YAML with each key once ({' '.join(str(error).split())})", path
+            "YAML", "text that is not", f"valid YAML with each key once ({' '.join(str(error).split())})", path
         ) from error
     if content is None:
         return {}

@@ -1,4 +1,4 @@
-"""The plan: all of the config read once, and the tables of studies and figures that the workflow is built from."""
+"""The plan: all of the config read once, and the tables of studies, figures and claims that make the workflow."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from contactsim.claims import Claim, selection
 from contactsim.config import Key, load_yaml, mapping, number, overlaid, positive, read, text, whole
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
@@ -17,32 +18,21 @@ CONFIG_KEYS = {
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
 }
-RESERVED = ("all", "targets", "run", "aggregate", "unknown_target")
+RESERVED = ("all", "claims", "accuracy", "stability", "targets", "run", "aggregate", "unknown_target")
 """Names that the workflow's own rules have."""
 
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies"),
     "figures": Key(mapping, "a mapping from names to figures"),
+    "claims": Key(mapping, "a mapping from names to claims", {}),
 }
-
-
-def pair(value: object) -> list[float]:
-    """Two numbers."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise ValueError
-    return [number(entry) for entry in value]
 
 
 def size(value: object) -> list[float]:
     """Two positive numbers."""
-    return [positive(entry) for entry in pair(value)]
-
-
-def limits(value: object) -> list[float]:
-    """Two numbers, the least first."""
-    if pair(value) != sorted(pair(value)):
+    if not isinstance(value, list) or len(value) != 2:
         raise ValueError
-    return pair(value)
+    return [positive(entry) for entry in value]
 
 
 LEAST_WIDTH = 2.8
@@ -70,13 +60,14 @@ class Figure:
 
 @dataclass(frozen=True)
 class Plan:
-    """Everything that can be made: studies and figures by name, at one tier, and the folder for it."""
+    """Everything that can be made: studies and figures by name, claims by chapter and name, at one tier; its folder."""
 
     tier: str
     results: Path
     studies: dict[str, Study]
     chapters: dict[str, str]
     figures: dict[str, Figure]
+    claims: dict[str, dict[str, Claim]]
 
     @classmethod
     def read(cls, folder: str | Path, tier: str | None = None) -> Plan:
@@ -86,9 +77,9 @@ class Plan:
         tiers = load_yaml(folder / "tiers.yaml")
         tier = main["tier"] if tier is None else tier
         if tier not in tiers:
-            raise SceneError("tier", tier, f"one of {', '.join(tiers)}, as in {folder / 'tiers.yaml'}")
+            raise SceneError("tier", tier, f"one of {', '.join(tiers)}", folder / "tiers.yaml")
         overrides = read(tiers[tier] or {}, {"studies": Key(mapping, "a mapping", {})}, folder / "tiers.yaml", tier)
-        studies, chapters, figures = {}, {}, {}
+        studies, chapters, figures, claims = {}, {}, {}, {}
         for file in sorted(folder.glob("ch*.yaml")):
             sections = read(load_yaml(file), CHAPTER_KEYS, file)
             for name, section in sections["studies"].items():
@@ -108,15 +99,20 @@ class Plan:
                     section = overlaid(section, over)
                 studies[name] = Study.read(name, section, source, main["seed"])
                 chapters[name] = file.stem
+            own = {name: studies[name] for name in sections["studies"]}
             for name, section in sections["figures"].items():
                 if name in figures:
                     raise SceneError(f"figures.{name}", name, "a name that no other chapter has taken", file)
-                figures[name] = _figure(name, section, file, {study: studies[study] for study in sections["studies"]})
+                figures[name] = _figure(name, section, file, own)
+            if sections["claims"]:
+                claims[file.stem] = {
+                    name: Claim.read(name, section, file, own) for name, section in sections["claims"].items()
+                }
         for name in overrides["studies"]:
             raise SceneError(
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
             )
-        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures)
+        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures, claims)
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """The run that a file name stands for."""
@@ -150,6 +146,17 @@ class Plan:
         data = digest(self.study_settings(figure.settings["study"]))
         return {"name": name, "chapter": figure.chapter, "settings": figure.settings, "source": code, "data": data}
 
+    def claims_studies(self, chapter: str) -> list[str]:
+        """The studies that a chapter's claims ask."""
+        return sorted({claim.settings["study"] for claim in self.claims[chapter].values()} - {None})
+
+    def claims_settings(self, chapter: str) -> dict:
+        """What the verdicts of a chapter depend on: its claims in their order, their code, and all their data's."""
+        data = {study: digest(self.study_settings(study)) for study in self.claims_studies(chapter)}
+        claims = [[name, claim.settings] for name, claim in self.claims[chapter].items()]
+        code = source_digest("contactsim.claims", "contactsim.figures.claims")
+        return {"chapter": chapter, "claims": claims, "source": code, "data": data}
+
 
 def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     prefix = f"figures.{name}"
@@ -158,10 +165,7 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
         raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
     if settings["study"] not in studies:
         raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(studies)}", file)
-    dims = studies[settings["study"]].dimensions
-    read(
-        settings["select"], dict.fromkeys(dims, Key(limits, "least and largest value", None)), file, f"{prefix}.select"
-    )
+    settings["select"] = selection(settings["select"], studies[settings["study"]].dimensions, file, f"{prefix}.select")
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)

@@ -38,11 +38,16 @@ def all_figures(wildcards):
     return [file for name in names for file in figure_files(name)]
 
 
+def all_claims(wildcards):
+    return [RESULTS / "claims" / f"{chapter}{ending}" for chapter in PLAN.claims for ending in (".csv", ".png", ".pdf")]
+
+
 def target_lines():
     lines = [f"  {name:14} {figure.settings['title']}" for name, figure in PLAN.figures.items()]
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
     lines += [f"  {'accuracy':14} error against cost of {', '.join(CASES)}"]
-    return "\n".join([*lines, f"  {'all':14} every figure and table"])
+    lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"]
+    return "\n".join([*lines, f"  {'all':14} every figure and table, accuracy and claims"])
 
 
 def list_targets(wildcards):

@@ -72,12 +72,12 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
 
 def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:
     """Save a figure as PNG and PDF, and the numbers that it shows as CSV."""
-    _move(targets["png"], figure.savefig)
-    _move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
-    _move(targets["csv"], lambda path: shown.to_csv(path, index=False))
+    move(targets["png"], figure.savefig)
+    move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    move(targets["csv"], lambda path: shown.to_csv(path, index=False))
 
 
-def _move(path: str, save: Callable[[Path], object]) -> None:
+def move(path: str, save: Callable[[Path], object]) -> None:
     """Save under a temporary name, with the same ending, and move it into place."""
     temporary = Path(path).with_name(f".{os.getpid()}.{Path(path).name}")
     save(temporary)

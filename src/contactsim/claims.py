@@ -1,0 +1,236 @@
+"""What the thesis states, held against the datasets: value, errors and verdict of each claim.
+
+A claim in the config names a quantity, how it is reduced to one number, and the band in which the statement puts that
+number. Its verdict is computed, never written down, and depends on three things: the number from the ensemble means,
+its ensemble error (jackknife over members) and its grid error (change when all means move by theirs). Of the grid
+error only the size is stored. Of rough lines its sign was the same at every load and H, so all points of a quantity
+move together, and of two quantities the worse of all combinations counts. Of a cylinder, where it is the rounding of
+two edges to grid points, that understates the error of a spread.
+
+The rule: let e be both errors in quadrature and d the distance from the number to the nearest edge of the band. With
+e ≥ d, or with either unknown, the statement is not decidable: a finer grid or more members could turn the verdict.
+Otherwise it is reproduced inside the band and not reproduced outside. Where the whole selection does not reproduce it
+but a narrower condition does, it is reproduced with a condition. The condition may be part of the loads or variants,
+or the thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does
+not count. A statement about that grid itself is not decidable on another. Errors are one standard error, so a number
+near an edge is decided wrongly about one time in six; and noise adds to every spread, which works against statements
+that something is constant.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.config import Key, choice, mapping, number, positive, read, text
+from contactsim.errors import SceneError
+from contactsim.study import Study
+from contactsim.takes import TAKES, averaged, needs, quantities, quantity
+
+REPRODUCED, CONDITION = "reproduced", "reproduced with a condition"
+NOT_REPRODUCED, NOT_DECIDABLE = "not reproduced", "not decidable"
+NAN = float("nan")
+
+
+def limits(value: object) -> list[float]:
+    """Two numbers, the least first."""
+    if not isinstance(value, list) or len(value) != 2 or number(value[0]) > number(value[1]):
+        raise ValueError
+    return [number(entry) for entry in value]
+
+
+def selection(section: dict, dims: list[str], file: object, prefix: str) -> dict:
+    """Least and largest value of some of these dimensions."""
+    keys = dict.fromkeys(dims, Key(limits, "least and largest value", None))
+    return {dim: ends for dim, ends in read(section, keys, file, prefix).items() if ends is not None}
+
+
+CLAIM_KEYS = {
+    "source": Key(text, "where the thesis says so"),
+    "statement": Key(text, "what the thesis says"),
+    "because": Key(text, "why that band, or why there is no answer"),
+    "study": Key(text, "the name of a study of this chapter, or left out where there is no answer", None),
+    "of": Key(text, "the name of a quantity", None),
+    "take": Key(choice(TAKES), f"one of {', '.join(TAKES)}", None),
+    "against": Key(text, "the name of a quantity", None),
+    "along": Key(text, "a dimension of the study", None),
+    "select": Key(mapping, "a mapping from a dimension to its least and largest value", None),
+    "expect": Key(number, "a number, with `within`", None),
+    "within": Key(positive, "a positive number, with `expect`", None),
+    "at_least": Key(number, "a number", None),
+    "at_most": Key(number, "a number", None),
+    "grid": Key(choice(("thesis",)), "thesis, where the statement is about its own number of points", None),
+    "condition": Key(mapping, "a mapping with `words` and `select` or `grid`", None),
+}
+CONDITION_KEYS = {
+    "words": Key(text, "the condition in words"),
+    "select": Key(mapping, "a mapping from a dimension to its least and largest value", {}),
+    "grid": Key(choice(("thesis",)), "thesis, for its own number of points", None),
+}
+BANDS = ({"expect", "within"}, {"at_least"}, {"at_most"})
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the thesis: name, and its settings as read."""
+
+    name: str
+    settings: dict
+
+    @classmethod
+    def read(cls, name: str, section: object, file: object, studies: Mapping[str, Study]) -> Claim:
+        """Check a claim of a chapter's config against the studies of that chapter."""
+        prefix = f"claims.{name}"
+        settings = read(section, CLAIM_KEYS, file, prefix)
+        if settings["study"] is None:
+            for key in settings:
+                if key not in ("source", "statement", "because") and settings[key] is not None:
+                    raise SceneError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
+            return cls(name, settings)
+        _one_of(settings, "study", studies, file, prefix)
+        study = studies[settings["study"]]
+        dims = [dim for dim in study.dimensions if dim != "member"]
+        known = {"of": quantities(study), "take": list(TAKES), "against": quantities(study), "along": dims}
+        _one_of(settings, "take", known["take"], file, prefix)
+        for key in ("of", *needs(settings["take"])):
+            _one_of(settings, key, known[key], file, prefix)
+        for key in ("against", "along"):
+            if key not in needs(settings["take"]) and settings[key] is not None:
+                allowed = f"left out: {settings['take']} does not use it"
+                raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)
+        settings["select"] = selection(settings["select"] or {}, dims, file, f"{prefix}.select")
+        if settings["condition"] is not None:
+            condition = read(settings["condition"], CONDITION_KEYS, file, f"{prefix}.condition")
+            condition["select"] = selection(condition["select"], dims, file, f"{prefix}.condition.select")
+            settings["condition"] = condition
+        given = {key for key in set.union(*BANDS) if settings[key] is not None}
+        if given not in BANDS:
+            raise SceneError(prefix, sorted(given), "expect with within, or at_least, or at_most", file)
+        return cls(name, settings)
+
+
+def _one_of(settings: dict, key: str, known: object, file: object, prefix: str) -> None:
+    if settings[key] not in known:
+        raise SceneError(f"{prefix}.{key}", settings[key], f"one of {', '.join(known)}", file)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A number with its ensemble and grid error; NaN: unknown."""
+
+    value: float = NAN
+    ensemble_error: float = NAN
+    grid_error: float = NAN
+
+
+def find(claim: Mapping, data: xr.Dataset, condition: Mapping | None = None) -> Finding:
+    """The number that answers a claim, from the dataset of its study, on all of its selection or on the condition."""
+    study, parts = dataset.settings_of(data), [claim] if condition is None else [claim, condition]
+    for dim, (least, largest) in [ends for part in parts for ends in part["select"].items()]:
+        data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
+    if 0 in data.sizes.values():
+        return Finding()
+    value = _number(claim, data)
+    ensemble = _jackknife(claim, data) if data.member.size > 1 else _alone(study)
+    grid = _shifted(claim, data, value)
+    if "thesis" in [part["grid"] for part in parts]:
+        grid = 0.0 if int(data.points) == study["thesis_points"] else NAN
+    return Finding(value, ensemble, grid)
+
+
+def _number(claim: Mapping, data: xr.Dataset) -> float:
+    given = {"against": lambda name: quantity(data, name), "along": str}
+    take = claim["take"]
+    return TAKES[take](quantity(data, claim["of"]), **{need: given[need](claim[need]) for need in needs(take)})
+
+
+def _jackknife(claim: Mapping, data: xr.Dataset) -> float:
+    """Standard error from leaving out each member; of a mean it is the usual one."""
+    count = data.member.size
+    parts = [_number(claim, data.drop_isel(member=member)) for member in range(count)]
+    return math.sqrt((count - 1) * np.var(parts))
+
+
+def _alone(study: Mapping) -> float:
+    """The ensemble error of one member: none where the surface is not random, else unknown."""
+    return NAN if study["surface"]["kind"] == "self_affine" else 0.0
+
+
+def _shifted(claim: Mapping, data: xr.Dataset, value: float) -> float:
+    """The largest change when each quantity moves by its grid error, up or down; exact ones stay."""
+    names = {averaged(claim[key]) for key in ("of", "against") if claim[key] is not None}
+    moved = sorted(names - {None})
+    if any(f"{name}_grid_error" not in data for name in moved):
+        return NAN
+    changes = []
+    for signs in itertools.product((-1, 1), repeat=len(moved)):
+        shifts = {name: data[name] + sign * data[f"{name}_grid_error"] for name, sign in zip(moved, signs, strict=True)}
+        changes.append(abs(_number(claim, data.assign(shifts)) - value))
+    return max(changes)
+
+
+def measure(claim: Mapping) -> str:
+    """What is compared, in the names of the config."""
+    if claim["study"] is None:
+        return ""
+    given = [f" {need} {claim[need]}" for need in needs(claim["take"])]
+    return f"{claim['take']} of {claim['of']}{''.join(given)}"
+
+
+def band(claim: Mapping) -> tuple[float, float]:
+    """Least and largest value that the statement allows."""
+    if claim["expect"] is not None:
+        return claim["expect"] - claim["within"], claim["expect"] + claim["within"]
+    return tuple(
+        default if claim[key] is None else claim[key] for key, default in (("at_least", -np.inf), ("at_most", np.inf))
+    )
+
+
+def expected(claim: Mapping) -> str:
+    """The band in words."""
+    if claim["expect"] is not None:
+        return f"{claim['expect']:g} ± {claim['within']:g}"
+    signs = (("at_least", "≥"), ("at_most", "≤"))
+    return " ".join(f"{sign} {claim[key]:g}" for key, sign in signs if claim[key] is not None)
+
+
+def verdict(claim: Mapping, found: Finding) -> str:
+    """Reproduced, not reproduced or not decidable: the rule of the module."""
+    low, high = band(claim)
+    distance = min(abs(found.value - low), abs(found.value - high))
+    if not distance > math.hypot(found.ensemble_error, found.grid_error):
+        return NOT_DECIDABLE
+    return REPRODUCED if low < found.value < high else NOT_REPRODUCED
+
+
+def judge(claim: Mapping, data: xr.Dataset | None) -> dict:
+    """A claim's number, errors and verdict, and those under its condition where that is what reproduces it."""
+    found = Finding() if data is None else find(claim, data)
+    row = {"verdict": verdict(claim, found), **vars(found), "condition": "", "condition_value": NAN}
+    row |= {"condition_ensemble_error": NAN, "condition_grid_error": NAN}
+    if data is not None and claim["condition"] is not None and row["verdict"] != REPRODUCED:
+        narrower = find(claim, data, claim["condition"])
+        if verdict(claim, narrower) == REPRODUCED:
+            row |= {f"condition_{name}": value for name, value in vars(narrower).items()}
+            row |= {"verdict": CONDITION, "condition": claim["condition"]["words"]}
+    return row
+
+
+def verdicts(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) -> pd.DataFrame:
+    """All claims of a chapter, one a row; data: the datasets by study."""
+    rows = []
+    for name, claim in claims.items():
+        words = {key: claim[key] for key in ("source", "statement")} | {
+            "measure": measure(claim),
+            "expected": expected(claim),
+        }
+        found = judge(claim, data.get(claim["study"]))
+        rows.append({"claim": name, **words, **found, "because": claim["because"], "study": claim["study"] or ""})
+    return pd.DataFrame(rows)

@@ -1,0 +1,107 @@
+"""Numbers read off a dataset: its quantities as means over members, and the ways to reduce one to a single number.
+
+Each take is a function of a quantity; where it wants another quantity or a dimension besides, its parameters
+`against` and `along` say so.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from contactsim import analytic
+from contactsim.aggregate import AVERAGED, converged, fit_line_area
+from contactsim.study import Study
+
+
+def mean(of: xr.DataArray) -> float:
+    """The mean over all points."""
+    return float(of.mean())
+
+
+def spread(of: xr.DataArray, along: str) -> float:
+    """(largest − smallest)/mean along a dimension, averaged over the others."""
+    return float(((of.max(along) - of.min(along)) / of.mean(along)).mean())
+
+
+def fall(of: xr.DataArray, along: str) -> float:
+    """By which part it falls from the first to the last value of a dimension, averaged over the others."""
+    return float((1 - of.isel({along: -1}) / of.isel({along: 0})).mean())
+
+
+def slope(of: xr.DataArray, against: xr.DataArray, along: str) -> float:
+    """Slope of the straight line through the logarithms along a dimension, averaged over the others."""
+    x = np.log(against) - np.log(against).mean(along)
+    return float(((x * np.log(of)).sum(along, skipna=False) / (x**2).sum(along)).mean())
+
+
+def spread_ratio(of: xr.DataArray, against: xr.DataArray, along: str) -> float:
+    """The spread of one quantity over that of another."""
+    return spread(of, along) / spread(against, along)
+
+
+def departure(of: xr.DataArray, against: xr.DataArray) -> float:
+    """The largest departure from another quantity, as a part of that."""
+    return float(abs(of / against - 1).max())
+
+
+def ratio(of: xr.DataArray, against: xr.DataArray) -> float:
+    """The largest ratio to another quantity."""
+    return float((of / against).max())
+
+
+TAKES: dict[str, Callable[..., float]] = {
+    take.__name__: take for take in (mean, spread, fall, slope, spread_ratio, departure, ratio)
+}
+
+
+def needs(take: str) -> list[str]:
+    """What a take wants besides `of`: some of `against` and `along`."""
+    return list(inspect.signature(TAKES[take]).parameters)[1:]
+
+
+def _fit(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
+    area = converged(data.relative_contact_area, data).transpose("hurst", "member", "reduced_pressure").values
+    pressure = data.reduced_pressure.values
+    sets = [area] * len(area) if together else area
+    fits = [analytic.line_area(pressure, *fit_line_area(pressure, one, weighting)) / pressure for one in sets]
+    return xr.DataArray(fits, dims=("hurst", "reduced_pressure"))
+
+
+FITTED: dict[str, tuple[str, bool]] = {
+    "kappa_fit": ("area", False),
+    "kappa_fit_logarithm": ("logarithm", False),
+    "kappa_fit_all": ("area", True),
+}
+"""κ of Eq. 3.11 fitted to the selected loads: how it weighs, and whether all Hurst exponents share one fit."""
+
+
+def quantities(study: Study) -> list[str]:
+    """Names of the quantities that a study's dataset answers for."""
+    load = study.settings["load"]["name"]
+    known = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
+    if load == "contact_ratio":
+        known |= {"half_width", "half_width_exact"}
+    if study.settings["companion"] is not None:
+        known |= {f"{name}_grid_error" for name in AVERAGED if name in known}
+    if study.dimensions == ["hurst", "member", "reduced_pressure"]:
+        known |= set(FITTED)
+    return sorted(known)
+
+
+def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
+    """The means over members of a quantity; unconverged solutions are left out."""
+    if name in FITTED:
+        return _fit(data, *FITTED[name])
+    if name == "half_width":
+        return quantity(data, "relative_contact_area") * data.length / 2
+    return converged(data[name], data).mean("member")
+
+
+def averaged(name: str) -> str | None:
+    """The averaged quantity, with a grid error of its own, that another is made from; None for what is exact."""
+    made = "relative_contact_area" if name in FITTED or name == "half_width" else name
+    return made if made in AVERAGED else None

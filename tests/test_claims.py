@@ -1,0 +1,276 @@
+"""Verdicts follow from the data: every category, every take, every refusal."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from conftest import ROOT
+from contactsim import claims, dataset, takes
+from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, Claim, Finding
+from contactsim.errors import SceneError
+from contactsim.figures.claims import COLOURS, COLUMNS, drawn
+from contactsim.plan import Plan
+
+PLAN = Plan.read(ROOT / "config", "quick")
+STUDIES = {name: PLAN.studies[name] for name in ("smooth_line", "rough_line")}
+PRESSURES = [0.001, 0.01, 0.1]
+VALUE = {
+    "source": "Section 0",
+    "statement": "κ is 2.",
+    "because": "A test.",
+    "study": "rough_line",
+    "of": "kappa",
+    "take": "mean",
+    "expect": 2.0,
+    "within": 0.1,
+}
+
+
+def claim(**changes):
+    """The settings of a claim as read, with some changed; None leaves a key out."""
+    section = {key: value for key, value in (VALUE | changes).items() if value is not None}
+    return Claim.read("test", section, "ch3.yaml", STUDIES).settings
+
+
+def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144):
+    """A dataset of rough lines: κ of a level, a scatter over members, a grid error and a slope in log p*."""
+    offsets = scatter * np.linspace(-1, 1, members) if members > 1 else np.zeros(1)
+    kappa = level + tilt * np.log10(np.array(PRESSURES) / 0.01) + np.zeros((2, 1, 1)) + offsets[:, None]
+    dims = ("hurst", "member", "reduced_pressure")
+    values = {
+        "kappa": (dims, kappa),
+        "relative_contact_area": (dims, kappa * PRESSURES),
+        "status": (dims, np.zeros(kappa.shape, np.int8)),
+        "kappa_grid_error": (("hurst", "reduced_pressure"), np.full((2, 3), grid)),
+        "relative_contact_area_grid_error": (("hurst", "reduced_pressure"), grid * np.tile(PRESSURES, (2, 1))),
+        "points": points,
+    }
+    places = {"hurst": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES}
+    settings = {"surface": {"kind": "self_affine"}, "thesis_points": 262144}
+    return xr.Dataset(values, places, {"settings": json.dumps(settings)})
+
+
+# --- verdicts -----------------------------------------------------------------------------------------------------
+
+
+def test_a_verdict_flips_when_the_dataset_changes():
+    assert claims.judge(claim(), made_up(2.05))["verdict"] == REPRODUCED
+    assert claims.judge(claim(), made_up(2.15))["verdict"] == NOT_REPRODUCED
+
+
+@pytest.mark.parametrize("level", [2.05, 2.15])
+@pytest.mark.parametrize(("scatter", "grid"), [(0.0, 0.06), (0.2, 0.0), (0.1, 0.04)])
+def test_an_error_larger_than_the_distance_to_the_edge_leaves_it_open(level, scatter, grid):
+    assert claims.judge(claim(), made_up(level, scatter, grid))["verdict"] == NOT_DECIDABLE
+    assert claims.judge(claim(), made_up(level, scatter / 9, grid / 9))["verdict"] != NOT_DECIDABLE
+
+
+def test_the_two_errors_add_in_quadrature():
+    settings = claim()
+    assert claims.verdict(settings, Finding(2.05, 0.03, 0.039)) == REPRODUCED
+    assert claims.verdict(settings, Finding(2.05, 0.03, 0.041)) == NOT_DECIDABLE
+
+
+def test_a_relation_has_one_edge():
+    most, least = claim(expect=None, within=None, at_most=3.0), claim(expect=None, within=None, at_least=3.0)
+    assert [claims.judge(most, made_up(level))["verdict"] for level in (2.0, 4.0)] == [REPRODUCED, NOT_REPRODUCED]
+    assert [claims.judge(least, made_up(level))["verdict"] for level in (2.0, 4.0)] == [NOT_REPRODUCED, REPRODUCED]
+    assert (claims.expected(most), claims.expected(least), claims.expected(claim())) == ("≤ 3", "≥ 3", "2 ± 0.1")
+
+
+def test_a_condition_that_holds_is_named_and_one_that_does_not_changes_nothing():
+    low = claim(condition={"words": "at low p*", "select": {"reduced_pressure": [0.001, 0.005]}})
+    high = claim(condition={"words": "at high p*", "select": {"reduced_pressure": [0.05, 0.1]}})
+    data = made_up(2.5, tilt=0.5)  # 2, 2.5 and 3 at the three loads
+    row = claims.judge(low, data)
+    assert (row["verdict"], row["condition"]) == (CONDITION, "at low p*")
+    assert (row["value"], row["condition_value"]) == pytest.approx((2.5, 2.0))
+    row = claims.judge(high, data)
+    assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "")
+    assert np.isnan(row["condition_value"])
+
+
+def test_a_condition_is_not_needed_where_all_is_reproduced():
+    row = claims.judge(claim(condition={"words": "at low p*", "select": {}}), made_up())
+    assert (row["verdict"], row["condition"]) == (REPRODUCED, "")
+
+
+def test_on_the_grid_of_the_thesis_its_numbers_are_compared_without_grid_error():
+    settings = claim(condition={"words": "on the grid of the thesis", "grid": "thesis"})
+    assert claims.judge(settings, made_up(grid=0.5))["verdict"] == CONDITION
+    assert claims.judge(settings, made_up(grid=0.5, points=1024))["verdict"] == NOT_DECIDABLE
+
+
+def test_a_statement_about_the_grid_of_the_thesis_is_open_on_another():
+    settings = claim(of="kappa_grid_error", against="kappa", take="ratio", expect=0.05, within=0.02, grid="thesis")
+    assert claims.judge(settings, made_up(grid=0.1))["verdict"] == REPRODUCED
+    assert claims.judge(settings, made_up(grid=0.1, points=1024))["verdict"] == NOT_DECIDABLE
+
+
+def test_what_nothing_answers_is_not_decidable():
+    bare = Claim.read("test", {key: VALUE[key] for key in ("source", "statement", "because")}, "ch3.yaml", STUDIES)
+    assert claims.judge(bare.settings, None)["verdict"] == NOT_DECIDABLE
+    assert (claims.expected(bare.settings), claims.measure(bare.settings)) == ("", "")
+    nowhere = claim(select={"reduced_pressure": [0.5, 1.0]})
+    assert claims.judge(nowhere, made_up())["verdict"] == NOT_DECIDABLE
+
+
+def test_unconverged_solutions_do_not_count_and_with_none_left_it_is_open():
+    data = made_up()
+    data["kappa"][:, 0] = 99.0
+    data["status"][:, 0] = 1
+    assert claims.find(claim(), data).value == pytest.approx(2.0)
+    data["status"][:] = 1
+    assert claims.judge(claim(), data)["verdict"] == NOT_DECIDABLE
+
+
+def test_one_member_of_a_random_surface_has_no_known_error_and_a_cylinder_needs_none():
+    alone = made_up(members=1)
+    assert claims.judge(claim(), alone)["verdict"] == NOT_DECIDABLE
+    alone.attrs["settings"] = json.dumps({"surface": {"kind": "cylinder"}, "thesis_points": None})
+    assert claims.judge(claim(), alone)["verdict"] == REPRODUCED
+
+
+def test_without_a_companion_the_grid_error_is_unknown():
+    assert claims.judge(claim(), made_up().drop_vars("kappa_grid_error"))["verdict"] == NOT_DECIDABLE
+
+
+# --- numbers ------------------------------------------------------------------------------------------------------
+
+
+def array(values, **places):
+    return xr.DataArray(values, places, dims=tuple(places))
+
+
+def test_each_take_gives_what_a_hand_would():
+    load = array([1.0, 10.0, 100.0], load=[1, 2, 3])
+    both = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst=[0.2, 0.8], load=[1, 2, 3])
+    assert takes.mean(both) == 2.0
+    assert takes.spread(both, "load") == pytest.approx((2 / 3 + 0) / 2)
+    assert takes.spread(both, "hurst") == pytest.approx((1 / 1.5 + 3 / 2.5 + 2 / 2) / 3)
+    assert takes.fall(both, "load") == pytest.approx((-0.5 + 0) / 2)
+    assert takes.slope(load**0.5, load, "load") == pytest.approx(0.5)
+    assert takes.spread_ratio(both, 2 * both, "load") == 1.0
+    assert takes.departure(both, array([2.0, 2.0, 2.0], load=[1, 2, 3])) == 1.0
+    assert takes.ratio(both, load) == 2.0
+
+
+def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    settings = claim(select={"hurst": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
+    found, at = claims.find(settings, data), data.sel(hurst=0.5, reduced_pressure=0.1)
+    assert found.value == pytest.approx(float(at.kappa_mean))
+    assert found.ensemble_error == pytest.approx(float(at.kappa_standard_error))
+    assert found.grid_error == pytest.approx(float(at.kappa_grid_error))
+
+
+def test_the_fits_are_those_of_the_dataset(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    below = data.sel(reduced_pressure=slice(0, 0.1001))
+    pressure = below.reduced_pressure.values
+    for name, weighting, fitted in (
+        ("kappa_fit", "area", ["0.2", "0.5", "0.8"]),
+        ("kappa_fit_logarithm", "logarithm", ["0.2", "0.5", "0.8"]),
+        ("kappa_fit_all", "area", ["all"] * 3),
+    ):
+        found = takes.quantity(below, name)
+        for row, which in zip(found.values, fitted, strict=True):
+            fit = data.sel(weighting=weighting, fit_limit=0.1, fitted=which)
+            expected = takes.analytic.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
+            assert np.allclose(row, expected)
+
+
+# --- the claims of this project -----------------------------------------------------------------------------------
+
+
+def test_every_claim_of_the_config_is_judged_and_drawn(made):
+    folder = made / "results/quick/claims"
+    rows = pd.read_csv(folder / "ch3.csv", keep_default_na=False, na_values=["", "nan"])
+    assert rows.claim.tolist() == list(PLAN.claims["ch3"])
+    assert rows.verdict.isin(COLOURS).all()
+    answered = rows.study.notna()
+    assert rows.claim[~answered].tolist() == ["fit_scaraggi"]
+    assert np.isfinite(rows[answered][["value", "ensemble_error"]]).all(axis=None)
+    assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
+    assert (folder / "ch3.png").read_bytes().startswith(b"\x89PNG")
+    assert (folder / "ch3.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
+    names = {verdict: Claim("x", claim()) for verdict in COLOURS}
+    rows = claims.verdicts({name: one.settings for name, one in names.items()}, {"rough_line": made_up()})
+    rows["verdict"] = list(COLOURS)
+    rows["condition"] = ["", "somewhere " * 9, "", ""]
+    axes = drawn(rows, "Title", "footer " * 80).axes[0]
+    shown = [text.get_text() for text in axes.texts]
+    assert len(shown) == 2 + len(COLUMNS) * (1 + len(rows))
+    assert any("somewhere" in text and "\n" in text for text in shown)
+    assert len({tuple(band.get_facecolor()[0]) for band in axes.collections}) == len(COLOURS) + 1
+
+
+def test_verdicts_depend_on_claims_code_and_every_study_asked():
+    settings = PLAN.claims_settings("ch3")
+    assert set(settings) == {"chapter", "claims", "source", "data"}
+    assert list(settings["data"]) == ["rough_line", "smooth_line"]
+    assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
+    assert not any("verdict" in one for _, one in settings["claims"])
+
+
+def test_a_chapter_without_claims_is_not_judged(tmp_path):
+    for file in (ROOT / "config").glob("*.yaml"):
+        (tmp_path / file.name).write_text(file.read_text(encoding="utf-8").split("\nclaims:")[0], encoding="utf-8")
+    assert Plan.read(tmp_path).claims == {}
+
+
+# --- refusals -----------------------------------------------------------------------------------------------------
+
+BAD = {
+    "unknown key": ({"verdict": "reproduced"}, "verdict", "reproduced", "no such key"),
+    "no reason": ({"because": None}, "because", "nothing", "why that band"),
+    "unknown study": ({"study": "rough"}, "study", "rough", "smooth_line, rough_line"),
+    "unknown take": ({"take": "guess"}, "take", "guess", "mean, spread, fall"),
+    "no take": ({"take": None}, "take", None, "mean, spread, fall"),
+    "unknown quantity": ({"of": "kapa"}, "of", "kapa", "kappa, kappa_fit"),
+    "no quantity": ({"of": None}, "of", None, "kappa, kappa_fit"),
+    "quantity of another study": ({"of": "half_width"}, "of", "half_width", "kappa"),
+    "unknown dimension": ({"take": "spread", "along": "speed"}, "along", "speed", "hurst, reduced_pressure"),
+    "a dimension too few": ({"take": "spread"}, "along", None, "hurst, reduced_pressure"),
+    "a dimension too many": ({"along": "hurst"}, "along", "hurst", "mean does not use it"),
+    "unknown against": ({"take": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
+    "select of another study": (
+        {"select": {"contact_ratio": [0.1, 0.2]}},
+        "select.contact_ratio",
+        [0.1, 0.2],
+        "hurst, reduced_pressure",
+    ),
+    "select backwards": ({"select": {"hurst": [0.5, 0.1]}}, "select.hurst", [0.5, 0.1], "least and largest"),
+    "half a band": ({"within": None}, None, ["expect"], "expect with within"),
+    "two bands": ({"at_most": 3.0}, None, ["at_most", "expect", "within"], "expect with within"),
+    "no width": ({"within": 0.0}, "within", 0.0, "a positive number"),
+    "condition without words": ({"condition": {"grid": "thesis"}}, "condition.words", "nothing", "in words"),
+    "condition on another grid": ({"condition": {"words": "", "grid": "ours"}}, "condition.grid", "ours", "thesis"),
+    "expectation without a study": ({"study": None, "of": None, "take": None}, "expect", 2.0, "left out"),
+}
+
+
+@pytest.mark.parametrize(("changes", "key", "value", "allowed"), BAD.values(), ids=BAD)
+def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes, key, value, allowed):
+    with pytest.raises(SceneError) as caught:
+        claim(**changes)
+    error = caught.value
+    assert (error.file, error.value) == ("ch3.yaml", value)
+    assert error.key == (f"claims.test.{key}" if key else "claims.test")
+    assert allowed in error.allowed
+
+
+def test_the_plan_refuses_a_bad_claim(tmp_path):
+    for file in (ROOT / "config").glob("*.yaml"):
+        text = file.read_text(encoding="utf-8")
+        (tmp_path / file.name).write_text(text.replace("    take: fall\n", "    take: rise\n", 1), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"ch3.yaml: claims.kappa_not_constant.take: got 'rise'; allowed: one of mean"):
+        Plan.read(tmp_path)
