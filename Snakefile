@@ -9,6 +9,7 @@ rule targets:
 
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/present.smk"
+include: "workflow/rules/stability.smk"
 
 
 rule all:

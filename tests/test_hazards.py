@@ -11,7 +11,8 @@ import contactsim
 from cases import ALL, FAST, press, rough, wave
 from contactsim import analytic
 from contactsim.errors import SceneError
-from contactsim.hazards import HAZARDS, Outcome, judge
+from contactsim.hazards import HAZARDS
+from contactsim.stability import Outcome, judge
 from contactsim.solvers.base import Status
 
 

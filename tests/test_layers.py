@@ -12,8 +12,8 @@ from contactsim.provenance import PACKAGE, imports_of, package_root
 ORDER = """
 errors traits grid roughness measured surface elasticity laws loading scene
 solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet
-observables analytic provenance dataset config study march aggregate costs joblog plan api hazards
-figures figures.style figures.ch3 figures.render
+observables analytic provenance dataset config study march aggregate costs joblog api hazards stability plan
+figures figures.style figures.ch3 figures.stability figures.render
 """.split()
 """Modules in import order: each may import those before it."""
 

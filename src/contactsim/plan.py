@@ -6,7 +6,8 @@ import ast
 from dataclasses import dataclass
 from pathlib import Path
 
-from contactsim.config import Key, load_yaml, mapping, number, overlaid, positive, read, text, whole
+from contactsim import stability
+from contactsim.config import Key, load_yaml, mapping, overlaid, pair, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
@@ -16,22 +17,14 @@ CONFIG_KEYS = {
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
 }
+TIER_KEYS = {
+    "studies": Key(mapping, "a mapping", {}),
+    "stability": Key(mapping, "a mapping of keys to override", {}),
+}
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies"),
     "figures": Key(mapping, "a mapping from names to figures"),
 }
-
-
-def pair(value: object) -> list[float]:
-    """Two numbers."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise ValueError
-    return [number(entry) for entry in value]
-
-
-def size(value: object) -> list[float]:
-    """Two positive numbers."""
-    return [positive(entry) for entry in pair(value)]
 
 
 def limits(value: object) -> list[float]:
@@ -63,13 +56,17 @@ class Figure:
 
 @dataclass(frozen=True)
 class Plan:
-    """Everything that can be made: studies and figures by name, at one tier, and the folder for it."""
+    """Everything that can be made at one tier: studies and figures by name, and the map of stability if asked for.
+
+    results: the folder for it.
+    """
 
     tier: str
     results: Path
     studies: dict[str, Study]
     chapters: dict[str, str]
     figures: dict[str, Figure]
+    stability: dict | None
 
     @classmethod
     def read(cls, folder: str | Path, tier: str | None = None) -> Plan:
@@ -80,7 +77,7 @@ class Plan:
         tier = main["tier"] if tier is None else tier
         if tier not in tiers:
             raise SceneError("tier", tier, f"one of {', '.join(tiers)}", folder / "tiers.yaml")
-        overrides = read(tiers[tier] or {}, {"studies": Key(mapping, "a mapping", {})}, folder / "tiers.yaml", tier)
+        overrides = read(tiers[tier] or {}, TIER_KEYS, folder / "tiers.yaml", tier)
         studies, chapters, figures = {}, {}, {}
         for file in sorted(folder.glob("ch*.yaml")):
             sections = read(load_yaml(file), CHAPTER_KEYS, file)
@@ -104,7 +101,8 @@ class Plan:
             raise SceneError(
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
             )
-        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures)
+        hazards = _stability(folder, overrides["stability"], tier)
+        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures, hazards)
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """The run that a file name stands for."""
@@ -131,12 +129,43 @@ class Plan:
         settings = self.studies[study].settings | {"name": study, "tier": self.tier, "seed": self.studies[study].seed}
         return {"runs": runs, "settings": settings, "source": source_digest("contactsim.aggregate", "contactsim.costs")}
 
+    def hazard_settings(self, hazard: str) -> dict:
+        """What the cells of one hazard depend on."""
+        return stability.job_settings(self.stability, hazard)
+
+    def map_settings(self) -> dict:
+        """What the map of all hazards depends on."""
+        jobs = [self.hazard_settings(hazard) for hazard in self.stability["hazards"]]
+        paths = [f"{self.results}/stability/{hazard}.nc" for hazard in self.stability["hazards"]]
+        settings = {key: self.stability[key] for key in ("title", "severities", "solvers", "hazards")}
+        source = source_digest("contactsim.stability")
+        return {"paths": paths, "jobs": jobs, "settings": settings | {"tier": self.tier}, "source": source}
+
+    def map_figure(self) -> dict:
+        """What the figure of the map depends on; in the form of `figure_settings`."""
+        layout = {"panels": 2, "select": {}, "reference": {}}
+        settings = {key: self.stability[key] for key in ("title", "caption", "size")} | layout
+        code = source_digest("contactsim.figures.stability", "contactsim.figures.render")
+        data = digest(self.map_settings())
+        return {"name": "stability", "chapter": "stability", "settings": settings, "source": code, "data": data}
+
     def figure_settings(self, name: str) -> dict:
         """What a figure depends on: its settings, its code, and all that its data depend on."""
         figure = self.figures[name]
         code = source_digest(f"contactsim.figures.{figure.chapter}", "contactsim.figures.render")
         data = digest(self.study_settings(figure.settings["study"]))
         return {"name": name, "chapter": figure.chapter, "settings": figure.settings, "source": code, "data": data}
+
+
+def _stability(folder: Path, over: dict, tier: str) -> dict | None:
+    """Settings of the map of stability; None where the folder has none."""
+    file = folder / "stability.yaml"
+    if not file.exists():
+        if over:
+            raise SceneError(f"{tier}.stability", over, f"none, as there is no {file}", folder / "tiers.yaml")
+        return None
+    source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
+    return stability.read_settings(overlaid(load_yaml(file), over), source)
 
 
 def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:

@@ -14,6 +14,7 @@ try:
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
+STABILITY = ["stability"] if PLAN.stability else []
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     Path(".snakemake").mkdir(exist_ok=True)
@@ -29,12 +30,13 @@ def figure_files(name):
 
 
 def all_figures(wildcards):
-    return [file for name in PLAN.figures for file in figure_files(name)]
+    return [file for name in [*PLAN.figures, *STABILITY] for file in figure_files(name)]
 
 
 def target_lines():
     lines = [f"  {name:14} {figure.settings['title']}" for name, figure in PLAN.figures.items()]
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
+    lines += [f"  {name:14} {PLAN.stability['title']}" for name in STABILITY]
     return "\n".join([*lines, f"  {'all':14} every figure and table"])
 
 
