@@ -196,7 +196,8 @@ def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mappi
 
 def gather(parts: Iterable[xr.Dataset], settings: Mapping, source: str) -> xr.Dataset:
     """The surveys of all hazards in one dataset, by (hazard, solver, severity)."""
-    data = xr.concat(list(parts), "hazard", data_vars="all", coords="minimal", join="exact", combine_attrs="override")
+    parts = [part.drop_encoding() for part in parts]  # or the first part's length would cut all text
+    data = xr.concat(parts, "hazard", data_vars="all", coords="minimal", join="exact", combine_attrs="override")
     return dataset.stamped(_described(data), str(settings["title"]), settings, source)
 
 
