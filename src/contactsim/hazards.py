@@ -55,9 +55,7 @@ def made(field: Array, scale: float = 1.0, unit: float = 1.0, tolerance: float =
     pressure, gap = np.maximum(field, 0.0), np.maximum(-field, 0.0)
     heights = scale * (displacement(pressure) - gap)
     exact = scale / unit * pressure
-    return Case(
-        unit * heights, exact.mean(), spacing=unit, contact_modulus=1 / unit, tolerance=tolerance, exact=exact
-    )
+    return Case(unit * heights, exact.mean(), spacing=unit, contact_modulus=1 / unit, tolerance=tolerance, exact=exact)
 
 
 def _rough(points: int = POINTS) -> Array:

@@ -61,12 +61,14 @@ def _blocks(data: xr.Dataset, axes: Axes, blocks: int) -> None:
             edgecolors="white",
             linewidth=0.4,
         )
-        axes.text(0, top - 0.15, f"{hazard}: ", fontsize=6, va="bottom", ha="left", weight="bold").set_gid(hazard)
+        axes.text(0, top - 0.15, f"{hazard}: ", fontsize=6, va="bottom", ha="left", weight="bold")
         axes.annotate(
             str(one.harder.values), (1, 0), xycoords=axes.texts[-1], fontsize=6, va="bottom", annotation_clip=False
         )
         for (row, column), cost in np.ndenumerate(one.transforms.values):
-            axes.text(column + 0.5, top + row + 0.53, _short(cost), fontsize=4, ha="center", va="center")
+            axes.text(
+                column + 0.5, top + row + 0.53, _short(cost), fontsize=4, ha="center", va="center"
+            )  # fits 21 columns
         ticks += [(top + row + 0.5, name) for row, name in enumerate(data.solver.values)]
     axes.set(xlim=(0, columns), ylim=(blocks * height, 0), xlabel="severity")
     axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=5.5)
@@ -77,6 +79,8 @@ def _blocks(data: xr.Dataset, axes: Axes, blocks: int) -> None:
 
 
 def _short(cost: float) -> str:
+    if cost == 0:
+        return ""
     return f"{cost:.0f}" if cost < 9999.5 else f"{cost / 1000:.0f}k"
 
 
