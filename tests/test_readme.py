@@ -11,7 +11,8 @@ import yaml
 import contactsim
 from conftest import ROOT
 from contactsim.config import keys_of
-from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, Plan
+from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
+from contactsim.stability import STABILITY_KEYS
 from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -66,6 +67,7 @@ def test_the_study_of_the_readme_can_be_added_to_the_config(made, tmp_path, monk
 def test_every_command_names_a_target_or_an_option_that_exists():
     targets = set(Plan.read(ROOT / "config").figures) | {
         "all",
+        "stability",
         "test",
         "setup",
         "help",
@@ -86,8 +88,8 @@ def test_every_link_leads_somewhere():
 
 @pytest.mark.parametrize(
     "keys",
-    [CONFIG_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, dict.fromkeys(LOADS)],
-    ids=["main", "study", "figure", "companion", "load"],
+    [CONFIG_KEYS, TIER_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, STABILITY_KEYS, dict.fromkeys(LOADS)],
+    ids=["main", "tier", "study", "figure", "companion", "stability", "load"],
 )
 def test_every_key_is_explained(keys):
     for name in keys:
@@ -110,7 +112,15 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
-    known = set(CONFIG_KEYS) | set(STUDY_KEYS) | set(FIGURE_KEYS) | set(COMPANION_KEYS) | set(LOADS) | {"kind"}
+    known = (
+        set(CONFIG_KEYS)
+        | set(STUDY_KEYS)
+        | set(FIGURE_KEYS)
+        | set(COMPANION_KEYS)
+        | set(STABILITY_KEYS)
+        | set(LOADS)
+        | {"kind"}
+    )
     for classes, class_of in KINDS.values():
         for kind in classes:
             known |= {kind, *keys_of(class_of(kind))}
