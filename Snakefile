@@ -11,6 +11,7 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/present.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/judge.smk"
+include: "workflow/rules/stability.smk"
 
 
 rule all:

@@ -366,7 +366,7 @@ def test_what_the_workflow_is_given_is_the_same_read_twice(folder):
         ({"studies/rough/title": "Rougher"}, {"rough", "fig_3_3"}),
         ({"studies/rough/thesis_points": 9}, {"rough", "fig_3_3"}),
         ({"studies/smooth/load": {"contact_ratio": [0.1]}}, {"smooth", "fig_3_1"}),
-        ({"figures/fig_3_3/caption": "Something else."}, {"fig_3_2"}),
+        ({"figures/fig_3_3/caption": "Something else."}, {"fig_3_3"}),
         ({"figures/fig_3_1/size": [5.0, 3.0]}, {"fig_3_1"}),
         ({"figures/fig_3_1/caption": "Another."}, {"fig_3_1"}),
     ],

@@ -12,7 +12,9 @@ import contactsim
 from conftest import ROOT
 from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.config import keys_of
-from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, Plan
+from contactsim.cost import CASE_KEYS, SETTING_KEYS
+from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
+from contactsim.stability import STABILITY_KEYS
 from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS
 from contactsim.takes import FITTED, TAKES, needs
 
@@ -68,6 +70,7 @@ def test_the_study_of_the_readme_can_be_added_to_the_config(made, tmp_path, monk
 def test_every_command_names_a_target_or_an_option_that_exists():
     targets = set(Plan.read(ROOT / "config").figures) | {
         "all",
+        "stability",
         "test",
         "setup",
         "help",
@@ -89,8 +92,10 @@ def test_every_link_leads_somewhere():
 
 @pytest.mark.parametrize(
     "keys",
-    [CONFIG_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, dict.fromkeys(LOADS), CLAIM_KEYS, CONDITION_KEYS, FITTED],
-    ids=["main", "study", "figure", "companion", "load", "claim", "condition", "fitted"],
+    [
+        *(CONFIG_KEYS, TIER_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, STABILITY_KEYS, dict.fromkeys(LOADS)),
+        *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS),
+    ],
 )
 def test_every_key_is_explained(keys):
     for name in keys:
@@ -119,8 +124,8 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
-    known = set(CONFIG_KEYS) | set(STUDY_KEYS) | set(FIGURE_KEYS) | set(COMPANION_KEYS) | set(LOADS) | {"kind"}
-    known |= {*CLAIM_KEYS, *CONDITION_KEYS, *TAKES}
+    known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *COMPANION_KEYS, *STABILITY_KEYS, *LOADS}
+    known |= {*CLAIM_KEYS, *CONDITION_KEYS, *TAKES, *CASE_KEYS, *SETTING_KEYS}
     for classes, class_of in KINDS.values():
         for kind in classes:
             known |= {kind, *keys_of(class_of(kind))}

@@ -163,6 +163,18 @@ def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
     return whole_list
 
 
+def pair(value: object) -> list[float]:
+    """Two numbers."""
+    if not isinstance(value, list) or len(value) != 2:
+        raise ValueError
+    return [number(entry) for entry in value]
+
+
+def size(value: object) -> list[float]:
+    """Two positive numbers."""
+    return [positive(entry) for entry in pair(value)]
+
+
 _TYPES = {
     float: (number, "a number"),
     int: (whole(1), "a whole number, 1 or more"),

@@ -18,10 +18,10 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.aggregate import AVERAGED, LOADS, combined
-from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, text, whole
+from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.march import labelled, simulate
-from contactsim.plan import Plan, size
+from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, module_of, solver
 from contactsim.solvers.base import Status
@@ -124,8 +124,10 @@ def simulated(settings: dict) -> xr.Dataset:
 
 
 def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
-    """The cases of accuracy.yaml at the plan's tier, by name."""
+    """The cases of accuracy.yaml at the plan's tier, by name; none without that file."""
     file = Path(folder) / "accuracy.yaml"
+    if not file.exists():
+        return {}
     tiers = load_yaml(file)
     if plan.tier not in tiers:
         raise SceneError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)

@@ -81,6 +81,13 @@ VARIABLES = {
     "fitted": ("1", "profiles that a fit uses: one Hurst exponent, or all"),
     "weighting": ("1", "weighting of a fit: of the area itself or of its logarithm"),
     "fit_limit": ("1", "largest reduced pressure that a fit uses"),
+    "hazard": ("1", "hazard"),
+    "severity": ("1", "severity of the hazard, from 0 to 100"),
+    "solver": ("1", "solver"),
+    "outcome": ("1", "what came of a case"),
+    "reason": ("1", "reason of a refusal or failure"),
+    "tolerance": ("1", "tolerance, in grid steps"),
+    "harder": ("1", "what gets harder with the severity"),
     "profile_real": ("nm", "real part of the profile's Fourier coefficients"),
     "profile_imag": ("nm", "imaginary part of the profile's Fourier coefficients"),
 }

@@ -7,8 +7,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from contactsim import stability
 from contactsim.claims import Claim, selection
-from contactsim.config import Key, load_yaml, mapping, number, overlaid, positive, read, text, whole
+from contactsim.config import Key, load_yaml, mapping, number, overlaid, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
@@ -21,18 +22,15 @@ CONFIG_KEYS = {
 RESERVED = ("all", "claims", "accuracy", "stability", "targets", "run", "aggregate", "unknown_target")
 """Names that the workflow's own rules have."""
 
+TIER_KEYS = {
+    "studies": Key(mapping, "a mapping", {}),
+    "stability": Key(mapping, "a mapping of keys to override", {}),
+}
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies"),
     "figures": Key(mapping, "a mapping from names to figures"),
     "claims": Key(mapping, "a mapping from names to claims", {}),
 }
-
-
-def size(value: object) -> list[float]:
-    """Two positive numbers."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise ValueError
-    return [positive(entry) for entry in value]
 
 
 LEAST_WIDTH = 2.8
@@ -60,7 +58,10 @@ class Figure:
 
 @dataclass(frozen=True)
 class Plan:
-    """Everything that can be made: studies and figures by name, claims by chapter and name, at one tier; its folder."""
+    """All that can be made at one tier: studies, figures, claims by chapter, and the map of stability if there is one.
+
+    results: the folder for it.
+    """
 
     tier: str
     results: Path
@@ -68,6 +69,7 @@ class Plan:
     chapters: dict[str, str]
     figures: dict[str, Figure]
     claims: dict[str, dict[str, Claim]]
+    stability: dict | None
 
     @classmethod
     def read(cls, folder: str | Path, tier: str | None = None) -> Plan:
@@ -78,7 +80,7 @@ class Plan:
         tier = main["tier"] if tier is None else tier
         if tier not in tiers:
             raise SceneError("tier", tier, f"one of {', '.join(tiers)}", folder / "tiers.yaml")
-        overrides = read(tiers[tier] or {}, {"studies": Key(mapping, "a mapping", {})}, folder / "tiers.yaml", tier)
+        overrides = read(tiers[tier] or {}, TIER_KEYS, folder / "tiers.yaml", tier)
         studies, chapters, figures, claims = {}, {}, {}, {}
         for file in sorted(folder.glob("ch*.yaml")):
             sections = read(load_yaml(file), CHAPTER_KEYS, file)
@@ -112,7 +114,8 @@ class Plan:
             raise SceneError(
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
             )
-        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures, claims)
+        hazards = _stability(folder, overrides["stability"], tier)
+        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures, claims, hazards)
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """The run that a file name stands for."""
@@ -139,6 +142,26 @@ class Plan:
         settings = self.studies[study].settings | {"name": study, "tier": self.tier, "seed": self.studies[study].seed}
         return {"runs": runs, "settings": settings, "source": source_digest("contactsim.aggregate", "contactsim.costs")}
 
+    def hazard_settings(self, hazard: str) -> dict:
+        """What the cells of one hazard depend on."""
+        return stability.job_settings(self.stability, hazard)
+
+    def map_settings(self) -> dict:
+        """What the map of all hazards depends on."""
+        jobs = [self.hazard_settings(hazard) for hazard in self.stability["hazards"]]
+        paths = [f"{self.results}/stability/{hazard}.nc" for hazard in self.stability["hazards"]]
+        settings = {key: self.stability[key] for key in ("title", "severities", "solvers", "hazards")}
+        source = source_digest("contactsim.stability")
+        return {"paths": paths, "jobs": jobs, "settings": settings | {"tier": self.tier}, "source": source}
+
+    def map_figure(self) -> dict:
+        """What the figure of the map depends on; in the form of `figure_settings`."""
+        layout = {"panels": 2, "select": {}, "reference": {}}
+        settings = {key: self.stability[key] for key in ("title", "caption", "size")} | layout
+        code = source_digest("contactsim.figures.stability", "contactsim.figures.render")
+        data = digest(self.map_settings())
+        return {"name": "stability", "chapter": "stability", "settings": settings, "source": code, "data": data}
+
     def figure_settings(self, name: str) -> dict:
         """What a figure depends on: its settings, its code, and all that its data depend on."""
         figure = self.figures[name]
@@ -156,6 +179,17 @@ class Plan:
         claims = [[name, claim.settings] for name, claim in self.claims[chapter].items()]
         code = source_digest("contactsim.claims", "contactsim.figures.claims")
         return {"chapter": chapter, "claims": claims, "source": code, "data": data}
+
+
+def _stability(folder: Path, over: dict, tier: str) -> dict | None:
+    """Settings of the map of stability; None where the folder has none."""
+    file = folder / "stability.yaml"
+    if not file.exists():
+        if over:
+            raise SceneError(f"{tier}.stability", over, f"none, as there is no {file}", folder / "tiers.yaml")
+        return None
+    source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
+    return stability.read_settings(overlaid(load_yaml(file), over), source)
 
 
 def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:

@@ -19,6 +19,7 @@ except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
 sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it and does not quote it
+STABILITY = ["stability"] if PLAN.stability else []
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     Path(".snakemake").mkdir(exist_ok=True)
@@ -34,7 +35,7 @@ def figure_files(name):
 
 
 def all_figures(wildcards):
-    names = [*PLAN.figures, *(f"accuracy_{case}" for case in CASES)]
+    names = [*PLAN.figures, *STABILITY, *(f"accuracy_{case}" for case in CASES)]
     return [file for name in names for file in figure_files(name)]
 
 
@@ -45,9 +46,10 @@ def all_claims(wildcards):
 def target_lines():
     lines = [f"  {name:14} {figure.settings['title']}" for name, figure in PLAN.figures.items()]
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
-    lines += [f"  {'accuracy':14} error against cost of {', '.join(CASES)}"]
-    lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"]
-    return "\n".join([*lines, f"  {'all':14} every figure and table, accuracy and claims"])
+    lines += [f"  {name:14} {PLAN.stability['title']}" for name in STABILITY]
+    lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
+    lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
+    return "\n".join([*lines, f"  {'all':14} all of these"])
 
 
 def list_targets(wildcards):

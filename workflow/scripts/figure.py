@@ -6,4 +6,4 @@ from contactsim.figures.render import render
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])
-render(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.costs, snakemake.output)
+render(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.get("costs"), snakemake.output)

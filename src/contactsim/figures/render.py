@@ -19,14 +19,16 @@ LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
 
 
-def render(plan: Mapping, data_path: str, costs_path: str, targets: Mapping[str, str]) -> None:
+def render(plan: Mapping, data_path: str, costs_path: str | None, targets: Mapping[str, str]) -> None:
     """Draw one figure into its files.
 
-    plan: `Plan.figure_settings`; data_path: the study's dataset; costs_path: its costs; targets: png, pdf and csv.
+    plan: `Plan.figure_settings`; data_path: the dataset; costs_path: a study's costs, None where the module of the
+    figure writes a `footer` of its own; targets: png, pdf and csv.
     """
-    data, costs, settings = dataset.read(data_path), pd.read_csv(costs_path), plan["settings"]
-    draw = getattr(import_module(f"contactsim.figures.{plan['chapter']}"), plan["name"])
-    footer = footer_text(data, costs)
+    data, settings = dataset.read(data_path), plan["settings"]
+    module = import_module(f"contactsim.figures.{plan['chapter']}")
+    draw = getattr(module, plan["name"])
+    footer = module.footer(data) if costs_path is None else footer_text(data, pd.read_csv(costs_path))
     for dim, (least, largest) in settings["select"].items():
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
     figure, panels = framed(settings, footer)

@@ -1,0 +1,89 @@
+"""The map of stability: outcome and cost of every solver on every hazard, at every severity."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
+
+from contactsim import dataset
+from contactsim.figures import style  # noqa: F401 - the look of all figures
+from contactsim.stability import Outcome
+
+COLOURS = {
+    Outcome.RIGHT: "#56b4e9",
+    Outcome.CERTIFIED: "#c3e3f5",
+    Outcome.REFUSED: "#d9d9d9",
+    Outcome.FAILED: "#f0e442",
+    Outcome.WRONG: "#d55e00",
+    Outcome.NON_FINITE: "#000000",
+}
+"""Told apart without seeing red and green, and in grey (Okabe and Ito's)."""
+
+
+def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Cells hazard × solver × severity by outcome, with the cost as a number in each."""
+    hazards = data.hazard.values
+    half = -(-hazards.size // len(axes))
+    for place, panel in enumerate(axes):
+        _blocks(data.isel(hazard=slice(place * half, (place + 1) * half)), panel, half)
+    counts = {outcome: int((data.outcome == outcome.value[0]).sum()) for outcome in Outcome}
+    keys = [
+        Patch(facecolor=COLOURS[outcome], edgecolor="#999999", lw=0.4, label=f"{outcome.value[1]}: {counts[outcome]}")
+        for outcome in Outcome
+    ]
+    axes[0].figure.legend(handles=keys, loc="outside upper right", ncols=3)
+    names = {outcome.value[0]: outcome.name.lower() for outcome in Outcome}
+    rows = data[["outcome", "transforms", "reason"]].to_dataframe().reset_index()
+    return rows.assign(outcome=rows.outcome.map(names))
+
+
+def _blocks(data: xr.Dataset, axes: Axes, blocks: int) -> None:
+    """One block a hazard: its name and what gets harder, then a row a solver; room for so many blocks."""
+    solvers, columns = data.solver.size, data.severity.size
+    height = solvers + 1.25
+    colours = ListedColormap([COLOURS[outcome] for outcome in Outcome])
+    ticks = []
+    for place, hazard in enumerate(data.hazard.values):
+        one, top = data.sel(hazard=hazard), place * height + 1.1
+        axes.pcolormesh(
+            np.arange(columns + 1),
+            top + np.arange(solvers + 1),
+            one.outcome.values,
+            cmap=colours,
+            vmin=-0.5,
+            vmax=len(COLOURS) - 0.5,
+            edgecolors="white",
+            linewidth=0.4,
+        )
+        axes.text(0, top - 0.15, f"{hazard}: ", fontsize=6, va="bottom", ha="left", weight="bold")
+        axes.annotate(
+            str(one.harder.values), (1, 0), xycoords=axes.texts[-1], fontsize=6, va="bottom", annotation_clip=False
+        )
+        for (row, column), cost in np.ndenumerate(one.transforms.values):
+            axes.text(
+                column + 0.5, top + row + 0.53, _short(cost), fontsize=4, ha="center", va="center"
+            )  # fits 21 columns
+        ticks += [(top + row + 0.5, name) for row, name in enumerate(data.solver.values)]
+    axes.set(xlim=(0, columns), ylim=(blocks * height, 0), xlabel="severity")
+    axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=5.5)
+    shown = np.unique(np.linspace(0, columns - 1, min(columns, 11)).round().astype(int))
+    axes.set_xticks(shown + 0.5, [f"{value:g}" for value in data.severity.values[shown]], fontsize=7)
+    axes.tick_params(length=0, top=False, right=False)
+    axes.spines[:].set_visible(False)
+
+
+def _short(cost: float) -> str:
+    if cost == 0:
+        return ""
+    return f"{cost:.0f}" if cost < 9999.5 else f"{cost / 1000:.0f}k"
+
+
+def footer(data: xr.Dataset) -> str:
+    """Tier, cells, and what must not occur."""
+    settings = dataset.settings_of(data)
+    bad = [int((data.outcome == outcome.value[0]).sum()) for outcome in (Outcome.WRONG, Outcome.NON_FINITE)]
+    return f"{settings['tier']} tier · {data.outcome.size} cells · {bad[0]} wrong, {bad[1]} not finite"

@@ -1,0 +1,250 @@
+"""The judge can tell every outcome, and the map of outcomes is made of what it says."""
+
+from __future__ import annotations
+
+import json
+from copy import deepcopy
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from cases import ALL
+from conftest import ROOT
+from contactsim import dataset, press, scene
+from contactsim.errors import SceneError
+from contactsim.figures.render import render
+from contactsim.figures.stability import COLOURS
+from contactsim.hazards import HAZARDS, Case, made
+from contactsim.plan import Plan
+from contactsim.solvers import solver
+from contactsim.solvers.base import State
+from contactsim.stability import Outcome, faults, gather, judge, read_settings, survey
+
+CASE = made(np.cos(2 * np.pi * np.arange(64) / 64) - 0.3)
+SETTINGS = yaml.safe_load((ROOT / "config/stability.yaml").read_text(encoding="utf-8"))
+
+
+class Stuck:
+    """A solver that believes that uniform pressure times a factor is the answer."""
+
+    accepts = solver("active_set").accepts
+    budget = 3
+
+    def __init__(self, factor):
+        self.factor = factor
+
+    def start(self, problem, guess=None):
+        return State(np.ones_like(problem.heights), False)
+
+    def step(self, problem, state):
+        return State(state.pressure * self.factor, True)
+
+
+def solved(case):
+    return press(
+        case.heights,
+        spacing=case.spacing,
+        contact_modulus=case.contact_modulus,
+        mean_pressure=case.mean_pressure,
+        approach=case.approach,
+        tolerance=case.tolerance,
+    )
+
+
+# --- the judge ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("case", "method", "outcome", "reason"),
+    [
+        (CASE, "active_set", Outcome.RIGHT, ""),
+        (replace(CASE, exact=None), "active_set", Outcome.CERTIFIED, ""),
+        (replace(CASE, mean_pressure=-1.0), "active_set", Outcome.REFUSED, "nothing can pull"),
+        (replace(CASE, mean_pressure=None, approach=0.0), "verlet", Outcome.REFUSED, "APPROACH"),
+        (CASE, solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "budget"),
+        (CASE, Stuck(1.0), Outcome.FAILED, "budget"),
+        (CASE, Stuck(np.nan), Outcome.NON_FINITE, "not finite"),
+        (CASE, Stuck(np.inf), Outcome.NON_FINITE, "not finite"),
+        (replace(CASE, refuse=True), "active_set", Outcome.WRONG, "should have refused"),
+        (replace(CASE, exact=CASE.exact[::-1] * 1.01), "active_set", Outcome.WRONG, "pressure off"),
+    ],
+)
+def test_every_outcome_can_be_reached(case, method, outcome, reason):
+    verdict = judge(case, method)
+    assert verdict.outcome is outcome
+    assert reason in verdict.reason
+
+
+def test_a_wrong_answer_that_the_certificate_lets_pass_is_found_out(monkeypatch):
+    monkeypatch.setattr(scene.Certificate, "met", lambda self, tolerance: True)
+    verdict = judge(CASE, Stuck(1.0))
+    assert verdict.outcome is Outcome.WRONG
+    assert "contact condition" in verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        ({"pressure": lambda result: result.pressure - 2 * result.pressure.max() * (np.arange(64) == 32)}, "negative"),
+        ({"pressure": lambda result: result.pressure * (1 + 1e-9)}, "forces"),
+        ({"pressure": lambda result: np.roll(result.pressure, 1)}, "contact condition"),
+        ({"approach": lambda result: result.approach + 1e-4}, "contact condition"),
+    ],
+)
+def test_every_fault_of_a_solution_is_found(change, fault):
+    result = solved(CASE)
+    assert faults(CASE, result) == ""
+    assert fault in faults(CASE, replace(result, **{name: made(result) for name, made in change.items()}))
+
+
+def test_a_solution_not_exact_not_symmetric_or_of_another_area_is_found():
+    result = solved(CASE)
+    assert "exact" in faults(replace(CASE, exact=np.roll(CASE.exact, 1)), result)
+    assert "area" in faults(replace(CASE, exact=None, area=0.3), result)
+    assert faults(replace(CASE, mirror=0), result) == ""
+    assert "symmetric" in faults(replace(CASE, mirror=5), result)
+    wanted = Case(CASE.heights, approach=0.01, tolerance=1e-8)
+    assert "approach" in faults(wanted, result)
+    assert faults(replace(wanted, approach=result.approach), result) == ""
+
+
+def test_iterations_without_a_load_are_found():
+    case = Case(CASE.heights, 0.0)
+    result = solved(case)
+    assert faults(case, result) == ""
+    assert "no load" in faults(case, replace(result, record=replace(result.record, iterations=1)))
+    assert "no load" in faults(case, replace(result, approach=result.approach - 1.0))
+
+
+# --- the settings ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "value", "allowed"),
+    [
+        ({"severities": [0, 101]}, "severities", [0, 101], "0 to 100"),
+        ({"severities": [50, 0]}, "severities", [50, 0], "rising"),
+        ({"severities": []}, "severities", [], "list"),
+        ({"severities": [0, "5"]}, "severities", [0, "5"], "numbers"),
+        ({"hazards": ["flood"]}, "hazards", ["flood"], "tension"),
+        ({"hazards": ["flat", "flat"]}, "hazards", ["flat", "flat"], "twice"),
+        ({"solvers": {}}, "solvers", {}, "at least one"),
+        ({"solvers": {"newton": {}}}, "solvers.newton", {}, "active_set"),
+        ({"solvers": {"verlet": {"speed": 1}}}, "solvers.verlet.speed", 1, "time_step"),
+        ({"solvers": {"verlet": {"time_step": 2.0}}}, "solvers.verlet.time_step", 2.0, "below 1"),
+        ({"solvers": {"verlet": 3}}, "solvers.verlet", 3, "options"),
+        ({"size": [1.0]}, "size", [1.0], "inches"),
+        ({"colour": "red"}, "colour", "red", "known keys"),
+    ],
+)
+def test_a_bad_setting_is_refused_with_file_key_value_and_what_is_allowed(change, key, value, allowed):
+    with pytest.raises(SceneError, match=r"stability\.yaml") as caught:
+        read_settings(deepcopy(SETTINGS) | change, "stability.yaml")
+    assert (caught.value.key, caught.value.value) == (key, value)
+    assert allowed in str(caught.value)
+
+
+def test_a_missing_setting_is_refused():
+    with pytest.raises(SceneError, match="severities"):
+        read_settings({key: value for key, value in SETTINGS.items() if key != "severities"}, "stability.yaml")
+
+
+def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
+    settings = Plan.read(ROOT / "config").stability
+    assert settings["hazards"] == list(HAZARDS)
+    assert list(settings["solvers"]) == list(ALL)
+    assert settings["solvers"]["verlet"]["budget"] == solver("verlet").budget
+
+
+def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):
+    for file in (ROOT / "config").glob("*.yaml"):
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    assert Plan.read(tmp_path, "quick").stability["severities"] == [0, 25, 50, 75, 100]
+    assert Plan.read(tmp_path, "standard").stability["severities"] == list(range(0, 101, 5))
+    (tmp_path / "stability.yaml").unlink()
+    assert Plan.read(tmp_path, "standard").stability is None
+    with pytest.raises(SceneError, match=r"quick\.stability"):
+        Plan.read(tmp_path, "quick")
+
+
+def test_jobs_change_with_what_they_depend_on_and_nothing_else():
+    plan = Plan.read(ROOT / "config", "quick")
+    job, whole, drawn = plan.hazard_settings("flat"), plan.map_settings(), plan.map_figure()
+    assert "flat" not in json.dumps(plan.hazard_settings("units"))
+    plan.stability["caption"] = "Other."
+    assert (job, whole) == (plan.hazard_settings("flat"), plan.map_settings())
+    assert drawn != plan.map_figure()
+    plan.stability["severities"] = [0.0]
+    assert job != plan.hazard_settings("flat")
+    assert drawn["data"] != plan.map_figure()["data"]
+
+
+# --- the dataset and the figure -------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """A small map: its files in a folder, and the surveys that it was made of."""
+    folder = tmp_path_factory.mktemp("map")
+    plan = Plan.read(ROOT / "config", "quick")
+    plan.stability.update(hazards=["tension", "nearly_full_rough", "low_spike"], severities=[0.0, 20.0, 100.0])
+    parts = []
+    for hazard in plan.stability["hazards"]:
+        dataset.write(survey(**json.loads(json.dumps(plan.hazard_settings(hazard)))), folder / f"{hazard}.nc")
+        parts.append(dataset.read(folder / f"{hazard}.nc"))
+    settings = plan.map_settings()
+    dataset.write(gather(parts, settings["settings"], settings["source"]), folder / "stability.nc")
+    targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
+    render(json.loads(json.dumps(plan.map_figure())), folder / "stability.nc", None, targets)
+    return folder
+
+
+def test_the_dataset_says_what_came_of_every_cell(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    assert dict(data.sizes) == {"hazard": 3, "solver": 3, "severity": 3}
+    assert data.hazard.values.tolist() == ["tension", "nearly_full_rough", "low_spike"]
+    assert (data.outcome.sel(hazard="tension") == Outcome.REFUSED.value[0]).all()
+    assert "nothing can pull" in str(data.reason.sel(hazard="tension")[0, 0].values)
+    failed = data.sel(hazard="low_spike", solver="polonsky_keer", severity=20)
+    assert failed.outcome == Outcome.FAILED.value[0]
+    assert failed.transforms > 10_000
+    assert "budget" in str(failed.reason.values)
+    right = data.sel(hazard="nearly_full_rough")
+    assert (right.outcome == Outcome.RIGHT.value[0]).all()
+    assert (right.tolerance == 1e-8).all()
+
+
+def test_everything_in_the_dataset_is_described(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    for name in data.variables:
+        assert data[name].attrs["units"] == "1", name
+        assert dataset.VARIABLES[name][1] == data[name].attrs["long_name"], name
+    meanings = data.outcome.attrs["flag_meanings"].split()
+    assert dict(zip(meanings, data.outcome.attrs["flag_values"], strict=True)) == {
+        outcome.name.lower(): outcome.value[0] for outcome in Outcome
+    }
+    assert dataset.settings_of(data)["tier"] == "quick"
+
+
+def test_a_survey_made_again_is_the_same_byte_for_byte(drawn, tmp_path):
+    data = dataset.read(drawn / "low_spike.nc")
+    again = survey(**dataset.settings_of(data), source=data.attrs["source_digest"])
+    dataset.write(again, tmp_path / "again.nc")
+    assert (tmp_path / "again.nc").read_bytes() == (drawn / "low_spike.nc").read_bytes()
+
+
+def test_the_map_is_drawn_and_gives_its_numbers(drawn):
+    assert (drawn / "stability.png").read_bytes().startswith(b"\x89PNG")
+    assert (drawn / "stability.pdf").read_bytes().startswith(b"%PDF")
+    rows = pd.read_csv(drawn / "stability.csv")
+    assert len(rows) == 27
+    assert rows.outcome.value_counts()["refused"] == 9
+    assert not rows.outcome.isin(["wrong", "non_finite"]).any()
+
+
+def test_every_outcome_has_a_colour_of_its_own():
+    assert list(COLOURS) == list(Outcome)
+    assert len(set(COLOURS.values())) == len(Outcome)

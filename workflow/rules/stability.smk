@@ -1,0 +1,35 @@
+# Every solver on every hazard: one job a hazard, one dataset, one map.
+if PLAN.stability:
+
+    def hazard_params(wildcards):
+        return canonical(PLAN.hazard_settings(wildcards.hazard))
+
+
+    rule hazard:
+        output: RESULTS / "stability/{hazard}.nc"
+        log: RESULTS / "logs/stability/{hazard}.log"
+        params: plan=hazard_params
+        message: "hazard {wildcards.hazard}: every solver, every severity"
+        script: "../scripts/hazard.py"
+
+
+    rule stability_dataset:
+        input: PLAN.map_settings()["paths"]
+        output: RESULTS / "datasets/stability.nc"
+        log: RESULTS / "logs/datasets/stability.log"
+        params: plan=canonical(PLAN.map_settings())
+        message: "dataset of stability"
+        script: "../scripts/stability.py"
+
+
+    rule stability:
+        input:
+            data=RESULTS / "datasets/stability.nc",
+        output:
+            png=RESULTS / "figures/stability.png",
+            pdf=RESULTS / "figures/stability.pdf",
+            csv=RESULTS / "figures/stability.csv",
+        log: RESULTS / "logs/figures/stability.log"
+        params: plan=canonical(PLAN.map_figure())
+        message: f"stability: {RESULTS}/figures/stability.png"
+        script: "../scripts/figure.py"

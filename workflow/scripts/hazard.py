@@ -1,0 +1,10 @@
+"""Every solver on one hazard, at every severity."""
+
+import json
+
+from contactsim import dataset
+from contactsim.joblog import logged
+from contactsim.stability import survey
+
+logged(snakemake.log[0])
+dataset.write(survey(**json.loads(snakemake.params.plan)), snakemake.output[0])
