@@ -46,7 +46,7 @@ CASE_KEYS = {
     "settled": Key(mapping, "`points` and `tolerance` at which the other knob is turned"),
     "reference": Key(mapping, "`points` and `tolerance` of the references"),
     "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
-    "repeats": Key(whole(1), "how often each setting is timed", 1),
+    "repeats": Key(whole(1), "how often each setting is timed, 1 or more", 1),
 }
 REFERENCE = "reference"
 

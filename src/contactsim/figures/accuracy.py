@@ -111,7 +111,8 @@ def _marks(axes: Axes, part: pd.DataFrame, quantity: str, measure: str, marks: M
 def _grid_dependence(axes: Axes, values: xr.Dataset) -> None:
     """κ_r by Eq. 3.8 and by pairs against the number of points, mean over members and loads."""
     part = values.isel(setting=np.flatnonzero(values.knob == "points"))
-    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_bond", style.PAIRS)):
+    shown = {"kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
+    for name, color in ((name, color) for name, color in shown.items() if name in part):
         mean = part[name].mean([dim for dim in part[name].dims if dim not in ("setting", "hurst")])
         for value in part.hurst.values if "hurst" in part.dims else (None,):
             one, look = (mean, style.hurst(0.5)) if value is None else (mean.sel(hurst=value), style.hurst(value))

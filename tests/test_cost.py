@@ -1,0 +1,167 @@
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+import yaml
+from matplotlib.figure import Figure
+
+from conftest import ROOT
+from contactsim import cost
+from contactsim.errors import SceneError
+from contactsim.figures import accuracy
+from contactsim.plan import Plan
+
+CASE = {
+    "title": "Case",
+    "caption": "What it shows.",
+    "size": [8.0, 5.0],
+    "study": "smooth_line",
+    "load": [0.1, 0.2],
+    "quantities": ["kappa_r", "relative_contact_area"],
+    "settled": {"points": 512, "tolerance": 1.0e-4},
+    "reference": {"points": 16384, "tolerance": 1.0e-8},
+    "solvers": {
+        "active_set": {"points": [256, 512, 1024], "tolerance": [10.0, 1.0e-2]},
+        "polonsky_keer": {"points": [256]},
+    },
+    "repeats": 2,
+}
+PLAN = Plan.read(ROOT / "config", "quick")
+
+
+def case(tmp_path, **changes):
+    (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {"case": CASE | changes}}))
+    return cost.read_cases(tmp_path, PLAN)["case"]
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    one = case(tmp_path_factory.mktemp("case"))
+    return one, {job: one.measure(job) for job in one.jobs()}
+
+
+def table_of(measured, made):
+    one, jobs = measured
+    study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
+    return cost.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study)
+
+
+def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
+    one = case(tmp_path)
+    turned = one.turned("active_set")
+    assert [(at.points, at.tolerance) for at in turned if at.knob == "points"] == [
+        (256, 1e-4),
+        (512, 1e-4),
+        (1024, 1e-4),
+    ]
+    assert [(at.points, at.tolerance) for at in turned if at.knob == "tolerance"] == [(512, 10.0), (512, 1e-2)]
+    assert not set(one.turned(cost.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
+
+
+def test_errors_are_those_by_hand_and_fall_with_the_grid(measured, made):
+    table = table_of(measured, made)
+    grids = table[(table.knob == "points") & (table.solver == "active_set")]
+    data, reference = measured[1]["active_set"][0], measured[1]["reference"][0]
+    by_hand = np.sqrt(np.mean((data.kappa_r.values[0] / reference.kappa_r.values[0] - 1) ** 2))
+    assert grids.kappa_r.iloc[0] == pytest.approx(by_hand)
+    assert grids.kappa_r.iloc[-1] < 0.05  # a point at each edge of 100 to 50 points
+    assert (grids.work.diff().dropna() > 0).all()
+    assert (table.unconverged == 0).all()
+
+
+def test_solvers_meet_the_same_error_on_the_same_grid(measured, made):
+    table = table_of(measured, made)
+    pair = table[(table.knob == "points") & (table.points == 256)]
+    assert pair.solver.tolist() == ["active_set", "polonsky_keer"]
+    assert pair.kappa_r.iloc[0] == pytest.approx(pair.kappa_r.iloc[1], rel=1e-6)
+
+
+def test_a_tighter_tolerance_is_nearer_and_dearer(measured, made):
+    table = table_of(measured, made)
+    knob = table[(table.knob == "tolerance") & (table.solver == "active_set")]
+    assert knob.relative_contact_area.iloc[1] < knob.relative_contact_area.iloc[0]
+    assert knob.work.iloc[1] > knob.work.iloc[0]
+
+
+def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
+    one, jobs = measured
+    data, seconds = jobs["polonsky_keer"]
+    assert len(seconds) == data.setting.size == 1
+    assert "seconds" not in data
+    xr.testing.assert_identical(one.measure("polonsky_keer")[0], data)
+
+
+def test_the_ensembles_error_is_the_standard_error_of_that_many_members(made):
+    study = xr.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
+    settings = {"load": [1e-3], "quantities": ["kappa"]}
+    rows = list(cost._ensembles(settings, study))
+    assert [row["members"] for row in rows] == [2, 3]
+    share = (study.kappa_standard_error / study.kappa_mean).sel(reduced_pressure=[1e-3])
+    assert rows[1]["kappa"] == pytest.approx(float(np.sqrt((share**2).mean())))
+    assert rows[0]["kappa"] == pytest.approx(rows[1]["kappa"] * np.sqrt(3 / 2))
+
+
+def test_the_observed_order_and_the_cost_at_an_error_are_those_planted():
+    points = np.array([100, 200, 400, 800])
+    table = pd.DataFrame({"points": points, "error": 5.0 * points**-1.5, "work": 7.0 * points})
+    assert cost.order(table, "error") == pytest.approx(1.5)
+    at = cost.cost_at(table, "error", 5.0 * 300**-1.5, "work")
+    assert at == pytest.approx(2100.0)
+    assert np.isnan(cost.cost_at(table, "error", 1e-9, "work"))  # no setting meets it
+
+
+def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
+    points = np.array([100.0, 1000.0])
+    rows = [
+        pd.DataFrame(
+            {"solver": kind, "knob": "points", "error": 1 / points, "work": factor * points, "unconverged": bad}
+        )
+        for kind, factor, bad in (("active_set", 1.0, 0), ("slow", 30.0, 0), ("failed", 0.1, 1))
+    ]
+    found = cost.compared(pd.concat(rows), "error", [0.005], ["work"])
+    points_row = found[found.knob == "points"].iloc[0]
+    assert points_row.slow == pytest.approx(30.0)
+    assert "failed" not in found
+
+
+def test_the_figure_draws_every_knob_and_its_failures(measured, made):
+    table = table_of(measured, made).assign(seconds=1.0)
+    table.loc[0, "unconverged"] = 0.5
+    axes = Figure().subplots(2, 4)
+    accuracy.draw(table, measured[1]["active_set"][0], axes, "kappa_r", {"quick": 1024})
+    crosses = [line for line in axes[0, 0].lines if line.get_marker() == "x" and len(line.get_xdata())]
+    assert len(crosses) == 1
+    assert any(text.get_text() == "quick" for text in axes[0, 0].texts)
+    assert "observed order" in axes[1, 3].texts[0].get_text()
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "allowed"),
+    [
+        ({"study": "no_line"}, "quick.case.study", "smooth_line"),
+        ({"quantities": ["happiness"]}, "quick.case.quantities", "kappa_r"),
+        ({"solvers": {"magic": {}}}, "quick.case.solvers", "active_set"),
+        ({"solvers": {"verlet": {"points": [16384]}}}, "quick.case.solvers.verlet.points", "fewer than"),
+        ({"settled": {"points": 512}}, "quick.case.settled.tolerance", "missing"),
+        ({"reference": {"points": 1, "tolerance": 1.0}}, "quick.case.reference.points", "whole number"),
+        ({"repeats": 0}, "quick.case.repeats", "1 or more"),
+        ({"speed": 1}, "quick.case.speed", "no such key"),
+    ],
+)
+def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path, changes, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        case(tmp_path, **changes)
+    assert caught.value.key == key
+    assert allowed in caught.value.allowed
+    assert str(tmp_path / "accuracy.yaml") in str(caught.value)
+
+
+def test_the_real_cases_can_be_read_at_every_tier_and_mark_every_tiers_grid():
+    for tier in ("quick", "standard", "full"):
+        plan = Plan.read(ROOT / "config", tier)
+        cases = cost.read_cases(ROOT / "config", plan)
+        assert list(cases) == ["cylinder", "rough_line"]
+        marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
+        assert marks == {"quick": 32768, "standard": 262144, "full": 1048576, "thesis": 262144}
