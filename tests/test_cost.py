@@ -164,4 +164,4 @@ def test_the_real_cases_can_be_read_at_every_tier_and_mark_every_tiers_grid():
         cases = cost.read_cases(ROOT / "config", plan)
         assert list(cases) == ["cylinder", "rough_line"]
         marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
-        assert marks == {"quick": 32768, "standard": 262144, "full": 1048576, "thesis": 262144}
+        assert marks == {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}

@@ -27,7 +27,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
     text = render.footer_text(data, costs)
     for part in (
         "quick tier",
-        "32768 points, 8 per shortest wavelength (thesis 64)",
+        "131072 points, 32 per shortest wavelength (thesis 64)",
         "3 members",
         "0 of 45 solutions unconverged",
         "grid error of κᵣ up to",
@@ -55,7 +55,7 @@ def test_the_cylinder_is_drawn_beside_the_exact_line(made):
     shown = ch3.fig_3_1(data, axes)
     assert any(np.allclose(line.get_ydata(), 8 / (np.pi * np.sqrt(3))) for line in axes.lines)
     inside = shown.contact_ratio.between(0.05, 0.25)
-    assert np.allclose(shown.kappa_r[inside], 1.470, rtol=0.08)  # at c/R = 0.05, two of 26 points
+    assert np.allclose(shown.kappa_r[inside], 1.470, rtol=0.01)
 
 
 def test_the_table_lists_exact_and_computed(made):
