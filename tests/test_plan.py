@@ -112,10 +112,11 @@ def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members(
         assert study.settings["fit_limits"] == asked["fit_limits"]
 
 
-def test_standard_has_the_points_of_the_thesis_and_the_tiers_get_finer(tiers):
+def test_standard_has_the_points_of_the_thesis_and_no_tier_is_coarser_than_the_one_before(tiers):
     for name, study in tiers["standard"].studies.items():
         points = [plan.studies[name].settings["points"] for plan in tiers.values()]
-        assert points == sorted(set(points))
+        assert points == sorted(points)
+        assert points[0] < points[-1]
         assert study.settings["points"] == study.settings["thesis_points"]
 
 
