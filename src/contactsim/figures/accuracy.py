@@ -19,7 +19,7 @@ from contactsim.figures.render import framed, save
 SOLVERS = {"active_set": ("o", style.WHOLE), "polonsky_keer": ("s", style.CONTACT), "verlet": ("^", "#8c6d31")}
 KNOBS = {"points": "grid points", "tolerance": "tolerance", "members": "members"}
 COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}
-LEVELS = (1e-1, 1e-2, 1e-3)
+LEVELS = (1.0, 1e-1, 1e-2, 1e-3)
 ROUNDING = 1e-10
 """Errors below it are not drawn: both solutions have the same contact."""
 
@@ -68,7 +68,7 @@ def draw(table: pd.DataFrame, values: xr.Dataset, axes: np.ndarray, quantity: st
             panel.set_title(title if row == 0 else "", fontsize=9)
             _decades(panel)
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    axes[0, 1].legend(handles, labels, loc="upper left")
+    axes[1, 3].legend(handles, labels, loc="lower left", ncols=2)
     _grid_dependence(axes[0, 3], values)
     _words(axes[1, 3], table, quantity)
 
