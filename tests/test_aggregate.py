@@ -452,3 +452,13 @@ def test_an_aggregated_study_can_be_written_and_read(runs, tmp_path):
 def test_a_load_is_named_by_the_dimension_that_it_is():
     for name in aggregate.LOADS:
         assert load_name(SimpleNamespace(dims=("member", name))) == name
+
+
+def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_from_the_grid_error(runs):
+    listed = runs(companions=2)
+    tight = [run | {"tight": True} for run in listed if run["companion"]]
+    data = made([run for run in listed if not run["companion"]] + tight)
+    assert "mean_gap_grid_error" not in data
+    both = made(listed)
+    assert np.array_equal(data.mean_gap_tolerance_error, both.mean_gap_grid_error)
+    assert "solving more tightly" in data.mean_gap_tolerance_error.long_name

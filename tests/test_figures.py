@@ -30,7 +30,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
         "131072 points, 32 per shortest wavelength (thesis 64)",
         "3 members",
         "0 of 45 solutions unconverged",
-        "grid error of κᵣ up to",
+        "grid error up to: κ ",
         f"solved in {costs.seconds.sum():.3g} CPU s",
     ):
         assert part in text

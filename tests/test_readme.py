@@ -15,7 +15,7 @@ from contactsim.config import keys_of
 from contactsim.cost import CASE_KEYS, SETTING_KEYS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
 from contactsim.stability import STABILITY_KEYS
-from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS
+from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS, TIGHT_KEYS
 from contactsim.takes import FITTED, TAKES, needs
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -93,7 +93,16 @@ def test_every_link_leads_somewhere():
 @pytest.mark.parametrize(
     "keys",
     [
-        *(CONFIG_KEYS, TIER_KEYS, STUDY_KEYS, FIGURE_KEYS, COMPANION_KEYS, STABILITY_KEYS, dict.fromkeys(LOADS)),
+        *(
+            CONFIG_KEYS,
+            TIER_KEYS,
+            STUDY_KEYS,
+            FIGURE_KEYS,
+            COMPANION_KEYS,
+            TIGHT_KEYS,
+            STABILITY_KEYS,
+            dict.fromkeys(LOADS),
+        ),
         *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS),
     ],
 )

@@ -115,8 +115,8 @@ BAD = {
     "half a point": ({"points": 128.5}, "points", 128.5, "whole number"),
     "no member": ({"members": 0}, "members", 0, "1 or more"),
     "companion with more members": ({"companion/members": 3}, "companion.members", 3, "at most 2"),
-    "companion with more points": ({"companion/points": 256}, "companion.points", 256, "fewer than"),
-    "companion with as many points": ({"companion/points": 128}, "companion.points", 128, "fewer than"),
+    "companion with more points": ({"companion/points": 256}, "companion.points", 256, "below"),
+    "companion with as many points": ({"companion/points": 128}, "companion.points", 128, "below"),
     "companion with one point": ({"companion/points": 1}, "companion.points", 1, "whole number"),
     "companion without members": ({"companion/members": GONE}, "companion.members", "nothing", "at most"),
     "companion with another key": ({"companion/tolerance": 1.0}, "companion.tolerance", 1.0, "points, members"),
@@ -453,3 +453,34 @@ def test_contact_ratios_are_turned_into_hertzian_loads():
     (run,) = smooth("cylinder", {"contact_ratio": [0.1]}).runs()
     hertz = np.pi * 2.0 * 10.0**2 / (4 * 100.0)  # π E* c²/4R per unit thickness
     np.testing.assert_allclose(pressures(run), hertz / 64.0, rtol=1e-14)
+
+
+def test_tight_runs_come_after_all_others_and_differ_in_the_tolerance_alone():
+    runs = study({"tight": {"tolerance": 1e-9, "members": 1}}).runs()
+    tight = [run for run in runs if run.tight]
+    assert runs[-len(tight) :] == tight
+    assert all(run.companion for run in tight)
+    for run in tight:
+        (same,) = (
+            other
+            for other in runs
+            if not other.companion and (other.coordinates, other.member) == (run.coordinates, run.member)
+        )
+        assert run.settings == same.settings | {"tolerance": 1e-9}
+        assert run.variant != same.variant
+
+
+@pytest.mark.parametrize(
+    ("tight", "key", "allowed"),
+    [
+        ({"tolerance": 1.0, "members": 1}, "tolerance", "below the study's tolerance"),
+        ({"tolerance": 1e-9, "members": 9}, "members", "at most 2"),
+        ({"tolerance": 1e-9}, "members", "missing"),
+        ({"tolerance": 1e-9, "members": 1, "points": 8}, "points", "no such key"),
+    ],
+)
+def test_a_bad_tight_companion_is_refused(tight, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        study({"tight": tight})
+    assert caught.value.key == f"studies.rough.tight.{key}"
+    assert allowed in caught.value.allowed

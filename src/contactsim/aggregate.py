@@ -2,7 +2,7 @@
 
 Unconverged solutions are left out of means and fits, and counted. The grid error is the change of the mean on halving
 the number of points, over the members for which both were computed: for a first-order quantity it bounds the error
-that remains, for a higher order generously so.
+that remains, for a higher order generously so. The tolerance error is the change on solving far more tightly.
 """
 
 from __future__ import annotations
@@ -39,15 +39,17 @@ LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     """One dataset of a study: dims (varied keys, member, load).
 
-    runs: path, coordinates, member and companion of each; settings: of the study; source: digest of the code.
+    runs: path, coordinates, member, companion and tight of each; settings: of the study; source: digest of the code.
     """
-    fine = _read(runs, companion=False)
+    fine = _read([run for run in runs if not run["companion"]])
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
         fine["half_width_exact"] = fine.contact_ratio * radius
     data = fine.merge(_ensemble(fine))
-    if any(run["companion"] for run in runs):
-        data = data.merge(_grid_error(fine, _read(runs, companion=True)))
+    for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
+        others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]
+        if others:
+            data = data.merge(_change(fine, _read(others), suffix))
     if settings["fit_limits"] is not None:
         data = data.merge(fits(fine, settings["fit_limits"]))
     return dataset.stamped(dataset.described(data), settings["title"], settings, source)
@@ -78,9 +80,8 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
     return _derived(data)
 
 
-def _read(runs: list[dict], companion: bool) -> xr.Dataset:
-    chosen = [run for run in runs if bool(run["companion"]) is companion]
-    return combined([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in chosen])
+def _read(runs: list[dict]) -> xr.Dataset:
+    return combined([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs])
 
 
 def _derived(data: xr.Dataset) -> xr.Dataset:
@@ -113,11 +114,12 @@ def _ensemble(data: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(found)
 
 
-def _grid_error(fine: xr.Dataset, coarse: xr.Dataset) -> xr.Dataset:
+def _change(fine: xr.Dataset, coarse: xr.Dataset, suffix: str) -> xr.Dataset:
+    """How far the means move between two datasets, over the members that both have."""
     same = fine.sel(member=coarse.member)
     return xr.Dataset(
         {
-            f"{name}_grid_error": abs((converged(same[name], same) - converged(coarse[name], coarse)).mean("member"))
+            f"{name}{suffix}": abs((converged(same[name], same) - converged(coarse[name], coarse)).mean("member"))
             for name in AVERAGED
             if name in fine
         }

@@ -94,7 +94,7 @@ class Case:
         load = {"name": self.study.settings["load"]["name"], "values": sorted(self.settings["load"])}
         kind = "active_set" if job == REFERENCE else job
         changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": kind}, "load": load}
-        apart = {"members": self.settings["members"], "companion": None, "fit_limits": None}
+        apart = {"members": self.settings["members"], "companion": None, "tight": None, "fit_limits": None}
         return replace(self.study, settings=self.study.settings | changed | apart)
 
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:

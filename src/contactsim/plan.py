@@ -135,6 +135,7 @@ class Plan:
                 "coordinates": run.coordinates,
                 "member": run.member,
                 "companion": run.companion,
+                "tight": run.tight,
                 "digest": run.digest,
             }
             for run in self.studies[study].runs()

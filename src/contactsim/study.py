@@ -47,6 +47,7 @@ STUDY_KEYS = {
     "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "companion": Key(mapping, "a mapping with `points` and `members`", None),
+    "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {"kind": "active_set"}),
     "tolerance": Key(positive, "a positive number of grid steps"),
     "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
@@ -55,11 +56,18 @@ COMPANION_KEYS = {
     "points": Key(whole(2), "a whole number of grid points, fewer than the study's"),
     "members": Key(whole(1), "a whole number, at most the study's members"),
 }
+TIGHT_KEYS = {
+    "tolerance": Key(positive, "a positive number of grid steps, below the study's"),
+    "members": COMPANION_KEYS["members"],
+}
 
 
 @dataclass(frozen=True)
 class Run:
-    """One job: settings, its place among the varied values, and whether it only measures the grid error."""
+    """One job: settings and its place among the varied values.
+
+    companion: whether it only measures an error, of the grid or, if tight, of the tolerance.
+    """
 
     study: str
     variant: str
@@ -67,6 +75,7 @@ class Run:
     coordinates: dict[str, object]
     settings: dict
     companion: bool
+    tight: bool = False
 
     @property
     def source(self) -> str:
@@ -99,14 +108,16 @@ class Study:
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
         settings["load"] = _load(settings["load"], file, f"{prefix}.load")
-        if settings["companion"] is not None:
-            companion = read(settings["companion"], COMPANION_KEYS, file, f"{prefix}.companion")
-            if companion["members"] > settings["members"]:
+        for part, keys, knob in (("companion", COMPANION_KEYS, "points"), ("tight", TIGHT_KEYS, "tolerance")):
+            if settings[part] is None:
+                continue
+            settings[part] = read(settings[part], keys, file, f"{prefix}.{part}")
+            if settings[part]["members"] > settings["members"]:
                 allowed = f"at most {settings['members']}, the study's members"
-                raise SceneError(f"{prefix}.companion.members", companion["members"], allowed, file)
-            if settings["points"] is None or companion["points"] >= settings["points"]:
-                allowed = f"fewer than the study's points, {settings['points']}"
-                raise SceneError(f"{prefix}.companion.points", companion["points"], allowed, file)
+                raise SceneError(f"{prefix}.{part}.members", settings[part]["members"], allowed, file)
+            if settings[knob] is None or settings[part][knob] >= settings[knob]:
+                allowed = f"below the study's {knob}, {settings[knob]}"
+                raise SceneError(f"{prefix}.{part}.{knob}", settings[part][knob], allowed, file)
         study = cls(name, settings, str(file), seed)
         for run in study.runs():
             if run.member == 0:
@@ -139,12 +150,13 @@ class Study:
             dict(zip(names, values, strict=True))
             for values in itertools.product(*(self._values(name) for name in names))
         ]
-        grids = [(self.settings["points"], self.settings["members"], False)]
-        if self.settings["companion"] is not None:
-            grids.append((self.settings["companion"]["points"], self.settings["companion"]["members"], True))
+        changes = [({}, self.settings["members"])]
+        for part, knob in (("companion", "points"), ("tight", "tolerance")):
+            if self.settings[part] is not None:
+                changes.append(({knob: self.settings[part][knob]}, self.settings[part]["members"]))
         return [
-            self._run(varied, member, points, companion)
-            for points, members, companion in grids
+            self._run(varied, member, change)
+            for change, members in changes
             for varied in variants
             for member in range(members)
         ]
@@ -160,7 +172,8 @@ class Study:
             raise SceneError(key, values, "a list with at least one entry, none twice", self.file)
         return values
 
-    def _run(self, varied: dict, member: int, points: int | None, companion: bool) -> Run:
+    def _run(self, varied: dict, member: int, change: dict) -> Run:
+        """The run of one variant and member; change: points or tolerance of a run that measures their error."""
         parts = {name: self._part(name, self.settings[name]) for name in KINDS}
         sections = {name: self.settings[name] for name in KINDS}
         for name, value in varied.items():
@@ -170,13 +183,13 @@ class Study:
                 raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {known}", self.file)
             sections[head] = sections[head] | {tail: value}
         parts = {name: self._part(name, section) for name, section in sections.items()}
-        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance")}
-        settings = {"study": self.name, "member": member, "seed": self.seed, "points": points} | shared | parts
+        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", "points")} | change
+        settings = {"study": self.name, "member": member, "seed": self.seed} | shared | parts
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
         coordinates = {dataset.dimension(*name.split(".", 1)): value for name, value in varied.items()}
-        variant = digest(varied, points if companion else None)[:8]
-        return Run(self.name, variant, member, coordinates, settings, companion)
+        variant = digest(varied, *change.values() or [None])[:8]
+        return Run(self.name, variant, member, coordinates, settings, bool(change), "tolerance" in change)
 
     def _part(self, name: str, section: dict) -> dict:
         """A section whose `kind` decides which keys it has, with the defaults filled in."""

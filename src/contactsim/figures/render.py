@@ -66,9 +66,15 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
-    for name, symbol in (("kappa", "κ"), ("kappa_r", "κᵣ"), ("kappa_r_bond", "κᵣ of pairs")):
-        if f"{name}_grid_error" in data:
-            parts.append(f"grid error of {symbol} up to {float(data[f'{name}_grid_error'].max()):.1g}")
+    symbols = {"kappa": "κ", "kappa_r": "κᵣ", "kappa_r_bond": "κᵣ of pairs"}
+    for error in ("grid", "tolerance"):
+        sizes = [
+            f"{symbol} {float(data[f'{name}_{error}_error'].max()):.1g}"
+            for name, symbol in symbols.items()
+            if f"{name}_{error}_error" in data
+        ]
+        if sizes:
+            parts.append(f"{error} error up to: {', '.join(sizes)}")
     return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} CPU s"])
 
 
