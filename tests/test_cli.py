@@ -62,7 +62,7 @@ def test_a_scene_file_is_explained_and_drawn(scene_file, tmp_path, capsys):
 def test_a_study_is_explained_by_its_name(monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
     cli.main(["explain", "rough_line", "--tier", "quick"])
-    assert "131072 points, 18 runs" in capsys.readouterr().out
+    assert "131072 points, 21 runs" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

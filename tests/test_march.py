@@ -11,8 +11,9 @@ import xarray as xr
 
 import contactsim
 from contactsim import costs, dataset, march
+from contactsim.build import points_of, scene_of
 from contactsim.solvers.base import Status
-from contactsim.study import Study, points_of, scene_of
+from contactsim.study import Study
 
 LOADS = [0.02, 0.1, 0.4]
 SURFACES = {

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from contactsim import aggregate, dataset, march
+from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
 from contactsim.provenance import canonical
 from contactsim.solvers.active_set import NestedActiveSet
-from contactsim.study import Study, points_of, scene_of
+from contactsim.study import Study
 from contactsim.traits import Trait
 
 ROUGH = {

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from contactsim import dataset
+from contactsim.build import points_of, scene_of
 from contactsim.config import load_yaml, whole
 from contactsim.errors import SceneError
 from contactsim.explain import explain
@@ -19,7 +20,7 @@ from contactsim.march import simulate
 from contactsim.plan import Plan
 from contactsim.scene import Scene
 from contactsim.solvers import solver
-from contactsim.study import Study, points_of, scene_of
+from contactsim.study import Study
 
 
 def read_scene(path: str) -> Study:

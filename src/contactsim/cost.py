@@ -18,6 +18,7 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.aggregate import AVERAGED, LOADS, combined
+from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.march import labelled, simulate
@@ -25,7 +26,7 @@ from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, module_of, solver
 from contactsim.solvers.base import Status
-from contactsim.study import Study, scene_of
+from contactsim.study import Study
 
 SETTING_KEYS = {
     "points": Key(whole(2), "a whole number of grid points"),

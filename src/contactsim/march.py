@@ -22,6 +22,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
 from contactsim.observables import wall_observables
@@ -30,7 +31,6 @@ from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import Result, Solver, require, solve
-from contactsim.study import points_of, scene_of
 
 logger = logging.getLogger(__name__)
 

@@ -1,0 +1,59 @@
+"""From the settings of a run to the scene that it simulates."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contactsim import analytic, loading
+from contactsim.elasticity import ELASTICITIES
+from contactsim.errors import SceneError
+from contactsim.laws import EFFECTS
+from contactsim.loading import LoadPath
+from contactsim.roughness import rms_gradient
+from contactsim.scene import Body, Scene
+from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
+
+
+def scene_of(settings: dict) -> Scene:
+    """The scene of a run: a flat elastic body below, the rigid surface above, pressed through all loads."""
+    surface, body = (dict(settings[name]) for name in ("surface", "body"))
+    kind = SURFACES[surface.pop("kind")]
+    if kind is SelfAffine:
+        surface["rng"] = generator(settings["seed"], settings["study"], surface["hurst"], settings["member"])
+    upper = kind(**surface)
+    elasticity = ELASTICITIES[body.pop("kind")](**body)
+    effects = tuple(EFFECTS[name]() for name in settings["effects"])
+    path = load_path(settings, upper, elasticity.contact_modulus)
+    return Scene(Body(Flat(upper.length), elasticity), Body(upper), effects, path)
+
+
+def points_of(settings: dict, surface: Surface) -> int:
+    """Number of grid points: the study's, or that of a measured surface."""
+    points = settings["points"] or surface.points
+    if points is None:
+        raise SceneError("points", None, "a whole number: only a measured surface comes with its own")
+    return points
+
+
+def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadPath:
+    """Mean pressures from the loads as the study gives them.
+
+    reduced_pressure: times E* and the rms gradient, the one prescribed or else that of the heights; contact_ratio:
+    what a cylinder needs for a half-width of that part of its radius (Eq. 3.5).
+    """
+    name, values = settings["load"]["name"], np.array(settings["load"]["values"])
+    labels = [f"{name}={value:g}" for value in values]
+    if name == "reduced_pressure":
+        gradient = settings["surface"].get("rms_gradient")
+        if gradient is None:
+            points = points_of(settings, surface)
+            gradient = rms_gradient(surface.heights(points), surface.length / points)
+        if not gradient > 0:
+            raise SceneError("load", name, "mean_pressure: this surface is flat")
+        values = values * contact_modulus * gradient
+    elif name == "contact_ratio":
+        radius = settings["surface"].get("radius")
+        if radius is None:
+            raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
+        values = analytic.cylinder_load(values * radius, radius, contact_modulus) / surface.length
+    return loading.press([float(value) for value in values], labels)
