@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from contactsim.aggregate import AVERAGED, LOADS, combined
+from contactsim.aggregate import AVERAGED, combined, load_name
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
@@ -203,8 +203,7 @@ def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:
 def _ensembles(case_settings: dict, study: xr.Dataset) -> Iterable[dict]:
     """The standard error of ensembles of two members up to all, from the study's own scatter."""
     most = study.member.size
-    load = next(name for name in LOADS if name in study.dims)
-    chosen = study.sel({load: case_settings["load"]}, method="nearest")
+    chosen = study.sel({load_name(study): case_settings["load"]}, method="nearest")
     for members in range(2, most + 1) if most > 1 else ():
         row = {"solver": "active_set", "knob": "members", "points": int(study.points), "members": members}
         for name in case_settings["quantities"]:
