@@ -7,10 +7,8 @@ does falls on both; a ratio is the median over the rounds, a time the best.
 from __future__ import annotations
 
 import os
-import re
 import resource
 import signal
-import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -23,11 +21,10 @@ from contactsim.plan import Plan
 from contactsim.scene import Certificate, Scale, Scene, WallProblem, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
-from contactsim.study import scene_of
+from contactsim.build import scene_of
 
 CAP = 120
 """CPU seconds that one solution may take."""
-NOT_CERTIFIED = "not certified"
 LONG = 5.0
 """CPU seconds above which a solution is not repeated."""
 
@@ -100,44 +97,14 @@ def sweep(plan: Plan, case: dict, rounds: int) -> dict:
     }
 
 
-def ours(problem: WallProblem, scale: Scale, name: str) -> dict:
-    """One load with a solver of this package, whose only budget is time."""
+def single(problem: WallProblem, scale: Scale, name: str) -> dict:
+    """One load with one solver, whose only budget is time."""
     result = solve(solver(name, budget=10**9), problem, scale)
     return {
         "status": result.status.name,
         "area": result.relative_contact_area,
         "certificate": worst(result.record.certificate),
         "transforms": result.record.transforms,
-    }
-
-
-def tamaas(scene: Scene, problem: WallProblem, scale: Scale, heights: Array, tolerance: float) -> dict:
-    """One load with tamaas, certified by us.
-
-    Transforms: four an iteration and two at the end, as breakpoints on its FFTW calls count them. Its pressure is
-    scaled to the load, which it meets to rounding.
-    """
-    import tamaas as tm
-
-    tm.set_log_level(tm.LogLevel.info)
-    model = tm.ModelFactory.createModel(tm.model_type.basic_1d, [scene.length], [heights.size])
-    model.E, model.nu = scene.contact_modulus, 0.0
-    method = tm.PolonskyKeerRey(model, heights, tolerance)
-    method.max_iter, method.dump_freq = 10**8, 10**8
-    with tempfile.TemporaryFile() as log:  # the number of iterations appears nowhere else
-        kept = os.dup(2)
-        os.dup2(log.fileno(), 2)
-        method.solve(problem.load * scale.pressure)
-        os.dup2(kept, 2)
-        log.seek(0)
-        iterations = 1 + max(map(int, re.findall(rb"^ *(\d+) +\S+ +\S+$", log.read(), re.MULTILINE)))
-    pressure = problem.admissible(np.asarray(model.traction).ravel() / scale.pressure)
-    certificate = problem.certify(pressure)
-    return {
-        "status": "CONVERGED" if certificate.met(problem.tolerance) else NOT_CERTIFIED,
-        "area": float((pressure > 0).mean()),
-        "certificate": worst(certificate),
-        "transforms": 4 * iterations + 2,
     }
 
 
@@ -148,9 +115,7 @@ def compare(plan: Plan, case: dict, rounds: int) -> dict:
     def once(name: str) -> dict:
         begin = time.thread_time()
         problem, scale = pose(scene, scene.path.steps[0], heights, case["tolerance"], 1)
-        other = name == "tamaas"
-        row = tamaas(scene, problem, scale, heights, case["setting"]) if other else ours(problem, scale, name)
-        return row | {"seconds": time.thread_time() - begin}
+        return single(problem, scale, name) | {"seconds": time.thread_time() - begin}
 
     def turns() -> dict:
         once("active_set")

@@ -77,13 +77,12 @@ def sweep_table(rows: pd.DataFrame) -> str:
 
 
 def compare_table(rows: pd.DataFrame) -> str:
-    """One line a size, load and solver; tamaas with the tolerance that certifies."""
+    """One line a size, load and solver."""
     header = ["H", "points", "p*", "solver", "relative area", "certificate", "transforms", "CPU s", "÷ active set"]
     lines, quickest = [], 0.0
     for row in compared(rows).itertuples():
         quickest = row.seconds if row.solver == "active_set" else quickest
-        name = SOLVERS[row.solver][0] + (f", {row.setting:g}" if row.solver == "tamaas" else "")
-        start = [f"{row.hurst:g}", f"2^{power(row.points)}", f"{row.reduced_pressure:g}", name]
+        start = [f"{row.hurst:g}", f"2^{power(row.points)}", f"{row.reduced_pressure:g}", SOLVERS[row.solver][0]]
         if pd.isna(row.area):
             lines.append([*start, row.status, "", "", f"> {row.seconds:g}", f"> {row.seconds / quickest:.3g}"])
             continue
@@ -94,8 +93,8 @@ def compare_table(rows: pd.DataFrame) -> str:
 
 
 def compared(rows: pd.DataFrame) -> pd.DataFrame:
-    """The single loads, without the settings of tamaas that are not certified; in the order of the table."""
-    chosen = rows[(rows.part == "compare") & (rows.status != measure.NOT_CERTIFIED)]
+    """The single loads, in the order of the table."""
+    chosen = rows[rows.part == "compare"]
     order = {name: place for place, name in enumerate(SOLVERS)}
     chosen = chosen.assign(place=chosen.solver.map(order), downwards=-chosen.hurst)
     return chosen.sort_values(["downwards", "points", "reduced_pressure", "place"])

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 import contactsim
-from contactsim.solvers import SOLVERS
+from contactsim.solvers import PEERS, SOLVERS
 from contactsim.solvers.base import Result
 from contactsim.surface import SelfAffine, generator
 
-ALL = tuple(SOLVERS)
+ALL = tuple(kind for kind in SOLVERS if kind not in PEERS)
 FAST = ("active_set", "polonsky_keer")
 
 

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from conftest import ROOT
 from contactsim import cost
+from contactsim import solvers as solver_registry
 from contactsim.errors import SceneError
 from contactsim.figures import accuracy
 from contactsim.plan import Plan
@@ -22,6 +23,7 @@ CASE = {
     "quantities": ["kappa_r", "relative_contact_area"],
     "settled": {"points": 512, "tolerance": 1.0e-4},
     "reference": {"points": 16384, "tolerance": 1.0e-8},
+    "levels": {"points": [0.05], "tolerance": [0.1, 0.01]},
     "solvers": {
         "active_set": {"points": [256, 512, 1024], "tolerance": [10.0, 1.0e-2]},
         "polonsky_keer": {"points": [256]},
@@ -120,17 +122,27 @@ def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
         )
         for kind, factor, bad in (("active_set", 1.0, 0), ("slow", 30.0, 0), ("failed", 0.1, 1))
     ]
-    found = cost.compared(pd.concat(rows), "error", [0.005], ["work"])
-    points_row = found[found.knob == "points"].iloc[0]
-    assert points_row.slow == pytest.approx(30.0)
-    assert "failed" not in found
+    found = cost.compared(pd.concat(rows), "error", {"points": [0.005, 1e-9]}, ["work"]).set_index(["solver", "error"])
+    assert found.work["slow", 0.005] == pytest.approx(30.0)
+    assert np.isnan(found.work["slow", 1e-9])
+    assert "failed" not in found.index
+    assert cost.compared(pd.concat(rows), "error", {"tolerance": [0.1]}, ["work"]).empty
+
+
+def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
+    solvers = {"active_set": {"points": [256]}, "tamaas": {"points": [256]}}
+    monkeypatch.setattr(solver_registry, "find_spec", lambda name: None)
+    assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set"]
+    monkeypatch.setattr(solver_registry, "find_spec", lambda name: object())
+    assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set", "tamaas"]
 
 
 def test_the_figure_draws_every_knob_and_its_failures(measured, made):
     table = table_of(measured, made).assign(seconds=1.0)
     table.loc[0, "unconverged"] = 0.5
     axes = Figure().subplots(2, 4)
-    accuracy.draw(table, measured[1]["active_set"][0], axes, "kappa_r", {"quick": 1024})
+    equal = cost.compared(table, "kappa_r", CASE["levels"], accuracy.COSTS)
+    accuracy.draw(table, equal, measured[1]["active_set"][0], axes, "kappa_r", {"quick": 1024})
     crosses = [line for line in axes[0, 0].lines if line.get_marker() == "x" and len(line.get_xdata())]
     assert len(crosses) == 1
     assert any(text.get_text() == "quick" for text in axes[0, 0].texts)
@@ -146,6 +158,8 @@ def test_the_figure_draws_every_knob_and_its_failures(measured, made):
         ({"solvers": {"verlet": {"points": [16384]}}}, "quick.case.solvers.verlet.points", "fewer than"),
         ({"settled": {"points": 512}}, "quick.case.settled.tolerance", "missing"),
         ({"reference": {"points": 1, "tolerance": 1.0}}, "quick.case.reference.points", "whole number"),
+        ({"levels": {"members": [0.1]}}, "quick.case.levels.members", "points"),
+        ({"levels": {"points": [-0.1]}}, "quick.case.levels.points", "relative errors"),
         ({"repeats": 0}, "quick.case.repeats", "1 or more"),
         ({"speed": 1}, "quick.case.speed", "no such key"),
     ],

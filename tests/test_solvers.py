@@ -13,6 +13,7 @@ from cases import ALL, FAST, compliance, press, rough, wave
 from contactsim import analytic, loading
 from contactsim.elasticity import HalfSpace
 from contactsim.errors import SceneError
+from contactsim.explain import explain
 from contactsim.laws import HardWall
 from contactsim.measured import Profile, prepare
 from contactsim.roughness import rms_gradient
@@ -299,13 +300,34 @@ def test_a_load_far_below_the_rounding_of_the_gaps_stands_on_one_point(load):
     assert result.contact.nonzero()[0].tolist() == [heights.argmax()]
 
 
-@pytest.mark.parametrize("name", list(SOLVERS))
+@pytest.mark.parametrize("name", ALL)
 def test_a_profile_that_is_flat_but_for_rounding_is_in_full_contact(name):
     plane = prepare(Profile(np.linspace(0.0, 50.0, 1000), 2.0, None), detrend="linear")
     assert 0 < np.ptp(plane.heights) < 1e-12
     result = contactsim.press(plane.heights, spacing=2.0, contact_modulus=70.0, mean_pressure=0.1, solver=name)
     assert result.status is Status.CONVERGED
     assert result.contact.all()
+
+
+@pytest.mark.parametrize("load", [0.003, 0.03, 0.3])
+def test_tamaas_finds_the_same_solution_and_its_transforms_are_counted(load):
+    pytest.importorskip("tamaas")
+    heights = rough(512, 0.5)
+    options = {"spacing": 1.0, "contact_modulus": 2.0, "mean_pressure": load * 1e-2, "tolerance": 1e-8}
+    ours, theirs = (contactsim.press(heights, solver=name, **options) for name in ("active_set", "tamaas"))
+    assert theirs.status is Status.CONVERGED
+    assert (theirs.contact == ours.contact).all()
+    assert theirs.approach == pytest.approx(ours.approach, rel=1e-6)
+    assert theirs.record.transforms % 2 == 0
+    assert theirs.record.transforms > 20
+
+
+def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypatch):
+    monkeypatch.setattr("contactsim.solvers.find_spec", lambda name: None)
+    with pytest.raises(SceneError, match="pip install tamaas"):
+        solver("tamaas")
+    scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.press([1.0]))
+    assert "tamaas: is not installed" in explain(scene, 64, "active_set").text
 
 
 def test_one_solver_serves_several_threads_at_once():

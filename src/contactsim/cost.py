@@ -8,8 +8,7 @@ transforms, in equivalents of one on the grid at hand times its size, so that gr
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -24,7 +23,7 @@ from contactsim.errors import SceneError
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
-from contactsim.solvers import SOLVERS, module_of, solver
+from contactsim.solvers import SOLVERS, installed, module_of, solver
 from contactsim.solvers.base import Status
 from contactsim.study import Study
 
@@ -47,9 +46,14 @@ CASE_KEYS = {
     "settled": Key(mapping, "`points` and `tolerance` at which the other knob is turned"),
     "reference": Key(mapping, "`points` and `tolerance` of the references"),
     "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
+    "levels": Key(mapping, "from a knob to the errors at which solvers are compared"),
     "repeats": Key(whole(1), "how often each setting is timed, 1 or more", 1),
 }
+LEVEL_KEYS = {knob: Key(listed(positive), "a list of relative errors", []) for knob in KNOB_KEYS}
 REFERENCE = "reference"
+DEFAULT = "active_set"
+LONG = 5.0
+"""Seconds above which a setting is not timed again."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +74,8 @@ class Case:
     study: Study
 
     def jobs(self) -> list[str]:
-        """The jobs of a case: its reference and its solvers."""
-        return [REFERENCE, *self.settings["solvers"]]
+        """The jobs of a case: its reference and its solvers, as far as they are installed."""
+        return [REFERENCE, *filter(installed, self.settings["solvers"])]
 
     def turned(self, job: str) -> list[Setting]:
         """The settings that a job measures."""
@@ -93,7 +97,7 @@ class Case:
 
     def _study(self, setting: Setting, job: str) -> Study:
         load = {"name": self.study.settings["load"]["name"], "values": sorted(self.settings["load"])}
-        kind = "active_set" if job == REFERENCE else job
+        kind = DEFAULT if job == REFERENCE else job
         changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": kind}, "load": load}
         apart = {"members": self.settings["members"], "companion": None, "tight": None, "fit_limits": None}
         return replace(self.study, settings=self.study.settings | changed | apart)
@@ -103,7 +107,7 @@ class Case:
         found, seconds = [], []
         for setting in self.turned(job):
             runs, times = self._study(setting, job).runs(), []
-            for _ in range(self.settings["repeats"]):
+            while len(times) < self.settings["repeats"] and not (times and times[-1] > LONG):
                 parts = [(simulated(run.settings), run) for run in runs]
                 times.append(float(sum(data.seconds.sum() for data, _ in parts)))
             data = combined(
@@ -142,6 +146,7 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
         raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
     for part in ("settled", "reference"):
         settings[part] = read(settings[part], SETTING_KEYS, file, f"{prefix}.{part}")
+    settings["levels"] = read(settings["levels"], LEVEL_KEYS, file, f"{prefix}.levels")
     for kind, knobs in settings["solvers"].items():
         if kind not in SOLVERS:
             raise SceneError(f"{prefix}.solvers", kind, f"one of {', '.join(sorted(SOLVERS))}", file)
@@ -172,7 +177,7 @@ def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
 
 def job_plan(case: Case, job: str) -> dict:
     """What a job depends on: its settings and its code."""
-    kind = "active_set" if job == REFERENCE else job
+    kind = DEFAULT if job == REFERENCE else job
     return {"job": case.job_settings(job), "source": source_digest("contactsim.cost", module_of(kind))}
 
 
@@ -205,7 +210,7 @@ def _ensembles(case_settings: dict, study: xr.Dataset) -> Iterable[dict]:
     most = study.member.size
     chosen = study.sel({load_name(study): case_settings["load"]}, method="nearest")
     for members in range(2, most + 1) if most > 1 else ():
-        row = {"solver": "active_set", "knob": "members", "points": int(study.points), "members": members}
+        row = {"solver": DEFAULT, "knob": "members", "points": int(study.points), "members": members}
         for name in case_settings["quantities"]:
             share = chosen[f"{name}_standard_error"] / chosen[f"{name}_mean"] * np.sqrt(most / members)
             row[name] = float(np.sqrt((share**2).mean()))
@@ -227,12 +232,20 @@ def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> floa
     return float(np.exp(np.interp(-np.log(error), -errors, costs)))
 
 
-def compared(table: pd.DataFrame, quantity: str, levels: Iterable[float], costs: Iterable[str]) -> pd.DataFrame:
-    """At equal error, how many times more each solver costs than the default one: one row a knob, level and cost."""
+def compared(
+    table: pd.DataFrame, quantity: str, levels: Mapping[str, Iterable[float]], costs: Iterable[str]
+) -> pd.DataFrame:
+    """At equal error, how many times more each solver costs than the default one: one row a knob, level and solver.
+
+    levels: errors by knob; a ratio is NaN where a solver was not measured at that error.
+    """
     rows = []
-    for knob, level, cost in itertools.product(("points", "tolerance"), levels, costs):
-        part = table[(table.knob == knob) & (table.unconverged == 0)]
-        found = {kind: cost_at(curve, quantity, level, cost) for kind, curve in part.groupby("solver")}
-        least = found.get("active_set", float("nan"))
-        rows.append({"knob": knob, "error": level, "cost": cost} | {kind: at / least for kind, at in found.items()})
-    return pd.DataFrame(rows)
+    good = table[(table.unconverged == 0) & table.knob.isin(levels)]
+    for (knob, kind), curve in good.groupby(["knob", "solver"], sort=False):
+        own = good[(good.knob == knob) & (good.solver == DEFAULT)]
+        for level in levels[knob]:
+            ratios = {
+                cost: cost_at(curve, quantity, level, cost) / cost_at(own, quantity, level, cost) for cost in costs
+            }
+            rows.append({"knob": knob, "error": level, "solver": kind} | ratios)
+    return pd.DataFrame(rows, columns=["knob", "error", "solver", *costs])

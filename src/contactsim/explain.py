@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from contactsim.laws import EFFECTS
 from contactsim.scene import Scene
-from contactsim.solvers import SOLVERS, solver
+from contactsim.solvers import SOLVERS, installed, solver, solver_class
 from contactsim.traits import Trait
 
 COMPONENTS = {"n": "normal", "t": "tangential"}
@@ -113,5 +113,7 @@ def _left_out(scene: Scene) -> dict[str, str]:
 
 
 def _why_not(scene: Scene, name: str) -> str:
-    missing = sorted(trait.value for trait in scene.traits - solver(name).accepts)
+    if not installed(name):
+        return "is not installed"
+    missing = sorted(trait.value for trait in scene.traits - solver_class(name).accepts)
     return f"does not take {missing[0]}" if missing else ""

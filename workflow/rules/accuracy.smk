@@ -40,6 +40,7 @@ rule accuracy_figure:
         png=RESULTS / "figures/accuracy_{case}.png",
         pdf=RESULTS / "figures/accuracy_{case}.pdf",
         csv=RESULTS / "figures/accuracy_{case}.csv",
+        equal_error=RESULTS / "figures/accuracy_{case}_at_equal_error.csv",
     log: RESULTS / "logs/figures/accuracy_{case}.log"
     params: plan=case_figure
     message: "accuracy_{wildcards.case}: {output.png}"

@@ -14,12 +14,16 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from contactsim import cost, dataset
 from contactsim.figures import style
-from contactsim.figures.render import framed, save
+from contactsim.figures.render import framed, move, save
 
-SOLVERS = {"active_set": ("o", style.WHOLE), "polonsky_keer": ("s", style.CONTACT), "verlet": ("^", "#8c6d31")}
+SOLVERS = {
+    "active_set": ("o", style.WHOLE),
+    "polonsky_keer": ("s", style.CONTACT),
+    "tamaas": ("D", style.PAIRS),
+    "verlet": ("^", "#8c6d31"),
+}
 KNOBS = {"points": "grid points", "tolerance": "tolerance", "members": "members"}
 COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}
-LEVELS = (1.0, 1e-1, 1e-2, 1e-3)
 ROUNDING = 1e-10
 """Errors below it are not drawn: both solutions have the same contact."""
 
@@ -28,7 +32,7 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     """Draw one case into its files.
 
     plan: of `contactsim.cost.figure_settings`; files: the jobs' datasets and costs in the plan's order, the study's
-    dataset and costs; targets: png, pdf and csv.
+    dataset and costs; targets: png, pdf, csv and, for the comparison at equal error, equal_error.
     """
     settings, jobs = plan["settings"], plan["jobs"]
     data = {job: dataset.read(path) for job, path in zip(jobs, files["data"], strict=True)}
@@ -39,17 +43,27 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     chosen = alone[np.isclose(alone[load].to_numpy()[:, None], settings["load"], rtol=1e-6).any(axis=1)]
     members = table.members.dropna() * chosen.seconds.sum() / max(alone.member.nunique(), 1)
     table["seconds"] = [*seconds, *members]
-    footer = f"{plan['tier']} tier · {len(table)} settings · best of {settings['repeats']} timings on one thread"
+    footer = f"{plan['tier']} tier · {len(table)} settings · best of up to {settings['repeats']} timings"
     figure, panels = framed(settings | {"panels": 4}, footer, rows=2)
-    draw(table, data["active_set"], np.reshape(panels, (2, 4)), settings["quantities"][0], plan["marks"])
+    quantity = settings["quantities"][0]
+    equal = cost.compared(table, quantity, settings["levels"], COSTS)
+    draw(table, equal, data[cost.DEFAULT], np.reshape(panels, (2, 4)), quantity, plan["marks"])
     save(figure, table, targets)
+    move(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
 
 
-def draw(table: pd.DataFrame, values: xr.Dataset, axes: np.ndarray, quantity: str, marks: Mapping[str, int]) -> None:
+def draw(
+    table: pd.DataFrame,
+    equal: pd.DataFrame,
+    values: xr.Dataset,
+    axes: np.ndarray,
+    quantity: str,
+    marks: Mapping[str, int],
+) -> None:
     """All panels of one case.
 
-    table: `cost.table` with a column of seconds; values: the default solver's dataset; axes (2, 4); quantity: whose
-    error is drawn; marks: grid points by what uses them.
+    table: `cost.table` with a column of seconds; equal: `cost.compared`; values: the default solver's dataset; axes
+    (2, 4); quantity: whose error is drawn; marks: grid points by what uses them.
     """
     for row, (measure, label) in enumerate(COSTS.items()):
         for column, (knob, title) in enumerate(KNOBS.items()):
@@ -62,7 +76,7 @@ def draw(table: pd.DataFrame, values: xr.Dataset, axes: np.ndarray, quantity: st
                 _curve(panel, curve, quantity, measure, kind)
             if knob == "points":
                 _front(panel, part, quantity, measure)
-                _marks(panel, part[part.solver == "active_set"], quantity, measure, marks)
+                _marks(panel, part[part.solver == cost.DEFAULT], quantity, measure, marks)
             panel.set(xscale="log", yscale="log", xlabel=f"relative error of {style.SYMBOLS[quantity]}")
             panel.set_ylabel(label if column == 0 else "")
             panel.set_title(title if row == 0 else "", fontsize=9)
@@ -70,7 +84,7 @@ def draw(table: pd.DataFrame, values: xr.Dataset, axes: np.ndarray, quantity: st
     handles, labels = axes[0, 0].get_legend_handles_labels()
     axes[1, 3].legend(handles, labels, loc="lower left", ncols=2)
     _grid_dependence(axes[0, 3], values)
-    _words(axes[1, 3], table, quantity)
+    _words(axes[1, 3], table, equal)
 
 
 def _decades(axes: Axes) -> None:
@@ -124,18 +138,27 @@ def _grid_dependence(axes: Axes, values: xr.Dataset) -> None:
     axes.legend(handles=keys + style.key(colours, {}))
 
 
-def _words(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
-    """Observed orders, and cost at equal error over that of the default solver."""
+def _words(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> None:
+    """Observed orders, and a table of cost at equal error over that of the default solver."""
     axes.axis("off")
-    grids = table[(table.knob == "points") & (table.solver == "active_set")]
-    lines = ["observed order in points:"]
-    names = [name for name in style.SYMBOLS if name in table]
-    lines += [f"   {style.SYMBOLS[name]}: {cost.order(grids, name):.2f}" for name in names]
-    lines += ["", "cost at equal error, in that of the active set", "(transforms; seconds):"]
-    ratios = cost.compared(table, quantity, LEVELS, COSTS)
-    for (knob, level), pair in ratios.groupby(["knob", "error"], sort=False):
-        for kind in (column for column in pair if column in SOLVERS and column != "active_set"):
-            if pair[kind].notna().all():
-                both = "; ".join(f"{value:.3g}" for value in pair[kind])
-                lines.append(f"   {KNOBS[knob]}, {level:g}: {kind.replace('_', ' ')} {both}")
-    axes.text(0, 1, "\n".join(lines), fontsize=7, va="top", linespacing=1.4)
+    grids = table[(table.knob == "points") & (table.solver == cost.DEFAULT)]
+    orders = [f"{style.SYMBOLS[name]} {cost.order(grids, name):.2f}" for name in style.SYMBOLS if name in table]
+    text = f"observed order in points:\n{', '.join(orders)}\n\ncost at equal error over that of the\nactive set, "
+    axes.text(0, 1, text + "transforms (seconds):", fontsize=7, va="top", linespacing=1.3)
+    others = [kind for kind in SOLVERS if kind in set(equal.solver) - {cost.DEFAULT}]
+    kept = equal[equal.solver != cost.DEFAULT].set_index(["knob", "error", "solver"])
+    lines = [
+        [f"{KNOBS[knob]}, {error:g}", *(_times(kept.loc[(knob, error, kind)]) for kind in others)]
+        for knob, error in dict.fromkeys(kept.index.droplevel("solver"))
+    ]
+    if lines:
+        header = ["knob, error", *(kind.replace("_", "\n") for kind in others)]
+        shown = axes.table(lines, colLabels=header, bbox=(0, 0.2, 1, 0.52), cellLoc="center", edges="horizontal")
+        shown.auto_set_font_size(False)
+        shown.set_fontsize(6.5)
+        shown.auto_set_column_width(range(len(header)))
+
+
+def _times(ratios: pd.Series) -> str:
+    """Times the default solver's cost, in transforms and in seconds; a dash where it was not measured."""
+    return "–" if ratios.isna().any() else f"{ratios.work:.2g} ({ratios.seconds:.2g})"

@@ -6,6 +6,7 @@ Classes are named, not imported, so that a run loads, and depends on, only the m
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
 
 from contactsim.errors import SceneError
 from contactsim.solvers.base import Solver
@@ -14,7 +15,10 @@ SOLVERS = {
     "active_set": "contactsim.solvers.active_set:NestedActiveSet",
     "polonsky_keer": "contactsim.solvers.polonsky_keer:PolonskyKeer",
     "verlet": "contactsim.solvers.verlet:WallVerlet",
+    "tamaas": "contactsim.solvers.tamaas:Tamaas",
 }
+PEERS = {"tamaas": "tamaas"}
+"""Solvers that need a package which contactsim does not."""
 
 
 def module_of(kind: str) -> str:
@@ -29,6 +33,14 @@ def solver_class(kind: str) -> type:
     return getattr(import_module(module_of(kind)), SOLVERS[kind].partition(":")[2])
 
 
+def installed(kind: str) -> bool:
+    """Whether what a solver needs is there."""
+    return kind not in PEERS or find_spec(PEERS[kind]) is not None
+
+
 def solver(kind: str, **options: float) -> Solver:
     """The solver of that kind, with its options."""
-    return solver_class(kind)(**options)
+    method = solver_class(kind)(**options)
+    if not installed(kind):
+        raise SceneError("solver", kind, f"one that is installed: pip install {PEERS[kind]}")
+    return method

@@ -1,0 +1,79 @@
+"""Polonsky and Keer's conjugate gradients as tamaas has them, as a peer to measure against; needs `pip install tamaas`.
+
+J. Open Source Softw. 5, 2121 (2020), doi:10.21105/joss.02121. tamaas stops at a relative error of its own, so it is
+asked for ever smaller ones, going on from where it stands, until our certificate is met. Restarting costs it about one
+iteration in a hundred.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from contactsim.grid import Array
+from contactsim.scene import WallProblem
+from contactsim.solvers.base import State
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class TamaasState(State):
+    """Pressure (n,); tamaas's own solver and model; a counter of its iterations; the relative error asked for next."""
+
+    method: object = field(repr=False)
+    counter: object = field(repr=False)
+    error: float
+
+
+@dataclass(frozen=True)
+class Tamaas:
+    """One outer step is a solution to a relative error ten times smaller than the last.
+
+    first_error: the first; iterations: most of an outer step.
+    """
+
+    first_error: float = 1e-2
+    iterations: int = 20000
+    budget: int = 14
+    fields = 16
+    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of an iteration on a grid of that size."""
+        return 4.0
+
+    def start(self, problem: WallProblem, guess: Array | None = None) -> TamaasState:
+        """A model without units: spacing 1, E* = 1."""
+        import tamaas
+
+        class Counter(tamaas.Functional):  # a term that is zero: called once an iteration
+            def __init__(self) -> None:
+                super().__init__()
+                self.iterations = 0
+
+            def computeF(self, *_: object) -> float:  # noqa: N802 - tamaas's name
+                return 0.0
+
+            def computeGradF(self, *_: object) -> None:  # noqa: N802 - tamaas's name
+                self.iterations += 1
+
+        tamaas.set_log_level(tamaas.LogLevel.error)
+        size = problem.heights.size
+        model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_1d, [float(size)], [size])
+        model.E, model.nu = 1.0, 0.0
+        if guess is not None:
+            model.traction[...] = problem.admissible(guess)
+        method, counter = tamaas.PolonskyKeerRey(model, problem.heights, self.first_error), Counter()
+        method.addFunctionalTerm(counter)
+        method.max_iter, method.dump_freq = self.iterations, 10**9
+        return TamaasState(np.zeros_like(problem.heights), False, method, counter, self.first_error)
+
+    def step(self, problem: WallProblem, state: TamaasState) -> TamaasState:
+        """Go on to a smaller relative error; the certificate decides whether it was enough."""
+        before = state.counter.iterations
+        state.method.tolerance = state.error
+        state.method.solve(problem.load)
+        problem.tally.add(4 * (state.counter.iterations - before) + 2, problem.heights.size)
+        pressure = np.array(state.method.model.traction).ravel()
+        return TamaasState(pressure, True, state.method, state.counter, state.error / 10)
