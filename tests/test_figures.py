@@ -9,6 +9,7 @@ from conftest import ROOT
 from contactsim import dataset
 from contactsim.figures import ch3, render, style
 from contactsim.plan import Plan
+from contactsim.takes import quantity
 
 PLAN = Plan.read(ROOT / "config", "quick")
 
@@ -66,6 +67,14 @@ def test_the_table_lists_exact_and_computed(made):
     assert np.allclose(rows.width_exact, 2 * rows.contact_ratio)
     assert np.allclose(rows.line_load, np.pi / 4 * rows.contact_ratio**2)
     assert len(axes.tables[0].get_celld()) == (len(rows) + 1) * len(rows.columns)
+
+
+def test_the_fits_are_given_as_the_curves_that_they_draw(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc").sel(reduced_pressure=slice(0, 0.11))
+    shown = ch3.fig_3_3(data, Figure().subplots())
+    assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
+    drawn = shown.query("fit_limit == 0.1 and weighting == 'area' and fitted != 'all'")
+    assert np.allclose(drawn.kappa_fit, quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
 
 
 def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():

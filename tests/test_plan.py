@@ -254,6 +254,13 @@ BAD = {
         "select",
     ),
     "figure that is no mapping": ({"ch3.yaml": {"figures/fig_3_1": 3}}, "ch3.yaml", "figures.fig_3_1", 3, "a mapping"),
+    "compare no list": (
+        {"ch3.yaml": {"figures/fig_3_1/compare": "kappa_r"}},
+        "ch3.yaml",
+        "figures.fig_3_1.compare",
+        "kappa_r",
+        "a list of columns",
+    ),
     "no panels": ({"ch3.yaml": {"figures/fig_3_1/panels": 0}}, "ch3.yaml", "figures.fig_3_1.panels", 0, "axes"),
 }
 for size in ([4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -3.0], [0.0, 3.0]):
@@ -370,6 +377,7 @@ def test_what_the_workflow_is_given_is_the_same_read_twice(folder):
         ({"figures/fig_3_3/caption": "Something else."}, {"fig_3_3"}),
         ({"figures/fig_3_1/size": [5.0, 3.0]}, {"fig_3_1"}),
         ({"figures/fig_3_1/caption": "Another."}, {"fig_3_1"}),
+        ({"figures/fig_3_1/compare": ["kappa_r"]}, set()),
     ],
 )
 def test_an_edit_changes_the_studies_and_figures_that_use_it_and_no_others(folder, changes, expected):

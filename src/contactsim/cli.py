@@ -1,7 +1,8 @@
-"""`contactsim explain | run`: one scene from the shell.
+"""`contactsim explain | run | compare`: one scene from the shell; two tiers side by side.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion` and `fit_limits`, and
 may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
+`compare` reads the CSVs of the figures in ./config as they lie in its results folder.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from pathlib import Path
 
 from contactsim import dataset
 from contactsim.build import points_of, scene_of
+from contactsim.compare import compared, is_within, summary
 from contactsim.config import load_yaml, whole
 from contactsim.errors import SceneError
 from contactsim.explain import explain
@@ -81,9 +83,18 @@ def run_scene(options: argparse.Namespace) -> None:
     sys.stdout.write(data[columns].to_dataframe().to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")
 
 
+def compare_tiers(options: argparse.Namespace) -> None:
+    """Print how far the figures of two tiers differ; exit code 1 where one is beyond the limit."""
+    found = compared(Plan.read("config", options.first), Plan.read("config", options.second))
+    sys.stdout.write(f"{options.first} beside {options.second}: differences relative to {options.second}\n")
+    sys.stdout.write(summary(found, options.within))
+    if not all(table is None or is_within(table, options.within) for table in found.values()):
+        sys.exit(1)
+
+
 def main(arguments: list[str] | None = None) -> None:
     """The command line."""
-    parser = argparse.ArgumentParser(prog="contactsim", description="One scene from the shell.")
+    parser = argparse.ArgumentParser(prog="contactsim", description="One scene, or two tiers, from the shell.")
     commands = parser.add_subparsers(required=True)
     telling = commands.add_parser("explain", help="which effects are on, what exists, what it costs")
     telling.add_argument("scene", help="a scene file, or the name of a study in ./config")
@@ -95,6 +106,11 @@ def main(arguments: list[str] | None = None) -> None:
     running.add_argument("--output", metavar="FILE", help="dataset to write, default beside the scene file")
     running.add_argument("--threads", type=int, default=1)
     running.set_defaults(call=run_scene)
+    comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
+    comparing.add_argument("first", help="a tier, such as quick")
+    comparing.add_argument("second", help="the tier that differences are relative to")
+    comparing.add_argument("--within", type=float, default=0.1, help="largest relative difference, default 0.1")
+    comparing.set_defaults(call=compare_tiers)
     options = parser.parse_args(arguments)
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
     try:

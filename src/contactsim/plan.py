@@ -9,7 +9,7 @@ from pathlib import Path
 
 from contactsim import stability
 from contactsim.claims import Claim, selection
-from contactsim.config import Key, load_yaml, mapping, number, overlaid, read, size, text, whole
+from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
@@ -44,16 +44,18 @@ FIGURE_KEYS = {
     "panels": Key(whole(1), "number of axes side by side", 1),
     "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
+    "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
 }
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: name, chapter, and its settings as read."""
+    """One figure: name, chapter, its settings as read, and apart from them the columns to compare, not drawn."""
 
     name: str
     chapter: str
     settings: dict
+    compare: list[str]
 
 
 @dataclass(frozen=True)
@@ -206,7 +208,8 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
     numbers = dict.fromkeys(known[name], Key(number, "a value of the thesis, a number"))
     read(settings["reference"], numbers, file, f"{prefix}.reference")
-    return Figure(name, file.stem, settings)
+    compare = settings.pop("compare")
+    return Figure(name, file.stem, settings, compare)
 
 
 def _functions(module: str) -> dict[str, list[str]]:

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from contactsim import analytic
 from contactsim.aggregate import departure
 from contactsim.figures import style
+from contactsim.grid import Array
 
 FREE_OF_EDGES = 0.05, 0.25
 """c/R between which a cylinder at L/R = 4 has enough points and does not feel its neighbours."""
@@ -133,13 +134,16 @@ def _constancy(data: xr.Dataset) -> str:
 
 
 def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
-    """Eq. 3.11 fitted to each Hurst exponent and to all (thesis Fig. 3.3)."""
+    """Eq. 3.11 fitted to each Hurst exponent and to all (thesis Fig. 3.3).
+
+    Returns the constants of every fit, and κ of it at each load of the data.
+    """
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 200)
     lowest = data.sel(fit_limit=float(data.fit_limit.min()))
     for weighting, width, alpha in (("area", 1.5, 1.0), ("logarithm", 1.0, 0.5)):
         for name in data.fitted.values:
             fit = lowest.sel(weighting=weighting, fitted=name)
-            curve = analytic.line_area(dense, float(fit.fit_b1), float(fit.fit_b2)) / dense
+            curve = _kappa_fit(dense, fit.fit_b1.item(), fit.fit_b2.item())
             color, line = (style.PAIRS, "-") if name == "all" else (style.WHOLE, style.hurst(float(name))["linestyle"])
             axes.plot(dense, curve, color=color, ls=line, lw=width, alpha=alpha)
     for value in data.hurst.values:
@@ -152,4 +156,11 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     keys = style.hurst_key(data.hurst.values) + style.key(colours, {"Persson (2D)": "-"})
     axes.legend(handles=keys, ncols=2, loc="upper right")
     names = [name for name in data.data_vars if str(name).startswith("fit_")]
-    return data[names].to_dataframe().reset_index()
+    fitted = data[names].assign(kappa_fit=xr.apply_ufunc(_kappa_fit, data.reduced_pressure, data.fit_b1, data.fit_b2))
+    order = [*data.fit_b1.dims, "reduced_pressure"]
+    return fitted.to_dataframe(dim_order=order).reset_index()
+
+
+def _kappa_fit(pressure: Array, b1: Array, b2: Array) -> Array:
+    """κ = a_rel/p* by Eq. 3.11; the arrays broadcast."""
+    return analytic.line_area(pressure, b1, b2) / pressure
