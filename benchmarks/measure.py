@@ -6,7 +6,6 @@ does falls on both; a ratio is the median over the rounds, a time the best.
 
 from __future__ import annotations
 
-import os
 import resource
 import signal
 import time
@@ -16,12 +15,12 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from contactsim.build import scene_of
 from contactsim.grid import Array, Grid, Tally
 from contactsim.plan import Plan
 from contactsim.scene import Certificate, Scale, Scene, WallProblem, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
-from contactsim.build import scene_of
 
 CAP = 120
 """CPU seconds that one solution may take."""

@@ -137,7 +137,12 @@ BAD = {
     "no effects": ({"effects": []}, "effects", [], "hard_wall"),
     "unknown effect": ({"effects": ["magic"]}, "effects", ["magic"], "hard_wall"),
     "an effect twice": ({"effects": ["hard_wall"] * 2}, "effects", ["hard_wall"] * 2, "twice"),
-    "unknown solver": ({"solver": {"kind": "guess"}}, "solver.kind", "guess", "active_set, polonsky_keer, tamaas, verlet"),
+    "unknown solver": (
+        {"solver": {"kind": "guess"}},
+        "solver.kind",
+        "guess",
+        "active_set, polonsky_keer, tamaas, verlet",
+    ),
     "solver without kind": ({"solver": {"budget": 5}}, "solver.kind", "nothing", "active_set"),
     "option of another solver": ({"solver": {"kind": "verlet", "reduction": 0.1}}, "solver.reduction", 0.1, "damping"),
     "private part of a solver": ({"solver": {"kind": "verlet", "_stiffness": 1}}, "solver._stiffness", 1, "damping"),
