@@ -273,8 +273,8 @@ def test_the_map_is_drawn_and_gives_its_numbers(drawn):
 
 def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(drawn):
     data = dataset.read(drawn / "stability.nc")
-    data["outcome"][0, 0, 0], data["outcome"][0, 0, 1] = Outcome.WRONG.value[0], Outcome.NON_FINITE.value[0]
-    assert footer(data).endswith("1 wrong, 1 not finite")
+    data["outcome"][0, 0, 0], data["outcome"][0, 0, 1:] = Outcome.WRONG.value[0], Outcome.NON_FINITE.value[0]
+    assert footer(data).endswith("1 wrong, 2 not finite")
     axes = Figure().subplots()
     stability(data, [axes])
     for mesh, (_, one) in zip(axes.collections, data.groupby("hazard", squeeze=False), strict=True):
