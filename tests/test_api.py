@@ -67,3 +67,38 @@ def test_a_record_tells_cost_and_certificate():
     assert record.iterations > 0
     assert record.certificate.met(1e-3)
     assert record.certificate.smallest_pressure >= 0
+
+
+@pytest.mark.parametrize(
+    ("heights", "key"),
+    [
+        (np.ma.masked_array([0.0, 9.0, 1.0], [False, True, False]), "heights"),
+        ([[1.0, 2.0], [3.0]], "heights"),
+    ],
+)
+def test_heights_that_are_no_row_of_numbers_or_partly_masked_are_refused(heights, key):
+    with pytest.raises(SceneError) as caught:
+        contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=0.1)
+    assert caught.value.key == key
+
+
+@pytest.mark.parametrize("method", [None, 3, dict])
+def test_what_is_no_solver_is_refused(method):
+    with pytest.raises(SceneError, match="the name of a solver"):
+        contactsim.press([0.0, 1.0], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, solver=method)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"contact_modulus": 1e-308, "spacing": 100.0},
+        {"contact_modulus": 1e308, "spacing": 1e-4},
+        {"spacing": 1e-320},
+        {"heights": [1.7e308, -1.7e308, 0.0]},
+        {"mean_pressure": 1.7e308},
+    ],
+)
+def test_units_beyond_floating_point_are_refused(change):
+    given = {"heights": [0.0, 1.0, 0.5], "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1} | change
+    with pytest.raises(SceneError, match="range of floating point"):
+        contactsim.press(given.pop("heights"), **given)

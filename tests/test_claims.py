@@ -76,6 +76,15 @@ def test_the_two_errors_add_in_quadrature():
     assert claims.verdict(settings, Finding(2.05, 0.03, 0.041)) == NOT_DECIDABLE
 
 
+def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
+    area = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
+    found = claims.find(claim(**area), made_up(2.0, grid=0.2))
+    assert found.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
+    data = made_up(2.0).assign(kappa_grid_error=made_up(grid=0.2).kappa_grid_error)
+    part = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
+    assert claims.find(claim(**part), data).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
+
+
 def test_a_relation_has_one_edge():
     most, least = claim(expect=None, within=None, at_most=3.0), claim(expect=None, within=None, at_least=3.0)
     assert [claims.judge(most, made_up(level))["verdict"] for level in (2.0, 4.0)] == [REPRODUCED, NOT_REPRODUCED]

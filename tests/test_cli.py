@@ -75,6 +75,8 @@ def test_a_study_is_explained_by_its_name(monkeypatch, capsys):
         (("points: 256", "points: 256\nmembers: 3"), ["one run"]),
         (("points: 256", "points: 256\nseed: -1"), ["seed", "-1"]),
         (("points: 256", "pints: 256"), ["pints", "no such key"]),
+        (("points: 256", "points: 256\ntight: {tolerance: 1.0e-6, members: 1}"), ["tight", "one run"]),
+        (("points: 256", "points: 256\nvary: {surface.amplitude: [5.0]}"), ["vary", "one run"]),
     ],
 )
 def test_a_wrong_scene_file_ends_in_one_line_that_names_file_key_value_and_what_is_allowed(scene_file, edit, words):
@@ -83,6 +85,8 @@ def test_a_wrong_scene_file_ends_in_one_line_that_names_file_key_value_and_what_
         cli.main(["run", str(scene_file)])
     for word in [str(scene_file), *words]:
         assert word in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert "studies." not in str(caught.value)  # keys as they stand in the file
     assert not scene_file.with_suffix(".nc").exists()
 
 
@@ -90,3 +94,45 @@ def test_an_unknown_scene_is_refused_with_the_studies_that_exist(monkeypatch):
     monkeypatch.chdir(ROOT)
     with pytest.raises(SystemExit, match="rough_line"):
         cli.main(["explain", "smoothest_line"])
+
+
+def test_a_load_step_that_does_not_converge_is_stored_named_and_ends_in_an_error(scene_file, capsys):
+    scene_file.write_text(SCENE.replace("1.0e-4", "1.0e-18"))
+    with pytest.raises(SystemExit, match="2 of 2 load steps did not converge"):
+        cli.main(["run", str(scene_file)])
+    assert "budget" in capsys.readouterr().out
+    assert (dataset.read(scene_file.with_suffix(".nc")).status == 1).all()
+
+
+@pytest.mark.parametrize(
+    ("command", "options", "words"),
+    [
+        ("run", ["--output", "."], ["--output", "folder"]),
+        ("run", ["--threads", "0"], ["threads", "got 0"]),
+        ("explain", ["--draw", "wave.bmp"], ["--draw", "wave.bmp", ".png"]),
+        ("explain", ["--draw", "nowhere/wave.png"], ["nowhere/wave.png", "No such file"]),
+        ("explain", ["--tier", "quick"], ["--tier", "quick", "scene file"]),
+    ],
+)
+def test_a_wrong_option_ends_in_one_line(scene_file, command, options, words):
+    with pytest.raises(SystemExit) as caught:
+        cli.main([command, str(scene_file), *options])
+    for word in words:
+        assert word in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(scene_file, monkeypatch):
+    scene_file.write_text(SCENE + "seed: 7\nsolver: {kind: polonsky_keer, batch: 5}\n")
+    given = {}
+
+    def simulate(scene, **options):
+        given.update(options)
+        return contactsim.simulate(scene, **options)
+
+    monkeypatch.setattr(cli, "simulate", simulate)
+    cli.main(["run", str(scene_file)])
+    assert (type(given["method"]).__name__, given["method"].batch) == ("PolonskyKeer", 5)
+    assert (given["tolerance"], given["points"]) == (1e-4, 256)
+    assert dataset.read(scene_file.with_suffix(".nc")).attrs["settings"]
+    assert cli.read_scene(str(scene_file)).seed == 7

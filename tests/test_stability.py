@@ -10,13 +10,15 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
 
 from cases import ALL
 from conftest import ROOT
 from contactsim import dataset, press, scene
 from contactsim.errors import SceneError
 from contactsim.figures.render import render
-from contactsim.figures.stability import COLOURS
+from contactsim.figures.stability import COLOURS, footer, stability
 from contactsim.hazards import HAZARDS, Case, made
 from contactsim.plan import Plan
 from contactsim.solvers import solver
@@ -109,6 +111,27 @@ def test_a_solution_not_exact_not_symmetric_or_of_another_area_is_found():
     wanted = Case(CASE.heights, approach=0.01, tolerance=1e-8)
     assert "approach" in faults(wanted, result)
     assert faults(replace(wanted, approach=result.approach), result) == ""
+
+
+def test_an_overlap_outside_the_contact_is_found():
+    result = solved(CASE)
+    raised = CASE.heights + np.where(np.arange(64) == 32, 5.0, 0.0)  # where nothing carries
+    assert result.pressure[32] == 0
+    assert "contact condition" in faults(replace(CASE, heights=raised, exact=None), result)
+
+
+def test_a_share_of_the_load_on_the_wrong_points_is_found_where_a_grid_step_is_coarse():
+    case = HAZARDS["equal_heights"](85)
+    result = solved(case)
+    uneven = result.pressure * np.where(np.cumsum(result.contact) % 2, 1.3, 0.7)
+    assert faults(case, result) == ""
+    assert "exact" in faults(case, replace(result, pressure=uneven * (result.pressure.sum() / uneven.sum())))
+
+
+def test_at_a_given_approach_the_pressure_is_held_to_a_thousandth():
+    case = HAZARDS["last_gap"](0)
+    result = solved(case)
+    assert "exact" in faults(replace(case, exact=case.exact * 1.01), result)
 
 
 def test_iterations_without_a_load_are_found():
@@ -212,6 +235,9 @@ def test_the_dataset_says_what_came_of_every_cell(drawn):
     assert failed.outcome == Outcome.FAILED.value[0]
     assert failed.transforms > 10_000
     assert "budget" in str(failed.reason.values)
+    spike = data.outcome.sel(hazard="low_spike")
+    assert (spike.sel(severity=0) == Outcome.RIGHT.value[0]).all()
+    assert (spike.sel(severity=100) == Outcome.CERTIFIED.value[0]).all()
     right = data.sel(hazard="nearly_full_rough")
     assert (right.outcome == Outcome.RIGHT.value[0]).all()
     assert (right.tolerance == 1e-8).all()
@@ -243,6 +269,17 @@ def test_the_map_is_drawn_and_gives_its_numbers(drawn):
     assert len(rows) == 27
     assert rows.outcome.value_counts()["refused"] == 9
     assert not rows.outcome.isin(["wrong", "non_finite"]).any()
+
+
+def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    data["outcome"][0, 0, 0], data["outcome"][0, 0, 1:] = Outcome.WRONG.value[0], Outcome.NON_FINITE.value[0]
+    assert footer(data).endswith("1 wrong, 2 not finite")
+    axes = Figure().subplots()
+    stability(data, [axes])
+    for mesh, (_, one) in zip(axes.collections, data.groupby("hazard", squeeze=False), strict=True):
+        wanted = [to_rgba(list(COLOURS.values())[value]) for value in one.outcome.values.ravel()]
+        assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
 
 
 def test_every_outcome_has_a_colour_of_its_own():

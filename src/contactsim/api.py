@@ -40,7 +40,14 @@ def press(
     Returns pressure (n,), never negative; gap (n,); contact (n,); relative_contact_area; approach; status; record
     with transforms and the certificate. A `SceneError` says what is wrong with the input.
     """
-    profile = Profile(np.asarray(heights), spacing, None)
+    if np.ma.is_masked(heights):
+        raise SceneError("heights", heights, "finite numbers, none missing; these are masked in part")
+    try:
+        profile = Profile(np.asarray(heights), spacing, None)
+    except SceneError:
+        raise
+    except ValueError as error:
+        raise SceneError("heights", heights, "two or more real numbers, in 1D") from error
     surface = Sampled(profile)
     if (mean_pressure is None) == (approach is None):
         given = {"mean_pressure": mean_pressure, "approach": approach}

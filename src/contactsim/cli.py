@@ -1,7 +1,7 @@
 """`contactsim explain | run | compare`: one scene from the shell; two tiers side by side.
 
-A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion` and `fit_limits`, and
-may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
+A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight` and
+`fit_limits`, and may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
 `compare` reads the CSVs of the figures in ./config as they lie in its results folder.
 """
 
@@ -22,27 +22,38 @@ from contactsim.march import simulate
 from contactsim.plan import Plan
 from contactsim.scene import Scene
 from contactsim.solvers import solver
+from contactsim.solvers.base import Status
 from contactsim.study import Study
+
+DRAWN = (".png", ".pdf", ".svg")
 
 
 def read_scene(path: str) -> Study:
     """The one-run study in a scene file."""
     section = load_yaml(path)
+    for key in ("vary", "members", "companion", "tight", "fit_limits"):
+        if key in section:
+            raise SceneError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
     seed = section.pop("seed", 0)
     try:
         whole(0)(seed)
     except ValueError as error:
         raise SceneError("seed", seed, "a whole number, 0 or more", path) from error
-    study = Study.read(Path(path).stem, {"title": Path(path).stem} | section, path, seed)
-    if len(study.runs()) > 1:
-        raise SceneError("vary, members, companion", len(study.runs()), "one run: these belong to studies", path)
-    return study
+    name = Path(path).stem
+    try:
+        return Study.read(name, {"title": name} | section, path, seed)
+    except SceneError as error:  # in a scene file the keys stand at the top
+        raise SceneError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
 
 
 def named(scene: str, tier: str | None) -> Study:
     """A study, from a scene file or by its name in ./config."""
-    if Path(scene).suffix in (".yaml", ".yml"):
+    if Path(scene).suffix:
+        if tier is not None:
+            raise SceneError("--tier", tier, "none with a scene file: tiers belong to studies")
         return read_scene(scene)
+    if not Path("config").is_dir():
+        raise SceneError("scene", scene, "a scene file, or a study's name where there is a folder config")
     studies = Plan.read("config", tier).studies
     if scene not in studies:
         raise SceneError("scene", scene, f"a .yaml file or one of {', '.join(studies)}")
@@ -58,6 +69,8 @@ def first_scene(study: Study) -> tuple[Scene, dict, int]:
 
 def explain_scene(options: argparse.Namespace) -> None:
     """Print what a scene does and costs; draw it if asked to."""
+    if options.draw and Path(options.draw).suffix not in DRAWN:
+        raise SceneError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
     study = named(options.scene, options.tier)
     scene, settings, points = first_scene(study)
     runs = len(study.runs())
@@ -70,17 +83,24 @@ def explain_scene(options: argparse.Namespace) -> None:
 
 
 def run_scene(options: argparse.Namespace) -> None:
-    """Simulate a scene file and write its dataset beside it, or where asked."""
+    """Simulate a scene file and write its dataset beside it, or where asked; fail if a step did not converge."""
     study = read_scene(options.scene)
+    target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
+    if Path(target).is_dir():
+        raise SceneError("--output", target, "the name of a file; this is a folder")
     scene, settings, points = first_scene(study)
     method = solver(**settings["solver"])
     data = simulate(scene, points=points, tolerance=settings["tolerance"], method=method, threads=options.threads)
-    target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
     run = study.runs()[0]
     stamped = dataset.stamped(data.drop_vars("seconds"), study.settings["title"], run.settings, run.source)
     dataset.write(stamped, target)
     columns = ["mean_pressure", "relative_contact_area", "mean_gap", "non_uniformity", "transforms", "status"]
-    sys.stdout.write(data[columns].to_dataframe().to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")
+    names = {status.value[0]: status.name.lower() for status in Status}
+    rows = data[columns].to_dataframe().assign(status=[names[int(status)] for status in data.status])
+    sys.stdout.write(rows.to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")
+    failed = int((data.status != Status.CONVERGED.value[0]).sum())
+    if failed:
+        sys.exit(f"Error: {failed} of {len(rows)} load steps did not converge")
 
 
 def compare_tiers(options: argparse.Namespace) -> None:
@@ -117,3 +137,5 @@ def main(arguments: list[str] | None = None) -> None:
         options.call(options)
     except SceneError as error:
         sys.exit(f"Error: {error}")
+    except OSError as error:
+        sys.exit(f"Error: {error.filename}: {error.strerror}")

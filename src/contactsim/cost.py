@@ -26,6 +26,7 @@ from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, installed, module_of, solver
 from contactsim.solvers.base import Status
 from contactsim.study import Study
+from contactsim.takes import quantities
 
 SETTING_KEYS = {
     "points": Key(whole(2), "a whole number of grid points"),
@@ -136,6 +137,8 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
     tiers = load_yaml(file)
     if plan.tier not in tiers:
         raise SceneError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
+    if not isinstance(tiers[plan.tier], dict):
+        raise SceneError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
     return {name: _case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
 
 
@@ -151,11 +154,27 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
         if kind not in SOLVERS:
             raise SceneError(f"{prefix}.solvers", kind, f"one of {', '.join(sorted(SOLVERS))}", file)
         settings["solvers"][kind] = read(knobs, KNOB_KEYS, file, f"{prefix}.solvers.{kind}")
-        finest = max(settings["solvers"][kind]["points"], default=0)
-        if finest >= settings["reference"]["points"]:
-            allowed = f"fewer than the reference's, {settings['reference']['points']}"
-            raise SceneError(f"{prefix}.solvers.{kind}.points", finest, allowed, file)
-    return Case(name, settings, plan.studies[settings["study"]])
+        if not any(settings["solvers"][kind].values()):
+            raise SceneError(f"{prefix}.solvers.{kind}", knobs, "points, or tolerance, or both", file)
+        _below_reference(settings["solvers"][kind], settings["reference"], file, f"{prefix}.solvers.{kind}")
+    if DEFAULT not in settings["solvers"]:
+        raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), f"{DEFAULT}, the measure of others", file)
+    settled = {key: [value] for key, value in settings["settled"].items()}
+    _below_reference(settled, settings["reference"], file, f"{prefix}.settled")
+    study = plan.studies[settings["study"]]
+    for key, known in (("load", study.settings["load"]["values"]), ("quantities", quantities(study))):
+        for value in set(settings[key]) - set(known):
+            raise SceneError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
+    return Case(name, settings, study)
+
+
+def _below_reference(turned: dict, reference: dict, file: Path, prefix: str) -> None:
+    """Every setting is coarser than the reference that it is measured against."""
+    finest, tightest = max(turned["points"], default=0), min(turned["tolerance"], default=np.inf)
+    if finest >= reference["points"]:
+        raise SceneError(f"{prefix}.points", finest, f"fewer than the reference's, {reference['points']}", file)
+    if tightest <= reference["tolerance"]:
+        raise SceneError(f"{prefix}.tolerance", tightest, f"above the reference's, {reference['tolerance']:g}", file)
 
 
 def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:

@@ -188,6 +188,20 @@ class Certificate:
         return worst <= tolerance and self.smallest_pressure >= 0 and self.load_error <= 1e-12
 
 
+def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressure: float) -> Array:
+    """The compliance over spacing/E*; refused where that, heights or pressures leave the range of floating point."""
+    with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
+        flexibility = grid.spacing[0] / np.float64(scene.contact_modulus)
+        symbol = scene.compliance(grid.wavenumber) / flexibility
+        largest = np.float64(heights.size) * max(unit / flexibility, pressure)
+        extents = flexibility, largest, (heights.max() - heights.min()) / unit, *symbol[1:]
+    if not (np.isfinite(extents).all() and flexibility > 0 and (symbol[1:] > 0).all()):
+        given = f"{grid.spacing[0]:g}, {scene.contact_modulus:g}, {np.abs(heights).max():g}, {pressure:g}"
+        allowed = "units in which heights, pressures and their ratios stay within the range of floating point"
+        raise SceneError("spacing, contact_modulus, heights, mean_pressure", given, allowed)
+    return symbol
+
+
 def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int) -> tuple[WallProblem, Scale]:
     """The problem that a scene poses at one load step on the grid of `heights` (n,), nm; and its units."""
     if not (is_number(tolerance) and tolerance > 0):
@@ -197,15 +211,17 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     highest = float(heights.max())
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
     # A profile that is flat but for rounding has no grid step of its own: what the load moves takes its place.
-    unit = max(grid_step(heights), FLATTEST * (pressure or 0.0) * flexibility) or flexibility
+    with np.errstate(over="ignore"):  # refused below
+        unit = max(grid_step(heights), FLATTEST * (pressure or 0.0) * flexibility) or flexibility
     approach = None if pressure is not None else (step.value + highest) / unit
     free = Trait.HALF_SPACE in scene.traits
     if free and approach is not None and approach > 0 and step.value >= -heights.mean():
         limit = 0.0 if abs(heights.mean()) < 1e-12 * np.abs(heights).max() else -heights.mean()
         allowed = f"below {limit:.17g}, where the half-space would be in full contact"
         raise SceneError("approach", step.value, allowed)
+    symbol = _without_units(scene, grid, heights, unit, pressure or 0.0)
     scale = Scale(unit, unit / flexibility, highest)
     tally = Tally(heights.size)
-    compliance = Operator(grid, scene.compliance(grid.wavenumber) / flexibility, tally)
+    compliance = Operator(grid, symbol, tally)
     load = None if pressure is None else pressure / scale.pressure
     return WallProblem((heights - highest) / unit, compliance, tolerance, load, approach, tally), scale

@@ -106,7 +106,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     right.set(ylabel=r"$\kappa_r^{1D}$")
     style.keep_in_view(right, kappa_r - 0.15, kappa_r + 0.15)
     for panel, letter in zip(axes, "abc", strict=True):
-        panel.set(xscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$")
+        panel.set(xscale="log", xlabel="reduced pressure " + (r"$p_r^*$" if panel is right else r"$p^*$, $p_r^*$"))
         style.letter(panel, letter)
     left.legend(handles=style.hurst_key(data.hurst.values), loc="upper left")
     colours = {r"$\bar g$ over the whole surface": style.WHOLE, r"$\bar g_r$ over the contact (Eq. 3.8)": style.CONTACT}

@@ -109,7 +109,9 @@ class Result:
 
 
 def require(solver: Solver, scene: Scene) -> None:
-    """Refuse a scene with a trait that the solver does not accept."""
+    """Refuse what is no solver, and a scene with a trait that the solver does not accept."""
+    if isinstance(solver, type) or not hasattr(solver, "accepts"):
+        raise SceneError("solver", solver, "the name of a solver, or a solver made with its options")
     for trait in sorted(scene.traits - solver.accepts, key=lambda trait: trait.name):
         accepted = ", ".join(sorted(known.name for known in solver.accepts))
         raise SceneError(
