@@ -104,6 +104,13 @@ def test_a_condition_that_holds_is_named_and_one_that_does_not_changes_nothing()
     assert np.isnan(row["condition_value"])
 
 
+def test_where_a_condition_decides_against_an_open_statement_it_is_not_reproduced():
+    settings = claim(condition={"words": "on the grid of the thesis", "grid": "thesis"})
+    row = claims.judge(settings, made_up(3.0, grid=5.0))
+    assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "on the grid of the thesis")
+    assert row["condition_value"] == pytest.approx(3.0)
+
+
 def test_a_condition_is_not_needed_where_all_is_reproduced():
     row = claims.judge(claim(condition={"words": "at low p*", "select": {}}), made_up())
     assert (row["verdict"], row["condition"]) == (REPRODUCED, "")
@@ -203,7 +210,7 @@ def test_every_claim_of_the_config_is_judged_and_drawn(made):
     assert rows.claim.tolist() == list(PLAN.claims["ch3"])
     assert rows.verdict.isin(COLOURS).all()
     answered = rows.study.notna()
-    assert rows.claim[~answered].tolist() == ["fit_scaraggi"]
+    assert rows.claim[~answered].tolist() == ["neglected_effort", "height_density", "fit_scaraggi"]
     assert np.isfinite(rows[answered][["value", "ensemble_error"]]).all(axis=None)
     assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
     assert (folder / "ch3.png").read_bytes().startswith(b"\x89PNG")

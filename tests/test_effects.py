@@ -79,18 +79,18 @@ def test_complete_contact_costs_next_to_nothing():
     assert press(0.01 * rough(4096), 1.0).record.transforms < 20
 
 
-@pytest.mark.parametrize("pressure", [1e-3, 0.05, 3.0])
 @pytest.mark.parametrize("name", ALL)
-def test_peak_memory_is_the_few_fields_that_are_explained(name, pressure):
-    points = 2**15
+def test_peak_memory_is_the_few_fields_that_are_explained(name):
+    points, peaks = 2**15, []
     method = solver(name) if name == "active_set" else solver(name, budget=2)
     heights = rough(points)
-    tracemalloc.start()
-    press(heights, pressure, method)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    told = 1e6 * explain(scene(path=loading.press([pressure])), points, name).megabytes
-    assert 0.6 * told < peak < 1.1 * told  # a tangential component would add as much again
+    for pressure in (1e-3, 0.1, 0.3, 1.0):
+        tracemalloc.start()
+        press(heights, pressure, method)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    told = 1e6 * explain(scene(path=loading.press([0.1])), points, name).megabytes
+    assert 0.9 * told < max(peaks) < told  # two more fields would be seen
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -45,6 +45,7 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
         fine["half_width_exact"] = fine.contact_ratio * radius
+        fine["rms_gradient_exact"] = xr.apply_ufunc(analytic.cylinder_rms_gradient, fine.half_width_exact, radius)
     data = fine.merge(_ensemble(fine))
     for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
         others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]

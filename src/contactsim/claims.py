@@ -10,7 +10,8 @@ two edges to grid points, that understates the error of a spread.
 The rule: let e be both errors in quadrature and d the distance from the number to the nearest edge of the band. With
 e ≥ d, or with either unknown, the statement is not decidable: a finer grid or more members could turn the verdict.
 Otherwise it is reproduced inside the band and not reproduced outside. Where the whole selection does not reproduce it
-but a narrower condition does, it is reproduced with a condition. The condition may be part of the loads or variants,
+but a narrower condition does, it is reproduced with a condition; where the whole is not decidable and the condition
+does not reproduce it, it is not reproduced. The condition may be part of the loads or variants,
 or the thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does
 not count. A statement about that grid itself is not decidable on another. Errors are one standard error, so a number
 near an edge is decided wrongly about one time in six; and noise adds to every spread, which works against statements
@@ -211,15 +212,16 @@ def verdict(claim: Mapping, found: Finding) -> str:
 
 
 def judge(claim: Mapping, data: xr.Dataset | None) -> dict:
-    """A claim's number, errors and verdict, and those under its condition where that is what reproduces it."""
+    """A claim's number, errors and verdict, and those under its condition where that decides it."""
     found = Finding() if data is None else find(claim, data)
     row = {"verdict": verdict(claim, found), **vars(found), "condition": "", "condition_value": NAN}
     row |= {"condition_ensemble_error": NAN, "condition_grid_error": NAN}
     if data is not None and claim["condition"] is not None and row["verdict"] != REPRODUCED:
         narrower = find(claim, data, claim["condition"])
-        if verdict(claim, narrower) == REPRODUCED:
+        decided = {REPRODUCED: CONDITION, NOT_REPRODUCED: NOT_REPRODUCED}.get(verdict(claim, narrower))
+        if decided == CONDITION or (decided and row["verdict"] == NOT_DECIDABLE):
             row |= {f"condition_{name}": value for name, value in vars(narrower).items()}
-            row |= {"verdict": CONDITION, "condition": claim["condition"]["words"]}
+            row |= {"verdict": decided, "condition": claim["condition"]["words"]}
     return row
 
 

@@ -59,6 +59,7 @@ VARIABLES = {
     "kappa_r": ("1", "proportionality of area and pressure, gradient over the contact (Eq. 3.8)"),
     "kappa_r_bond": ("1", "proportionality of area and pressure, gradient over pairs in contact"),
     "half_width_exact": ("nm", "half-width of the contact, exact (Eq. 3.5)"),
+    "rms_gradient_exact": ("1", "rms gradient over the contact, exact (Eq. 3.6)"),
     "half_width": ("nm", "half-width of the contact"),
     "iterations": ("1", "outer iterations of the solver"),
     "transforms": ("1", "real transforms, in equivalents of one on the finest grid"),

@@ -8,7 +8,7 @@ not; the heights S p - g then have exactly that answer, and no other, because S 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -129,6 +129,25 @@ def tall_spike(severity: float) -> Case:
     return Case(heights, 1e-3, exact=_alone(heights, 1e-3), mirror=100)
 
 
+def _dug(severity: float, share: float) -> Case:
+    """A rough line with a groove in its widest gap over that share of all points, 1e1 to 1e8 spacings deep."""
+    pressed = made(_level(_rough(), 0.1), tolerance=1e-6)
+    far = np.argmin(_rough()) + np.arange(round(share * POINTS))
+    heights = pressed.heights.copy()
+    heights[far % POINTS] -= 10 ** (1 + 7 * severity / 100)
+    return replace(pressed, heights=heights)
+
+
+def deep_pit(severity: float) -> Case:
+    """A single point that is not in contact falls, to 1e8 spacings below the others: the contact does not notice."""
+    return _dug(severity, 1 / POINTS)
+
+
+def deep_groove(severity: float) -> Case:
+    """A groove in a gap, over one point in fifty, gets ever deeper, to 1e8 spacings: the contact does not notice."""
+    return _dug(severity, 0.02)
+
+
 def low_spike(severity: float) -> Case:
     """A single point sticks out of a plane, from ten spacings to 1e-4, and the plane around it begins to carry."""
     heights = np.zeros(257)
@@ -224,6 +243,8 @@ HAZARDS: dict[str, Callable[[float], Case]] = {
         full_contact,
         equal_heights,
         tall_spike,
+        deep_pit,
+        deep_groove,
         low_spike,
         flat,
         white_noise,

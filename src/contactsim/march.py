@@ -150,7 +150,7 @@ def _point(result: Result, heights: Array, spacing: float) -> Point:
         "status": result.status.value[0],
         "contact_points": int(contact.sum()),
     }
-    return Point(numbers, np.packbits(contact), result.pressure[contact].astype(np.float32), result.seconds)
+    return Point(numbers, np.packbits(contact), result.pressure[contact], result.seconds)
 
 
 def _collected(scene: Scene, heights: Array, found: list[Point]) -> xr.Dataset:

@@ -4,9 +4,10 @@ Two bodies face each other, aligned on one periodic grid. Only the sum of their 
 compliances matter, so a rigid body is absent rather than stiff. Which components exist and what a solver must be able
 to do (the traits) follow from what the scene lists.
 
-The hard-wall problem is posed without units. Lengths are in grid steps, the rms height difference of neighbouring
-points; pressures in E*·step/spacing. Nothing a solver does can then depend on the units of the input. With w the
-displacement of the elastic surface, zero on average on a half-space, and h ≤ 0 the heights below the highest point,
+The hard-wall problem is posed without units. Lengths are in grid steps, the typical height difference of neighbouring
+points (see `grid_step`); pressures in E*·step/spacing. Nothing a solver does can then depend on the units of the
+input. With w the displacement of the elastic surface, zero on average on a half-space, and h ≤ 0 the heights below the
+highest point,
 
     gap = w - h - a ≥ 0,   w = S p,   p ≥ 0,   p·gap = 0,
 
@@ -30,6 +31,10 @@ from contactsim.traits import Trait
 
 FLATTEST = 1e-10
 """Smallest grid step told from rounding, over p·spacing/E*: below it the latter counts as the length."""
+
+
+STEEPEST = 1e-9
+"""Height differences below it, over the rms of all, count as none when the typical one is sought."""
 
 
 @dataclass(frozen=True)
@@ -104,9 +109,19 @@ class Scale:
 
 
 def grid_step(heights: Array) -> float:
-    """Rms height difference of neighbouring points on the periodic grid, shape (n,) to a number in the same unit."""
+    """Typical height difference of neighbouring points on the periodic grid, any shape to a number in the same unit.
+
+    The median over 0.6745, which for Gaussian heights is the rms difference, of what differs at all; at most the rms.
+    The rms itself would let a single pit, which the contact never feels, make every tolerance loose.
+    """
     scale = np.max(np.abs(heights), initial=0.0)
-    return float(scale * np.sqrt(np.mean(np.diff(heights / scale, append=heights[0] / scale) ** 2))) if scale else 0.0
+    if not scale:
+        return 0.0
+    axes = range(heights.ndim)
+    differences = np.abs([heights / scale - np.roll(heights, 1, axis) / scale for axis in axes])
+    rms = float(np.sqrt(np.mean(differences**2)))
+    felt = differences[differences > STEEPEST * rms]
+    return float(scale * min(rms, np.median(felt) / 0.6745)) if felt.size else 0.0
 
 
 @dataclass

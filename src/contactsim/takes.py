@@ -84,7 +84,7 @@ def quantities(study: Study) -> list[str]:
     load = study.settings["load"]["name"]
     known = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
     if load == "contact_ratio":
-        known |= {"half_width", "half_width_exact"}
+        known |= {"half_width", "half_width_exact", "rms_gradient_exact"}
     if study.settings["companion"] is not None:
         known |= {f"{name}_grid_error" for name in AVERAGED if name in known}
     if study.dimensions == ["hurst", "member", "reduced_pressure"]:
