@@ -33,6 +33,26 @@ CYLINDER_KAPPA_R = 8 / (np.pi * np.sqrt(3))
 """Proportionality of area and reduced pressure for a cylinder, 1.470 (Eq. 3.7)."""
 
 
+def sphere_load(contact_radius: Array, radius: float, contact_modulus: float) -> Array:
+    """Load 4E*c³/(3R) that gives contact radius c (Hertz; Table 3.1); nm, GPa to nN."""
+    return 4 * contact_modulus * np.asarray(contact_radius) ** 3 / (3 * radius)
+
+
+def sphere_pressure(distance: Array, contact_radius: float, radius: float, contact_modulus: float) -> Array:
+    """Hertz's pressure 2E*/(πR) √(c² - r²) at a distance from the centre, zero outside; nm, GPa."""
+    inside = np.maximum(contact_radius**2 - np.asarray(distance) ** 2, 0.0)
+    return 2 * contact_modulus / (np.pi * radius) * np.sqrt(inside)
+
+
+def sphere_rms_gradient(contact_radius: Array, radius: float) -> Array:
+    """Rms gradient c/(R√2) over the contact of a sphere (Table 3.1)."""
+    return np.asarray(contact_radius) / (radius * np.sqrt(2))
+
+
+SPHERE_KAPPA_R = 3 * np.pi / (4 * np.sqrt(2))
+"""Proportionality of area and reduced pressure for a sphere, 1.666 (Table 3.1)."""
+
+
 def full_contact_pressure(amplitude: float, length: float, contact_modulus: float) -> float:
     """Mean pressure π E* h₀/L above which a sinusoid of amplitude h₀ is in complete contact (Westergaard 1939)."""
     return np.pi * contact_modulus * amplitude / length

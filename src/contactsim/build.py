@@ -7,6 +7,7 @@ import numpy as np
 from contactsim import analytic, loading
 from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
+from contactsim.grid import Grid
 from contactsim.laws import EFFECTS
 from contactsim.loading import LoadPath
 from contactsim.roughness import rms_gradient
@@ -24,7 +25,7 @@ def scene_of(settings: dict) -> Scene:
     elasticity = ELASTICITIES[body.pop("kind")](**body)
     effects = tuple(EFFECTS[name]() for name in settings["effects"])
     path = load_path(settings, upper, elasticity.contact_modulus)
-    return Scene(Body(Flat(upper.length), elasticity), Body(upper), effects, path)
+    return Scene(Body(Flat.facing(upper), elasticity), Body(upper), effects, path)
 
 
 def points_of(settings: dict, surface: Surface) -> int:
@@ -39,7 +40,7 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
     """Mean pressures from the loads as the study gives them.
 
     reduced_pressure: times E* and the rms gradient, the one prescribed or else that of the heights; contact_ratio:
-    what a cylinder needs for a half-width of that part of its radius (Eq. 3.5).
+    what a cylinder needs for a half-width, or a sphere for a contact radius, of that part of its radius (Eq. 3.5).
     """
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
@@ -47,7 +48,8 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
         gradient = settings["surface"].get("rms_gradient")
         if gradient is None:
             points = points_of(settings, surface)
-            gradient = rms_gradient(surface.heights(points), surface.length / points)
+            heights = surface.heights(points)
+            gradient = rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)
         if not gradient > 0:
             raise SceneError("load", name, "mean_pressure: this surface is flat")
         values = values * contact_modulus * gradient
@@ -55,5 +57,6 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
         radius = settings["surface"].get("radius")
         if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
-        values = analytic.cylinder_load(values * radius, radius, contact_modulus) / surface.length
+        load = {1: analytic.cylinder_load, 2: analytic.sphere_load}[len(surface.lengths)]
+        values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
     return loading.press([float(value) for value in values], labels)

@@ -45,6 +45,23 @@ class Grid:
         """Distance between neighbouring points in each direction (nm)."""
         return tuple(length / n for length, n in zip(self.lengths, self.shape, strict=True))
 
+    @property
+    def half_shape(self) -> tuple[int, ...]:
+        """Shape of the coefficients of a real transform."""
+        return (*self.shape[:-1], self.shape[-1] // 2 + 1)
+
+    def low_modes(self, highest: int) -> tuple[Array, ...]:
+        """Index of the coefficients of modes up to `highest` in each direction, in the order of a transform of them."""
+        along = np.arange(highest + 1)
+        across = np.concatenate((along, -along[:0:-1]))
+        return np.ix_(*[across] * (len(self.shape) - 1), along)
+
+    def modes_of(self, finer: Grid) -> tuple[Array, ...]:
+        """Index of this grid's modes among those of a finer grid over the same periods."""
+        across = [np.fft.fftfreq(n, 1 / n).astype(int) for n in self.shape[:-1]]
+        rows = [np.where(k < 0, k + n, k) for k, n in zip(across, finer.shape[:-1], strict=True)]
+        return np.ix_(*rows, np.arange(self.half_shape[-1]))
+
     def positions(self, axis: int = 0) -> Array:
         """Coordinates along one direction, shape (n,), nm, from 0 to just below the period."""
         return np.arange(self.shape[axis]) * self.spacing[axis]
@@ -64,9 +81,9 @@ class Grid:
         """Inverse of `forward`."""
         return ducc0.fft.c2r(coefficients, lastsize=self.shape[-1], forward=False, nthreads=self.threads, out=out)
 
-    def coarser(self, points: int) -> Grid:
-        """The same period on fewer points along a line."""
-        return Grid((points,), self.lengths, self.threads)
+    def coarser(self, shape: tuple[int, ...]) -> Grid:
+        """The same period on fewer points."""
+        return Grid(shape, self.lengths, self.threads)
 
 
 @dataclass
@@ -94,11 +111,15 @@ class Operator:
     _half: Array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        self._half = np.empty(self.symbol.shape, complex)
+        *rows, columns = self.symbol.shape
+        padding = 8 if rows else 0  # transforms of rows that lie a power of two apart are several times slower
+        self._half = np.empty((*rows, columns + padding), complex)[..., :columns]
 
     def __call__(self, values: Array, out: Array | None = None) -> Array:
         """Apply to a real field of the grid's shape; `out` (may be `values`) receives the result."""
         half = self.grid.forward(values, out=self._half)
         half *= self.symbol
         self.tally.add(2, self.grid.size)
-        return self.grid.backward(half, out=out)
+        last = self.grid.shape[-1]
+        overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
+        return ducc0.fft.c2r(half, lastsize=last, out=out, **overwrite)

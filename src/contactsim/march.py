@@ -2,8 +2,9 @@
 
 A hard wall has one solution at each load whatever came before, so every step is solved from scratch and may be taken
 from an earlier dataset if the same code made it from the same settings: a list of loads that grew equals, byte for
-byte, the list solved at once. The contact set and the pressure on it are kept beside the numbers, with the profile's
-Fourier coefficients, so that any other quantity follows from the file alone.
+byte, the list solved at once. Beside the numbers a scene keeps what it is told to: the contact set, the pressure on
+it, the Fourier coefficients of the heights, from which any other quantity follows; or heights, pressure and gap as
+they are, to be drawn.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import os
 import resource
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,19 +30,21 @@ from contactsim.observables import wall_observables
 from contactsim.provenance import digest
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
-from contactsim.solvers import solver
+from contactsim.solvers import solver, usual
 from contactsim.solvers.base import Result, Solver, require, solve
 
 logger = logging.getLogger(__name__)
 
+KEPT = ("contact", "pressure", "profile", "fields")
+"""What may be kept beside the numbers; all but the last by default."""
+
 
 @dataclass(frozen=True)
 class Point:
-    """One solved load: numbers by name, the contact set (packed bits) and the pressure on it; seconds it took."""
+    """One solved load: numbers by name, arrays by name of what is kept, seconds it took."""
 
     numbers: dict[str, float | int]
-    bits: Array
-    pressure: Array
+    arrays: dict[str, Array]
     seconds: float
 
 
@@ -50,20 +53,21 @@ def simulate(
     *,
     points: int | None = None,
     tolerance: float = 1e-3,
-    method: str | Solver = "active_set",
+    method: str | Solver | None = None,
     threads: int = 1,
+    keep: Sequence[str] = KEPT[:-1],
     known: Mapping[int, Point] | None = None,
 ) -> xr.Dataset:
     """Follow a scene's load path; the workflow's runs are this function.
 
-    points: of the grid, None for those of a measured surface; tolerance: in grid steps; method: name of a solver or a
-    solver; known: points that need not be solved again, by step. Returns one dataset with dimension `step`: numbers,
+    points: of the grid along x, None for those of a measured surface; tolerance: in grid steps; method: a solver or
+    the name of one, None for the usual one; keep: of `KEPT`; known: points that need not be solved again, by step. Returns one dataset with dimension `step`: numbers,
     contact sets, pressures on them, the profile's Fourier coefficients; and `seconds`, the one variable that is not
     reproducible.
     """
     known = known or {}
     heights = scene.heights(points or scene.upper.surface.points)
-    method = solver(method) if isinstance(method, str) else method
+    method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
     require(method, scene)
     steps, found, spent = scene.path.steps, [], []
     for count, step in enumerate(steps):
@@ -72,7 +76,7 @@ def simulate(
             logger.info("step %d/%d %s taken over", count + 1, len(steps), step.text)
             continue
         result = solve(method, *pose(scene, step, heights, tolerance, threads))
-        found.append(_point(result, heights, scene.length / heights.size))
+        found.append(_point(result, heights, scene.lengths, keep))
         spent.append(result.seconds)
         left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
         logger.info(
@@ -80,7 +84,7 @@ def simulate(
             *(count + 1, len(steps), step.text, found[-1].numbers["non_uniformity"]),
             *(result.record.transforms, result.seconds, left, result.status.sentence),
         )
-    return _collected(scene, heights, found)
+    return _collected(scene, heights, found, keep)
 
 
 def run(settings: dict, source: str, target: str | Path, costs: str | Path, threads: int = 1) -> None:
@@ -99,6 +103,7 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
         tolerance=settings["tolerance"],
         method=solver(**settings["solver"]),
         threads=threads,
+        keep=settings["keep"],
         known={step: earlier[name] for step, name in enumerate(names) if name in earlier},
     )
     seconds = data.seconds.values.tolist()
@@ -136,9 +141,10 @@ def write_text(text: str, path: str | Path) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _point(result: Result, heights: Array, spacing: float) -> Point:
+def _point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Sequence[str]) -> Point:
     certificate = result.record.certificate
     contact = result.contact
+    spacing = Grid(heights.shape, lengths).spacing
     numbers = wall_observables(heights, spacing, result.pressure, result.gap) | {
         "approach_found": result.approach,
         "iterations": result.record.iterations,
@@ -150,32 +156,50 @@ def _point(result: Result, heights: Array, spacing: float) -> Point:
         "status": result.status.value[0],
         "contact_points": int(contact.sum()),
     }
-    return Point(numbers, np.packbits(contact), result.pressure[contact], result.seconds)
+    arrays = {}
+    if "contact" in keep:
+        arrays["contact_bits"] = np.packbits(contact)
+    if "pressure" in keep:
+        arrays["contact_pressure"] = result.pressure[contact]
+    if "fields" in keep:
+        arrays |= {"pressure": result.pressure, "gap": result.gap}
+    return Point(numbers, arrays, result.seconds)
 
 
-def _collected(scene: Scene, heights: Array, found: list[Point]) -> xr.Dataset:
-    spacing = scene.length / heights.size
+DIMS = {"contact_bits": ("step", "byte"), "contact_pressure": ("contact_point",)}
+
+
+def _collected(scene: Scene, heights: Array, found: list[Point], keep: Sequence[str]) -> xr.Dataset:
+    grid = Grid(heights.shape, scene.lengths)
     kinds = {"status": np.int8, "iterations": np.int32, "contact_points": np.int32}
     variables = {
         name: ("step", np.array([point.numbers[name] for point in found], kinds.get(name, float)))
         for name in found[0].numbers
     }
-    half = Grid((heights.size,), (scene.length,)).forward(heights)
-    half = half[: getattr(scene.upper.surface, "modes", half.size) + 1]
+    plane = ("y", "x")[-heights.ndim :]
+    for name in found[0].arrays:
+        arrays = [point.arrays[name] for point in found]
+        joined = np.concatenate(arrays) if name == "contact_pressure" else np.stack(arrays)
+        variables[name] = (DIMS.get(name, ("step", *plane)), joined)
+    if "fields" in keep:
+        variables["heights"] = (plane, heights)
+    if "profile" in keep:
+        half, modes = grid.forward(heights), scene.upper.surface.modes
+        half = half if modes is None else half[grid.low_modes(modes)]
+        across = ("mode_y", "mode")[-heights.ndim :]
+        variables |= {"profile_real": (across, half.real.copy()), "profile_imag": (across, half.imag.copy())}
     variables |= {
         "seconds": ("step", [point.seconds for point in found]),
         "rms_height": rms_height(heights),
-        "rms_gradient": rms_gradient(heights, spacing),
-        "rms_curvature": rms_curvature(heights, spacing),
+        "rms_gradient": rms_gradient(heights, grid.spacing),
+        "rms_curvature": rms_curvature(heights, grid.spacing),
         "approach_first_touch": -float(heights.max()),
-        "contact_bits": (("step", "byte"), np.stack([point.bits for point in found])),
-        "contact_pressure": ("contact_point", np.concatenate([point.pressure for point in found])),
-        "profile_real": ("mode", half.real.copy()),
-        "profile_imag": ("mode", half.imag.copy()),
-        "points": heights.size,
+        "points": heights.shape[-1],
         "length": scene.length,
         "contact_modulus": scene.contact_modulus,
     }
+    if heights.ndim == 2:
+        variables |= {"points_y": heights.shape[0], "length_y": scene.lengths[0]}
     return dataset.described(xr.Dataset(variables))
 
 
@@ -186,6 +210,7 @@ def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
     try:
         data = dataset.read(target)
         ends = np.cumsum(data.contact_points.values)
+        load = data.status.dims[0]
         seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}
         apart = set(data.dims) - {"mean_pressure"} | {"point"}
         names = [name for name, item in data.variables.items() if item.dims == data.status.dims and name not in apart]
@@ -193,9 +218,14 @@ def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
         for row, end in enumerate(ends):
             numbers = {name: data[name].values[row].item() for name in names}
             name = str(data.point.values[row])
-            pressure = data.contact_pressure.values[end - data.contact_points.values[row] : end]
-            bits = data.contact_bits.values[row]
-            found[name] = Point(numbers, bits, pressure, seconds.get(name, float("nan")))
+            arrays = {
+                str(key): item.values[row]
+                for key, item in data.variables.items()
+                if item.ndim > 1 and item.dims[0] == load
+            }
+            if "contact_pressure" in data:
+                arrays["contact_pressure"] = data.contact_pressure.values[end - data.contact_points.values[row] : end]
+            found[name] = Point(numbers, arrays, seconds.get(name, float("nan")))
         return found
     except (SceneError, AttributeError, KeyError, TypeError, ValueError) as error:
         logger.warning("%s cannot be reused and is computed anew: %s", target, error)

@@ -5,6 +5,8 @@ Contact area follows one of three named criteria; the hard wall has `touching`, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from contactsim.grid import Array
@@ -16,8 +18,8 @@ def touching(pressure: Array) -> Array:
     return pressure > 0
 
 
-def wall_observables(heights: Array, spacing: float, pressure: Array, gap: Array) -> dict[str, float]:
-    """Numbers of one hard-wall state; heights, pressure, gap: (n,) in nm, GPa, nm; spacing nm.
+def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, gap: Array) -> dict[str, float]:
+    """Numbers of one hard-wall state; heights, pressure, gap: (n,) or (ny, nx) in nm, GPa, nm; spacings nm.
 
     relative_contact_area; rms_gradient_contact (Eqs 3.8–3.9) and rms_gradient_contact_bond (pairs with both ends in
     contact), NaN where there is none; mean_gap, nm; mean_pressure, GPa.

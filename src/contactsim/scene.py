@@ -59,9 +59,9 @@ class Scene:
             raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not any(Trait.WALL in effect.traits for effect in self.effects):
             raise SceneError("effects", self.effects, "at least one that resists overlap: hard_wall")
-        lengths = self.lower.surface.length, self.upper.surface.length
-        if not np.isclose(*lengths, rtol=1e-9, atol=0):
-            raise SceneError("length", lengths, "one period for both surfaces")
+        lengths = self.lower.surface.lengths, self.upper.surface.lengths
+        if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
+            raise SceneError("length", lengths, "the same periods for both surfaces")
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:
@@ -78,12 +78,18 @@ class Scene:
     def traits(self) -> frozenset[Trait]:
         """What a solver must accept: the union over effects, bodies, path and dimension."""
         parts = [effect.traits for effect in self.effects] + [body.traits for body in self.elasticities]
-        return frozenset({Trait.LINE}).union(self.path.traits, *parts)
+        dimension = {1: Trait.LINE, 2: Trait.SURFACE}[len(self.lengths)]
+        return frozenset({dimension}).union(self.path.traits, *parts)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Period in each direction, x last (nm)."""
+        return self.upper.surface.lengths
 
     @property
     def length(self) -> float:
-        """Period (nm)."""
-        return self.upper.surface.length
+        """Period along x (nm)."""
+        return self.lengths[-1]
 
     @property
     def contact_modulus(self) -> float:
@@ -95,7 +101,7 @@ class Scene:
         return sum(body.compliance(wavenumber) for body in self.elasticities)
 
     def heights(self, points: int) -> Array:
-        """Sum of both surfaces' heights, each positive towards the other, shape (points,), nm."""
+        """Sum of both surfaces' heights, each positive towards the other, `points` along x, (n,) or (ny, nx), nm."""
         return self.upper.surface.heights(points) + self.lower.surface.heights(points)
 
 
@@ -128,7 +134,7 @@ def grid_step(heights: Array) -> float:
 class WallProblem:
     """The complementarity problem at one load step, without units (see the module's text).
 
-    heights: (n,), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure) and
+    heights: (n,) or (ny, nx), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure) and
     approach (beyond first touch) is given; tally counts the work.
     """
 
@@ -144,13 +150,15 @@ class WallProblem:
         """Whether nothing has to be solved: no load, or not yet a touch."""
         return self.load == 0 if self.approach is None else self.approach <= 0
 
-    def coarser(self, points: int, tolerance: float) -> WallProblem:
-        """The same scene on fewer points, in grid steps of its own; heights are picked, not averaged."""
-        size, ratio = self.heights.size, points / self.heights.size
-        picked = self.heights[np.arange(points) * size // points] * ratio
+    def coarser(self, tolerance: float) -> WallProblem:
+        """The same scene on half as many points in each direction, in grid steps of its own; heights are picked."""
+        shape = tuple(size // 2 for size in self.heights.shape)
+        places = [np.arange(half) * size // half for half, size in zip(shape, self.heights.shape, strict=True)]
+        ratio = shape[-1] / self.heights.shape[-1]
+        picked = self.heights[np.ix_(*places)] * ratio
         highest = picked.max()
-        grid = self.compliance.grid.coarser(points)
-        symbol = self.compliance.symbol[: points // 2 + 1] * ratio
+        grid = self.compliance.grid.coarser(shape)
+        symbol = self.compliance.symbol[grid.modes_of(self.compliance.grid)] * ratio
         approach = None if self.approach is None else self.approach * ratio + highest
         return WallProblem(
             picked - highest, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally
@@ -218,11 +226,11 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
 
 
 def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int) -> tuple[WallProblem, Scale]:
-    """The problem that a scene poses at one load step on the grid of `heights` (n,), nm; and its units."""
+    """The problem that a scene poses at one load step on the grid of `heights`, nm; and its units."""
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
-    grid = Grid((heights.size,), (scene.length,), threads)
-    flexibility = grid.spacing[0] / scene.contact_modulus
+    grid = Grid(heights.shape, scene.lengths, threads)
+    flexibility = grid.spacing[-1] / scene.contact_modulus
     highest = float(heights.max())
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
     # A profile that is flat but for rounding has no grid step of its own: what the load moves takes its place.

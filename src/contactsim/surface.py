@@ -1,4 +1,4 @@
-"""Height profiles to press with: smooth, self-affine and measured.
+"""Heights to press with, along a line or over a surface: smooth, self-affine and measured.
 
 A surface is a small frozen description; `heights(points)` samples it on a periodic grid. The largest height touches
 first. A finer grid samples the same surface: the random numbers of mode k do not depend on the number of points.
@@ -27,13 +27,18 @@ AMPLITUDES = ("gaussian", "fixed")
 
 
 class Surface(Protocol):
-    """A periodic height profile; `points` is the number it comes with, None where any number will do."""
+    """Periodic heights along a line or over a plane.
 
-    length: float
+    lengths: period in each direction, x last, nm; points: along x, of what comes sampled, None where any number will
+    do; modes: the highest Fourier mode in each direction, None where there is no highest.
+    """
+
+    lengths: tuple[float, ...]
     points: int | None
+    modes: int | None
 
     def heights(self, points: int) -> Array:
-        """Heights at `points` equispaced positions from 0, shape (points,), nm."""
+        """Heights at equispaced positions from 0, `points` along x, shape (points,) or (points along y, points), nm."""
         ...
 
 
@@ -55,29 +60,59 @@ def _check_length(length: float) -> None:
         raise SceneError("length", length, "a positive, finite period in nm")
 
 
+def _check_dimensions(dimensions: int) -> None:
+    if dimensions not in (1, 2):
+        raise SceneError("dimensions", dimensions, "1, a line, or 2, a surface")
+
+
+class _Smooth:
+    """A surface of one period that any number of points samples."""
+
+    length: float
+    dimensions: int
+    points = None
+    modes = None
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Period in each direction, nm."""
+        return (self.length,) * self.dimensions
+
+
 @dataclass(frozen=True)
-class Flat:
-    """A plane at `height` (nm)."""
+class Flat(_Smooth):
+    """A plane at `height` (nm); width: its period along y, None for a line."""
 
     length: float
     height: float = 0.0
-    points = None
+    width: float | None = None
 
     def __post_init__(self) -> None:
-        _check_length(self.length)
+        for period in self.lengths:
+            _check_length(period)
+
+    @classmethod
+    def facing(cls, surface: Surface) -> Flat:
+        """The plane at height zero with the periods of a surface."""
+        *width, length = surface.lengths
+        return cls(length, 0.0, *width)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Period in each direction, nm."""
+        return (self.length,) if self.width is None else (self.width, self.length)
 
     def heights(self, points: int) -> Array:
-        """The constant height, shape (points,), nm."""
-        return np.full(points, float(self.height))
+        """The constant height, shape (points,) or, since y does not matter, (1, points), nm."""
+        return np.full((1,) * (len(self.lengths) - 1) + (points,), float(self.height))
 
 
 @dataclass(frozen=True)
-class Cylinder:
-    """Parabolic cylinder -ρ²/2R (Eq. 3.2, drawn downwards) in the middle of the period; radius, length in nm."""
+class _Round(_Smooth):
+    """Paraboloid -ρ²/2R in the middle of the period; radius, length in nm."""
 
     length: float
     radius: float
-    points = None
 
     def __post_init__(self) -> None:
         _check_length(self.length)
@@ -85,39 +120,55 @@ class Cylinder:
             raise SceneError("radius", self.radius, "a positive, finite number in nm")
 
     def heights(self, points: int) -> Array:
-        """Heights -ρ²/2R, at most 0, shape (points,), nm."""
-        offset = Grid((points,), (self.length,)).positions() - self.length / 2
-        return -(offset**2) / (2 * self.radius)
+        """Heights -ρ²/2R, at most 0, shape (points,) or (points, points), nm."""
+        square = (Grid((points,), (self.length,)).positions() - self.length / 2) ** 2
+        total = square if self.dimensions == 1 else square[:, None] + square
+        return -total / (2 * self.radius)
+
+
+class Cylinder(_Round):
+    """Parabolic cylinder (Eq. 3.2, drawn downwards) along a line; radius, length in nm."""
+
+    dimensions = 1
+
+
+class Sphere(_Round):
+    """Paraboloid of revolution (Eq. 3.2, drawn downwards): Hertz's sphere; radius, length in nm."""
+
+    dimensions = 2
 
 
 @dataclass(frozen=True)
-class Sinusoid:
-    """amplitude × cos(2π periods x / length): Westergaard's profile; amplitude and length in nm."""
+class Sinusoid(_Smooth):
+    """Westergaard's wave, amplitude × cos(2π periods x / length); in two dimensions times the same wave along y."""
 
     length: float
     amplitude: float
     periods: int = 1
-    points = None
+    dimensions: int = 1
 
     def __post_init__(self) -> None:
         _check_length(self.length)
+        _check_dimensions(self.dimensions)
         if not (np.isfinite(self.amplitude) and self.amplitude > 0):
             raise SceneError("amplitude", self.amplitude, "a positive, finite number in nm")
         if self.periods < 1:
             raise SceneError("periods", self.periods, "a whole number, 1 or more")
 
     def heights(self, points: int) -> Array:
-        """Heights of the wave, a crest at x = 0, shape (points,), nm."""
-        phase = np.arange(points) * self.periods % points / points
-        return self.amplitude * np.cos(2 * np.pi * phase)
+        """Heights of the wave, a crest at the origin, shape (points,) or (points, points), nm."""
+        wave = np.cos(2 * np.pi * (np.arange(points) * self.periods % points / points))
+        return self.amplitude * (wave if self.dimensions == 1 else wave[:, None] * wave)
 
 
 @dataclass(frozen=True)
-class SelfAffine:
-    """Random profile with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
+class SelfAffine(_Smooth):
+    """Random heights with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
 
-    length, rolloff_wavelength, shortest_wavelength: nm; rms_gradient: scaled to this exactly; rng: draws the modes,
-    two numbers each, in the order of their wavenumber; amplitudes: "gaussian" or "fixed" (random phases alone).
+    The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
+    rolloff_wavelength, shortest_wavelength: nm; rms_gradient: scaled to this exactly, over a surface the root of the
+    mean of both squared slopes added; rng: draws the modes, two numbers each, longest waves first; amplitudes:
+    "gaussian" or "fixed" (random phases alone).
     """
 
     length: float
@@ -127,10 +178,11 @@ class SelfAffine:
     rms_gradient: float
     rng: np.random.Generator
     amplitudes: str = "gaussian"
-    points = None
+    dimensions: int = 1
 
     def __post_init__(self) -> None:
         _check_length(self.length)
+        _check_dimensions(self.dimensions)
         if not 0 <= self.hurst <= 1:
             raise SceneError("hurst", self.hurst, "a number from 0 to 1")
         if not 0 < self.rolloff_wavelength <= self.length:
@@ -145,52 +197,66 @@ class SelfAffine:
 
     @property
     def modes(self) -> int:
-        """Number of modes: those with wavelength strictly above the shortest (Eq. 3.10)."""
+        """Highest mode: that with a wavelength strictly above the shortest (Eq. 3.10)."""
         return int(np.ceil(self.length / self.shortest_wavelength * (1 - 1e-12))) - 1
 
     @cached_property
     def coefficients(self) -> Array:
-        """Complex Fourier coefficients of modes 0 … `modes` (half-complex, q = 0 the mean), nm."""
-        mode = np.arange(1, self.modes + 1)
-        q = 2 * np.pi * mode / self.length
-        rolloff = 2 * np.pi / self.rolloff_wavelength
-        amplitude = np.maximum(q / rolloff, 1.0) ** (-(1 + 2 * self.hurst) / 2)
-        normal = self.rng.standard_normal((self.modes, 2)) @ np.array([1, 1j])
+        """Complex Fourier coefficients of the modes up to `modes`, half of them along x, nm.
+
+        Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
+        """
+        along = np.arange(self.modes + 1)
+        across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
+        *y, x = np.meshgrid(*across, along, indexing="ij")
+        q = 2 * np.pi / self.length * np.sqrt(x**2.0 + sum(k**2.0 for k in y))
+        drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
+        drawn &= q <= 2 * np.pi / self.length * self.modes * (1 + 1e-12)
+        order = np.lexsort([*(k[drawn] for k in y), x[drawn], np.max(np.abs([x, *y]), axis=0)[drawn]])
+        normal = self.rng.standard_normal((order.size, 2)) @ np.array([1, 1j])
         if self.amplitudes == "fixed":
             normal /= np.abs(normal)
-        half = amplitude * normal
-        gradient = np.sqrt(2 * np.sum(q**2 * np.abs(half) ** 2))
-        return np.concatenate(([0.0], half * (self.rms_gradient / gradient)))
+        half = np.zeros(x.shape, complex)
+        places = tuple(index[order] for index in np.nonzero(drawn))
+        rolloff = 2 * np.pi / self.rolloff_wavelength
+        half[places] = np.maximum(q[places] / rolloff, 1.0) ** (-(self.dimensions + 2 * self.hurst) / 2) * normal
+        if y:  # along x = 0 waves of both signs of y are kept
+            half[:, 0] += np.conj(np.roll(half[::-1, 0], 1))
+        twice = np.where(x > 0, 2.0, 1.0)
+        gradient = np.sqrt(np.sum(twice * q**2 * np.abs(half) ** 2))
+        return half * (self.rms_gradient / gradient)
 
     def heights(self, points: int) -> Array:
-        """Heights with zero mean, shape (points,), nm."""
+        """Heights with zero mean, shape (points,) or (points, points), nm."""
         if points <= 2 * self.modes:
             raise SceneError("points", points, f"more than {2 * self.modes}: two points per shortest wavelength")
-        half = np.zeros(points // 2 + 1, complex)
-        half[: self.modes + 1] = self.coefficients
-        return Grid((points,), (self.length,)).backward(half)
+        grid = Grid((points,) * self.dimensions, self.lengths)
+        half = np.zeros(grid.half_shape, complex)
+        half[grid.low_modes(self.modes)] = self.coefficients
+        return grid.backward(half)
 
 
 @dataclass(frozen=True)
 class Sampled:
-    """Heights given as numbers: a checked profile (n,) of at least two finite values at equal spacing, nm."""
+    """Heights given as numbers: a checked profile (n,), of two or more finite values at equal spacing, nm."""
 
     profile: measured.Profile
+    modes = None
 
     @property
     def points(self) -> int:
-        """Number of heights."""
-        return self.profile.heights.size
+        """Number of heights along x."""
+        return self.profile.heights.shape[-1]
 
     @property
-    def length(self) -> float:
+    def lengths(self) -> tuple[float, ...]:
         """Period: number of points times spacing, nm."""
-        return self.points * self.profile.spacing
+        return tuple(np.atleast_1d(self.profile.spacing) * self.profile.heights.shape)
 
     def heights(self, points: int) -> Array:
-        """The heights as given; `points` must be their number: a measurement is not resampled."""
+        """The heights as given; `points` must be their number along x: a measurement is not resampled."""
         if points != self.points:
-            raise SceneError("points", points, f"{self.points}, the number of points of the profile")
+            raise SceneError("points", points, f"{self.points}, the number of points of the measurement")
         return self.profile.heights
 
 
@@ -211,4 +277,11 @@ class Measured(Sampled):
         object.__setattr__(self, "profile", measured.prepare(raw, self.detrend, self.periodic))
 
 
-SURFACES = {"flat": Flat, "cylinder": Cylinder, "sinusoid": Sinusoid, "self_affine": SelfAffine, "measured": Measured}
+SURFACES = {
+    "flat": Flat,
+    "cylinder": Cylinder,
+    "sphere": Sphere,
+    "sinusoid": Sinusoid,
+    "self_affine": SelfAffine,
+    "measured": Measured,
+}

@@ -13,6 +13,7 @@ class Trait(Enum):
     """One property of a scene; its value is the sentence a refusal quotes."""
 
     LINE = "line contact: surfaces vary along one direction"
+    SURFACE = "surface contact: surfaces vary along two directions"
     WALL = "hard wall: the gap is never negative, the pressure never pulls"
     HALF_SPACE = "half-space: the mean displacement is free, so the uniform mode has no stiffness"
     MEAN_PRESSURE = "load step given by a mean pressure"

@@ -9,14 +9,19 @@ from importlib import import_module
 from importlib.util import find_spec
 
 from contactsim.errors import SceneError
+from contactsim.scene import Scene
 from contactsim.solvers.base import Solver
+from contactsim.traits import Trait
 
 SOLVERS = {
     "active_set": "contactsim.solvers.active_set:NestedActiveSet",
     "polonsky_keer": "contactsim.solvers.polonsky_keer:PolonskyKeer",
     "verlet": "contactsim.solvers.verlet:WallVerlet",
     "tamaas": "contactsim.solvers.tamaas:Tamaas",
+    "conjugate_gradients": "contactsim.solvers.conjugate_gradients:NestedConjugateGradients",
 }
+USUAL = {Trait.LINE: "active_set", Trait.SURFACE: "conjugate_gradients"}
+"""What is used where nothing is asked for, by the dimension of the scene."""
 PEERS = {"tamaas": "tamaas"}
 """Solvers that need a package which contactsim does not."""
 
@@ -31,6 +36,16 @@ def module_of(kind: str) -> str:
 def solver_class(kind: str) -> type:
     """The class of a solver."""
     return getattr(import_module(module_of(kind)), SOLVERS[kind].partition(":")[2])
+
+
+def usual_kind(traits: frozenset[Trait]) -> str:
+    """Name of the solver for a scene of these traits where none is asked for."""
+    return next(kind for trait, kind in USUAL.items() if trait in traits)
+
+
+def usual(scene: Scene) -> Solver:
+    """The solver for a scene where none is asked for."""
+    return solver(usual_kind(scene.traits))
 
 
 def installed(kind: str) -> bool:

@@ -76,7 +76,7 @@ class BlockStiffness:
         size = grid.size
         self.block = block_of(size)
         self.reach = (1, 3, 5) if self.block > 1 else ()
-        coarse = grid.coarser(size // self.block)
+        coarse = grid.coarser((size // self.block,))
         stiffness = np.zeros(coarse.size // 2 + 1)
         stiffness[1:] = 1 / compliance.symbol[1 : coarse.size // 2 + 1]
         stiffness[0] = 0.0 if uniform else stiffness[1]
@@ -240,7 +240,7 @@ class NestedActiveSet(ActiveSet):
         """From a guess, or from the solution on half as many points, and so on down to the coarsest level."""
         size, half = problem.heights.size, problem.heights.size // 2
         if guess is None and half >= self.coarsest:
-            coarse = problem.coarser(half, self.coarse_tolerance)
+            coarse = problem.coarser(self.coarse_tolerance)
             if not coarse.untouched:
                 state, *_ = iterate(self, coarse, self.start(coarse), self.coarse_budget)
                 positions = np.arange(half + 1) * (size / half)
