@@ -92,3 +92,28 @@ def test_captions_and_footers_are_wrapped_below_the_panels():
     assert len(panels) == 2
     assert figure.get_size_inches()[1] > 3.0
     assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "labels"),
+    [
+        (0.004, 0.03, ["0.005", "0.01", "0.02"]),
+        (3e7, 2.5e8, [r"$5\times10^{7}$", "$10^{8}$", r"$2\times10^{8}$"]),
+        (0.05, 300.0, ["$10^{-1}$", "$10^{0}$", "$10^{1}$", "$10^{2}$"]),
+        (1e-9, 1.5, ["$10^{-9}$", "$10^{-7}$", "$10^{-5}$", "$10^{-3}$", "$10^{-1}$"]),
+    ],
+)
+def test_ticks_of_a_logarithmic_axis_lie_inside_its_range(low, high, labels):
+    axes = Figure().subplots()
+    axes.set(xscale="log", xlim=(low / 2, high * 2))
+    style.ticks(axes.xaxis, low, high)
+    format_tick = axes.xaxis.get_major_formatter()
+    assert [format_tick(at) for at in axes.xaxis.get_majorticklocs()] == labels
+    assert all(low <= at <= high for at in axes.xaxis.get_minorticklocs())
+
+
+@pytest.mark.parametrize(("values", "span"), [([0.2], 10.0), ([0.2, 0.3], 10.0), ([1e-3, 1.0], 1690.0), ([], 10.0)])
+def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(values, span):
+    low, high = style.limits(pd.Series(values, dtype=float))
+    assert high / low == pytest.approx(span)
+    assert all(low < value < high for value in values)

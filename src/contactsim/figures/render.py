@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import textwrap
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -36,10 +36,11 @@ def render(plan: Mapping, data_path: str, costs_path: str | None, targets: Mappi
     save(figure, shown, targets)
 
 
-def framed(settings: Mapping, footer: str, rows: int = 1) -> tuple[Figure, list]:
+def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float] | None = None) -> tuple[Figure, list]:
     """An empty figure with its panels, row by row, the title above, caption and footer below them.
 
-    settings: of a figure, with size, panels a row, title and caption; the text below adds to the height.
+    settings: of a figure, with size, panels a row, title and caption; widths: of the columns, relative to each other.
+    The text below adds to the height.
     """
     width, height = settings["size"]
     caption = textwrap.wrap(settings["caption"], int(width * 19.5))
@@ -52,7 +53,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1) -> tuple[Figure, list]
     bottom = LINE_INCHES * 0.4 / (height + below)
     figure.text(0.01, share - 0.3 * LINE_INCHES / (height + below), "\n".join(caption), fontsize=7, va="top")
     figure.text(0.01, bottom, "\n".join(made), fontsize=6, color="#777777", va="bottom")
-    return figure, list(figure.subplots(rows, settings["panels"], squeeze=False).flat)
+    return figure, list(figure.subplots(rows, settings["panels"], squeeze=False, width_ratios=widths).flat)
 
 
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
