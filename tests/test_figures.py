@@ -32,22 +32,52 @@ def test_a_footer_says_grid_members_losses_and_time(made):
         "3 members",
         "0 of 45 solutions unconverged",
         "grid error up to: κ ",
-        f"solved in {costs.seconds.sum():.3g} CPU s",
+        f"study solved in {costs.seconds.sum():.3g} CPU s",
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
     assert "1 of 45 solutions unconverged and left out" in render.footer_text(data, costs)
 
 
+def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):
+    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+    data["kappa_r_grid_error"][data.contact_ratio < 0.05] = 7.0
+    data["status"][..., data.contact_ratio.values < 0.05] = 1
+    dataset.write(data, tmp_path / "data.nc")
+    plan, footers = PLAN.figure_settings("table_3_1"), []
+    assert plan["settings"]["select"] == {"contact_ratio": [0.05, 0.25]}
+    framed = render.framed
+    monkeypatch.setattr(render, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
+    targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
+    render.render(plan, tmp_path / "data.nc", made / "results/quick/costs/ch3_smooth_line.csv", targets)
+    assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
+    largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
+    assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]
+    assert "0 of 6 solutions unconverged" in footers[0]
+
+
 def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
-    axes = list(Figure().subplots(1, 3))
+    axes = list(Figure().subplots(1, 4))
     shown = ch3.fig_3_2(data, axes, kappa_r=1.75)
     assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
     assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
     drawn = axes[1].containers[0].lines[0].get_ydata()
     assert np.array_equal(drawn, data.kappa_mean.sel(hurst=0.2))
     assert {"kappa_r_mean", "kappa_r_standard_error", "kappa_r_grid_error"} <= set(shown)
+    errors = {(line.get_color(), line.get_linestyle()): line.get_ydata() for line in axes[3].lines}
+    assert len(errors) == 2 * data.hurst.size
+    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_bond", style.PAIRS)):
+        for value in data.hurst.values:
+            drawn = errors[color, style.hurst(value)["linestyle"]]
+            assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst=value))
+
+
+def test_without_a_measured_grid_error_the_rough_lines_are_drawn_all_the_same(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    axes = list(Figure().subplots(1, 4))
+    ch3.fig_3_2(data.drop_vars(name for name in data if name.endswith("grid_error")), axes, kappa_r=1.75)
+    assert not axes[3].lines
 
 
 def test_the_cylinder_is_drawn_beside_the_exact_line(made):
@@ -71,10 +101,17 @@ def test_the_table_lists_exact_and_computed(made):
 
 def test_the_fits_are_given_as_the_curves_that_they_draw(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc").sel(reduced_pressure=slice(0, 0.11))
-    shown = ch3.fig_3_3(data, Figure().subplots())
+    axes = Figure().subplots()
+    shown = ch3.fig_3_3(data, axes)
     assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
     drawn = shown.query("fit_limit == 0.1 and weighting == 'area' and fitted != 'all'")
     assert np.allclose(drawn.kappa_fit, quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
+    looks = {
+        (line.get_color(), line.get_linestyle(), line.get_linewidth()) for line in axes.lines[: data.fitted.size * 2]
+    }
+    assert len(looks) == data.fitted.size * 2
+    keys = {(line.get_color(), line.get_linewidth()) for line in axes.get_legend().get_lines()}
+    assert {(color, width) for color, _, width in looks} <= keys
 
 
 def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():

@@ -28,9 +28,9 @@ def render(plan: Mapping, data_path: str, costs_path: str | None, targets: Mappi
     data, settings = dataset.read(data_path), plan["settings"]
     module = import_module(f"contactsim.figures.{plan['chapter']}")
     draw = getattr(module, plan["name"])
-    footer = module.footer(data) if costs_path is None else footer_text(data, pd.read_csv(costs_path))
     for dim, (least, largest) in settings["select"].items():
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
+    footer = module.footer(data) if costs_path is None else footer_text(data, pd.read_csv(costs_path))
     figure, panels = framed(settings, footer)
     shown = draw(data, panels if len(panels) > 1 else panels[0], **settings["reference"])
     save(figure, shown, targets)
@@ -57,7 +57,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float
 
 
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
-    """Tier, grid, members, unconverged solutions, largest grid errors, time of all solutions."""
+    """Tier, grid, members, and of the loads shown unconverged solutions and largest errors; the study's time."""
     settings = dataset.settings_of(data)
     lost, total = aggregate.left_out(data)
     members = data.member.size
@@ -76,7 +76,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         ]
         if sizes:
             parts.append(f"{error} error up to: {', '.join(sizes)}")
-    return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} CPU s"])
+    return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])
 
 
 def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:

@@ -69,11 +69,10 @@ def with_errors(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look
     axes.errorbar(x.values, data[f"{name}_mean"].values, yerr=bars, elinewidth=0.8, capsize=1.5, **look)
 
 
-def grid_band(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, color: str) -> None:
-    """The grid error of a curve of means as a faint band, where it was measured."""
+def grid_error(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
+    """The grid error of a curve of means, where it was measured."""
     if f"{name}_grid_error" in data:
-        mean, error = data[f"{name}_mean"], data[f"{name}_grid_error"]
-        axes.fill_between(x, mean - error, mean + error, color=color, alpha=0.07, lw=0)
+        axes.plot(x.values, data[f"{name}_grid_error"].values, **look)
 
 
 def keep_in_view(axes: Axes, least: float, most: float) -> None:
@@ -101,7 +100,7 @@ def ticks(axis: Axis, low: float, high: float) -> None:
     axis.set_major_locator(FixedLocator([at for at in major if low <= at <= high]))
     axis.set_minor_locator(FixedLocator([at for at in minor if low <= at <= high]))
     axis.set_major_formatter(
-        FuncFormatter(lambda value, _: _number(value, 1e-3 <= low and high <= 1e4 and len(kept) > 1))
+        FuncFormatter(lambda value, _: _number(value, low >= 1e-3 and high <= 1e4 and len(kept) > 1))
     )
     axis.set_minor_formatter(NullFormatter())
 
