@@ -7,9 +7,14 @@ from matplotlib.figure import Figure
 
 from conftest import ROOT
 from contactsim import dataset
-from contactsim.figures import ch3, render, style
+from contactsim.elasticity import HalfSpace
+from contactsim.figures import ch3, claims, render, sketch, style
+from contactsim.laws import HardWall
+from contactsim.loading import press
 from contactsim.plan import Plan
-from contactsim.takes import quantity
+from contactsim.scene import Body, Scene
+from contactsim.surface import Flat, Sinusoid
+from contactsim.takes import TAKES, quantities, quantity
 
 PLAN = Plan.read(ROOT / "config", "quick")
 
@@ -154,3 +159,63 @@ def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(va
     low, high = style.limits(pd.Series(values, dtype=float))
     assert high / low == pytest.approx(span)
     assert all(low < value < high for value in values)
+
+
+# --- the table of claims ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("value", "errors", "shown"),
+    [
+        (0.012689, (0.00381, 0.0249), ["0.0127", "0.0038", "0.025"]),
+        (0.012689, (0.00381, 0.0), ["0.0127", "0.0038", "0"]),
+        (0.0094952, (8.5e-5, 0.0), ["0.009495", "0.000085", "0"]),
+        (1.4682, (0.0, 0.0), ["1.468", "0", "0"]),
+        (1.7476, (0.0996, 0.996), ["1.75", "0.10", "1.0"]),
+        (0.2061, (0.01, np.nan), ["0.206", "0.010", "–"]),
+        (np.nan, (np.nan, np.nan), ["–", "–", "–"]),
+        (1234.6, (56.0, 0.0), ["1235", "56", "0"]),
+    ],
+)
+def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors, shown):
+    assert claims.rounded(value, *errors) == shown
+
+
+def test_every_quantity_dimension_and_take_of_a_claim_has_words_to_read():
+    names = {*TAKES, *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions])}
+    assert not [name for name in names if "_" in claims.symbol(name)]
+    assert claims.symbol("kappa_r_grid_error") == "grid error of κᵣ"
+
+
+def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
+    rows = pd.read_csv(made / "results/quick/claims/ch3.csv", keep_default_na=False, na_values=["", "nan"])
+    rows = rows.fillna({"measure": "", "expected": "", "condition": ""})
+    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    assert not [text for text in texts if "_" in text]
+    assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts
+    assert any("± ensemble error ± grid error" in text for text in texts[: len(claims.COLUMNS) + 1])
+    rows.loc[0, ["condition", "condition_value", "condition_ensemble_error", "condition_grid_error"]] = [
+        *("c/R up to 1", 0.995312, 0.0, 0.00471)
+    ]
+    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    assert any("0.9953_±_0_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
+
+
+# --- the sketch of a scene ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("elastic_below", [True, False])
+def test_the_elastic_body_is_coloured_and_the_rigid_one_grey(elastic_below):
+    elastic, rigid = Body(Flat(8.0), HalfSpace(2.0)), Body(Sinusoid(8.0, 1.0))
+    lower, upper = (elastic, rigid) if elastic_below else (rigid, elastic)
+    axes = Figure().subplots()
+    sketch.sketch(Scene(lower, upper, (HardWall(),), press([1.0])), 64, axes)
+    middles = [fill.get_paths()[0].get_extents().get_points()[:, 1].mean() for fill in axes.collections]
+    assert middles[0] < middles[1]
+    for fill, body, text in zip(axes.collections, (lower, upper), axes.texts[:2], strict=True):
+        red, green, blue, _ = fill.get_facecolor()[0]
+        grey = red == green == blue
+        assert grey == (body is rigid)
+        assert ("rigid" in text.get_text()) == grey
+        assert ("$E^*$ = 2 GPa" in text.get_text()) == (not grey)
+        assert fill.get_paths()[0].contains_point(text.get_position())
