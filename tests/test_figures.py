@@ -115,6 +115,8 @@ def test_the_fits_are_given_as_the_curves_that_they_draw(made):
         (line.get_color(), line.get_linestyle(), line.get_linewidth()) for line in axes.lines[: data.fitted.size * 2]
     }
     assert len(looks) == data.fitted.size * 2
+    broad = [width for color, _, width in looks if color == style.PAIRS]
+    assert min(broad) > max(width for color, _, width in looks if color == style.WHOLE)  # seen where they meet
     keys = {(line.get_color(), line.get_linewidth()) for line in axes.get_legend().get_lines()}
     assert {(color, width) for color, _, width in looks} <= keys
 
