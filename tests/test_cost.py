@@ -1,17 +1,14 @@
 from __future__ import annotations
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from matplotlib.figure import Figure
 
 from conftest import ROOT
-from contactsim import cost
+from contactsim import cost, precision
 from contactsim import solvers as solver_registry
 from contactsim.errors import SceneError
-from contactsim.figures import accuracy
 from contactsim.plan import Plan
 
 CASE = {
@@ -47,7 +44,7 @@ def measured(tmp_path_factory):
 def table_of(measured, made):
     one, jobs = measured
     study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
-    return cost.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study)
+    return precision.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study)
 
 
 def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
@@ -95,38 +92,17 @@ def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
     xr.testing.assert_identical(one.measure("polonsky_keer")[0], data)
 
 
-def test_the_ensembles_error_is_the_standard_error_of_that_many_members(made):
-    study = xr.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
-    settings = {"load": [1e-3], "quantities": ["kappa"]}
-    rows = list(cost._ensembles(settings, study))
-    assert [row["members"] for row in rows] == [2, 3]
-    share = (study.kappa_standard_error / study.kappa_mean).sel(reduced_pressure=[1e-3])
-    assert rows[1]["kappa"] == pytest.approx(float(np.sqrt((share**2).mean())))
-    assert rows[0]["kappa"] == pytest.approx(rows[1]["kappa"] * np.sqrt(3 / 2))
+@pytest.mark.parametrize(("spent", "best"), [([3.0, 1.0, 2.0], 1.0), ([1.0, 2.0, 3.0], 1.0), ([9.0, 1.0, 1.0], 9.0)])
+def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path, monkeypatch, spent, best):
+    one = case(tmp_path, repeats=3, solvers={"active_set": {"points": [256]}})
+    solved, left = cost.simulated(one._study(one.turned("active_set")[0], "active_set").runs()[0].settings), [*spent]
 
+    def timed(settings):
+        return solved.assign(seconds=solved.seconds * 0 + left.pop(0) / solved.seconds.size)
 
-def test_the_observed_order_and_the_cost_at_an_error_are_those_planted():
-    points = np.array([100, 200, 400, 800])
-    table = pd.DataFrame({"points": points, "error": 5.0 * points**-1.5, "work": 7.0 * points})
-    assert cost.order(table, "error") == pytest.approx(1.5)
-    at = cost.cost_at(table, "error", 5.0 * 300**-1.5, "work")
-    assert at == pytest.approx(2100.0)
-    assert np.isnan(cost.cost_at(table, "error", 1e-9, "work"))  # no setting meets it
-
-
-def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
-    points = np.array([100.0, 1000.0])
-    rows = [
-        pd.DataFrame(
-            {"solver": kind, "knob": "points", "error": 1 / points, "work": factor * points, "unconverged": bad}
-        )
-        for kind, factor, bad in (("active_set", 1.0, 0), ("slow", 30.0, 0), ("failed", 0.1, 1))
-    ]
-    found = cost.compared(pd.concat(rows), "error", {"points": [0.005, 1e-9]}, ["work"]).set_index(["solver", "error"])
-    assert found.work["slow", 0.005] == pytest.approx(30.0)
-    assert np.isnan(found.work["slow", 1e-9])
-    assert "failed" not in found.index
-    assert cost.compared(pd.concat(rows), "error", {"tolerance": [0.1]}, ["work"]).empty
+    monkeypatch.setattr(cost, "simulated", timed)
+    assert one.measure("active_set")[1] == pytest.approx([best])
+    assert len(left) == (2 if best > cost.LONG else 0)
 
 
 def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
@@ -135,18 +111,6 @@ def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
     assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set"]
     monkeypatch.setattr(solver_registry, "find_spec", lambda name: object())
     assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set", "tamaas"]
-
-
-def test_the_figure_draws_every_knob_and_its_failures(measured, made):
-    table = table_of(measured, made).assign(seconds=1.0)
-    table.loc[0, "unconverged"] = 0.5
-    axes = Figure().subplots(2, 4)
-    equal = cost.compared(table, "kappa_r", CASE["levels"], accuracy.COSTS)
-    accuracy.draw(table, equal, measured[1]["active_set"][0], axes, "kappa_r", {"quick": 1024})
-    crosses = [line for line in axes[0, 0].lines if line.get_marker() == "x" and len(line.get_xdata())]
-    assert len(crosses) == 1
-    assert any(text.get_text() == "quick" for text in axes[0, 0].texts)
-    assert "observed order" in axes[1, 3].texts[0].get_text()
 
 
 @pytest.mark.parametrize(
@@ -167,6 +131,7 @@ def test_the_figure_draws_every_knob_and_its_failures(measured, made):
         ({"load": [0.11]}, "quick.case.load", "0.15"),
         ({"quantities": ["kappa"]}, "quick.case.quantities", "kappa_r"),
         ({"repeats": 0}, "quick.case.repeats", "1 or more"),
+        ({"thesis_members": 0}, "quick.case.thesis_members", "1 or more"),
         ({"speed": 1}, "quick.case.speed", "no such key"),
     ],
 )
@@ -178,10 +143,16 @@ def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path,
     assert str(tmp_path / "accuracy.yaml") in str(caught.value)
 
 
-def test_the_real_cases_can_be_read_at_every_tier_and_mark_every_tiers_grid():
+def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
     for tier in ("quick", "standard", "full"):
         plan = Plan.read(ROOT / "config", tier)
         cases = cost.read_cases(ROOT / "config", plan)
         assert list(cases) == ["cylinder", "rough_line"]
         marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
-        assert marks == {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
+        points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
+        members = {"quick": 3, "standard": 10, "full": 10, "thesis": 10}
+        assert {name: own["points"] for name, own in marks.items()} == points
+        assert {name: own["members"] for name, own in marks.items()} == members
+        assert marks["quick"]["tolerance"] == plan.studies["rough_line"].settings["tolerance"]
+        assert "tolerance" not in marks["thesis"]
+        assert "members" not in cost.figure_settings(cases["cylinder"], plan, ROOT / "config")["marks"]["thesis"]

@@ -7,9 +7,14 @@ from matplotlib.figure import Figure
 
 from conftest import ROOT
 from contactsim import dataset
-from contactsim.figures import ch3, render, style
+from contactsim.elasticity import HalfSpace
+from contactsim.figures import ch3, claims, render, sketch, style
+from contactsim.laws import HardWall
+from contactsim.loading import press
 from contactsim.plan import Plan
-from contactsim.takes import quantity
+from contactsim.scene import Body, Scene
+from contactsim.surface import Flat, Sinusoid
+from contactsim.takes import TAKES, quantities, quantity
 
 PLAN = Plan.read(ROOT / "config", "quick")
 
@@ -32,22 +37,52 @@ def test_a_footer_says_grid_members_losses_and_time(made):
         "3 members",
         "0 of 45 solutions unconverged",
         "grid error up to: κ ",
-        f"solved in {costs.seconds.sum():.3g} CPU s",
+        f"study solved in {costs.seconds.sum():.3g} CPU s",
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
     assert "1 of 45 solutions unconverged and left out" in render.footer_text(data, costs)
 
 
+def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):
+    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+    data["kappa_r_grid_error"][data.contact_ratio < 0.05] = 7.0
+    data["status"][..., data.contact_ratio.values < 0.05] = 1
+    dataset.write(data, tmp_path / "data.nc")
+    plan, footers = PLAN.figure_settings("table_3_1"), []
+    assert plan["settings"]["select"] == {"contact_ratio": [0.05, 0.25]}
+    framed = render.framed
+    monkeypatch.setattr(render, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
+    targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
+    render.render(plan, tmp_path / "data.nc", made / "results/quick/costs/ch3_smooth_line.csv", targets)
+    assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
+    largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
+    assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]
+    assert "0 of 6 solutions unconverged" in footers[0]
+
+
 def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
-    axes = list(Figure().subplots(1, 3))
+    axes = list(Figure().subplots(1, 4))
     shown = ch3.fig_3_2(data, axes, kappa_r=1.75)
     assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
     assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
     drawn = axes[1].containers[0].lines[0].get_ydata()
     assert np.array_equal(drawn, data.kappa_mean.sel(hurst=0.2))
     assert {"kappa_r_mean", "kappa_r_standard_error", "kappa_r_grid_error"} <= set(shown)
+    errors = {(line.get_color(), line.get_linestyle()): line.get_ydata() for line in axes[3].lines}
+    assert len(errors) == 2 * data.hurst.size
+    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_bond", style.PAIRS)):
+        for value in data.hurst.values:
+            drawn = errors[color, style.hurst(value)["linestyle"]]
+            assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst=value))
+
+
+def test_without_a_measured_grid_error_the_rough_lines_are_drawn_all_the_same(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    axes = list(Figure().subplots(1, 4))
+    ch3.fig_3_2(data.drop_vars(name for name in data if name.endswith("grid_error")), axes, kappa_r=1.75)
+    assert not axes[3].lines
 
 
 def test_the_cylinder_is_drawn_beside_the_exact_line(made):
@@ -71,10 +106,19 @@ def test_the_table_lists_exact_and_computed(made):
 
 def test_the_fits_are_given_as_the_curves_that_they_draw(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc").sel(reduced_pressure=slice(0, 0.11))
-    shown = ch3.fig_3_3(data, Figure().subplots())
+    axes = Figure().subplots()
+    shown = ch3.fig_3_3(data, axes)
     assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
     drawn = shown.query("fit_limit == 0.1 and weighting == 'area' and fitted != 'all'")
     assert np.allclose(drawn.kappa_fit, quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
+    looks = {
+        (line.get_color(), line.get_linestyle(), line.get_linewidth()) for line in axes.lines[: data.fitted.size * 2]
+    }
+    assert len(looks) == data.fitted.size * 2
+    broad = [width for color, _, width in looks if color == style.PAIRS]
+    assert min(broad) > max(width for color, _, width in looks if color == style.WHOLE)  # seen where they meet
+    keys = {(line.get_color(), line.get_linewidth()) for line in axes.get_legend().get_lines()}
+    assert {(color, width) for color, _, width in looks} <= keys
 
 
 def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
@@ -92,3 +136,88 @@ def test_captions_and_footers_are_wrapped_below_the_panels():
     assert len(panels) == 2
     assert figure.get_size_inches()[1] > 3.0
     assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "labels"),
+    [
+        (0.004, 0.03, ["0.005", "0.01", "0.02"]),
+        (3e7, 2.5e8, [r"$5\times10^{7}$", "$10^{8}$", r"$2\times10^{8}$"]),
+        (0.05, 300.0, ["$10^{-1}$", "$10^{0}$", "$10^{1}$", "$10^{2}$"]),
+        (1e-9, 1.5, ["$10^{-9}$", "$10^{-7}$", "$10^{-5}$", "$10^{-3}$", "$10^{-1}$"]),
+    ],
+)
+def test_ticks_of_a_logarithmic_axis_lie_inside_its_range(low, high, labels):
+    axes = Figure().subplots()
+    axes.set(xscale="log", xlim=(low / 2, high * 2))
+    style.ticks(axes.xaxis, low, high)
+    format_tick = axes.xaxis.get_major_formatter()
+    assert [format_tick(at) for at in axes.xaxis.get_majorticklocs()] == labels
+    assert all(low <= at <= high for at in axes.xaxis.get_minorticklocs())
+
+
+@pytest.mark.parametrize(("values", "span"), [([0.2], 10.0), ([0.2, 0.3], 10.0), ([1e-3, 1.0], 1690.0), ([], 10.0)])
+def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(values, span):
+    low, high = style.limits(pd.Series(values, dtype=float))
+    assert high / low == pytest.approx(span)
+    assert all(low < value < high for value in values)
+
+
+# --- the table of claims ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("value", "errors", "shown"),
+    [
+        (0.012689, (0.00381, 0.0249), ["0.0127", "0.0038", "0.025"]),
+        (0.012689, (0.00381, 0.0), ["0.0127", "0.0038", "0"]),
+        (0.0094952, (8.5e-5, 0.0), ["0.009495", "0.000085", "0"]),
+        (1.4682, (0.0, 0.0), ["1.468", "0", "0"]),
+        (1.7476, (0.0996, 0.996), ["1.75", "0.10", "1.0"]),
+        (0.2061, (0.01, np.nan), ["0.206", "0.010", "–"]),
+        (np.nan, (np.nan, np.nan), ["–", "–", "–"]),
+        (1234.6, (56.0, 0.0), ["1235", "56", "0"]),
+    ],
+)
+def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors, shown):
+    assert claims.rounded(value, *errors) == shown
+
+
+def test_every_quantity_dimension_and_take_of_a_claim_has_words_to_read():
+    names = {*TAKES, *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions])}
+    assert not [name for name in names if "_" in claims.symbol(name)]
+    assert claims.symbol("kappa_r_grid_error") == "grid error of κᵣ"
+
+
+def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
+    rows = pd.read_csv(made / "results/quick/claims/ch3.csv", keep_default_na=False, na_values=["", "nan"])
+    rows = rows.fillna({"measure": "", "expected": "", "condition": ""})
+    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    assert not [text for text in texts if "_" in text]
+    assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts
+    assert any("± ensemble error ± grid error" in text for text in texts[: len(claims.COLUMNS) + 1])
+    rows.loc[0, ["condition", "condition_value", "condition_ensemble_error", "condition_grid_error"]] = [
+        *("c/R up to 1", 0.995312, 0.0, 0.00471)
+    ]
+    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    assert any("0.9953_±_0_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
+
+
+# --- the sketch of a scene ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("elastic_below", [True, False])
+def test_the_elastic_body_is_coloured_and_the_rigid_one_grey(elastic_below):
+    elastic, rigid = Body(Flat(8.0), HalfSpace(2.0)), Body(Sinusoid(8.0, 1.0))
+    lower, upper = (elastic, rigid) if elastic_below else (rigid, elastic)
+    axes = Figure().subplots()
+    sketch.sketch(Scene(lower, upper, (HardWall(),), press([1.0])), 64, axes)
+    middles = [fill.get_paths()[0].get_extents().get_points()[:, 1].mean() for fill in axes.collections]
+    assert middles[0] < middles[1]
+    for fill, body, text in zip(axes.collections, (lower, upper), axes.texts[:2], strict=True):
+        red, green, blue, _ = fill.get_facecolor()[0]
+        grey = red == green == blue
+        assert grey == (body is rigid)
+        assert ("rigid" in text.get_text()) == grey
+        assert ("$E^*$ = 2 GPa" in text.get_text()) == (not grey)
+        assert fill.get_paths()[0].contains_point(text.get_position())

@@ -13,8 +13,8 @@ ORDER = """
 errors traits grid roughness measured surface elasticity laws loading scene
 solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 observables analytic provenance dataset config build study march aggregate costs joblog takes claims api hazards
-stability plan compare explain cost figures figures.style figures.ch3 figures.stability figures.render figures.claims
-figures.accuracy figures.sketch cli
+stability plan compare explain cost precision
+figures figures.style figures.ch3 figures.stability figures.render figures.claims figures.accuracy figures.sketch cli
 """.split()
 """Modules in import order: each may import those before it."""
 

@@ -18,7 +18,7 @@ from conftest import ROOT
 from contactsim import dataset, press, scene
 from contactsim.errors import SceneError
 from contactsim.figures.render import render
-from contactsim.figures.stability import COLOURS, footer, stability
+from contactsim.figures.stability import COLOURS, footer, refusals, short_reason, stability
 from contactsim.hazards import HAZARDS, Case, made
 from contactsim.plan import Plan
 from contactsim.solvers import solver
@@ -280,6 +280,29 @@ def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(dra
     for mesh, (_, one) in zip(axes.collections, data.groupby("hazard", squeeze=False), strict=True):
         wanted = [to_rgba(list(COLOURS.values())[value]) for value in one.outcome.values.ravel()]
         assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
+
+
+def test_the_map_says_why_a_case_was_refused_and_fits_its_numbers_into_their_cells(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    axes = Figure(figsize=(13, 8)).subplots()
+    stability(data, [axes])
+    texts = [text.get_text() for text in axes.texts]
+    assert texts.count("without adhesion nothing can pull") == data.solver.size
+    assert min(text.get_fontsize() for text in axes.texts) >= 5
+    assert {"active set", "Polonsky–Keer", "Verlet"} == {text.get_text() for text in axes.get_yticklabels()}
+
+
+def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):
+    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough")
+    refused = Outcome.REFUSED.value[0]
+    one["outcome"].values[:2] = [[refused, refused, 0], [refused, 0, refused]]
+    one["reason"].values[:2] = [["a: b", "c: b", ""], ["b", "", "c"]]
+    assert refusals(one) == [{(0, 2): "b"}, {(0, 1): "b", (2, 3): "c"}, {}]
+
+
+def test_the_short_reason_of_a_trait_is_what_the_solver_does_not_take():
+    verdict = judge(replace(CASE, mean_pressure=None, approach=0.0), "verlet")
+    assert short_reason(verdict.reason) == "takes no approach"
 
 
 def test_every_outcome_has_a_colour_of_its_own():

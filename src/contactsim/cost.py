@@ -1,22 +1,19 @@
-"""What accuracy costs: each knob turned on its own, its error against what it took.
+"""What accuracy costs: the cases, the settings at which each is solved, and the jobs that solve them.
 
-A case is a scene of a study. Its points, its tolerance and the size of the ensemble are turned one at a time, with each
-solver that may take it. The error of points is measured against a finer grid, that of the tolerance against the same
-grid solved far more tightly; neither reference is on a curve. The error of the ensemble is its standard error. Cost is
-transforms, in equivalents of one on the grid at hand times its size, so that grids compare; seconds are kept apart.
+A case is a scene of a study. Its points and its tolerance are turned one at a time, with each solver that may take it.
+The reference of the points is a finer grid, that of the tolerance the same grid solved far more tightly; neither is on
+a curve. Seconds are kept apart from what is reproducible. `contactsim.precision` makes errors and costs of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 
-from contactsim.aggregate import AVERAGED, combined, load_name
+from contactsim.aggregate import AVERAGED, combined
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
@@ -24,7 +21,6 @@ from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, installed, module_of, solver
-from contactsim.solvers.base import Status
 from contactsim.study import Study
 from contactsim.takes import quantities
 
@@ -49,6 +45,7 @@ CASE_KEYS = {
     "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
     "levels": Key(mapping, "from a knob to the errors at which solvers are compared"),
     "repeats": Key(whole(1), "how often each setting is timed, 1 or more", 1),
+    "thesis_members": Key(whole(1), "the thesis's own number of members, 1 or more", None),
 }
 LEVEL_KEYS = {knob: Key(listed(positive), "a list of relative errors", []) for knob in KNOB_KEYS}
 REFERENCE = "reference"
@@ -178,15 +175,19 @@ def _below_reference(turned: dict, reference: dict, file: Path, prefix: str) -> 
 
 
 def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
-    """What the figure of a case depends on: settings, jobs and their digests, the study's, the grids of all tiers."""
+    """What the figure of a case depends on: settings, jobs and their digests, the study's, and where its marks are.
+
+    The marks are each tier's points, tolerance and members, and those of the thesis as far as they are known.
+    """
     tiers = load_yaml(Path(folder) / "tiers.yaml")
-    marks = {tier: Plan.read(folder, tier).studies[case.study.name].settings["points"] for tier in tiers}
-    thesis = case.study.settings["thesis_points"]
+    studies = {tier: Plan.read(folder, tier).studies[case.study.name].settings for tier in tiers}
+    marks = {tier: {knob: own[knob] for knob in ("points", "tolerance", "members")} for tier, own in studies.items()}
+    thesis = {"points": case.study.settings["thesis_points"], "members": case.settings["thesis_members"]}
     return {
         "settings": case.settings,
         "jobs": case.jobs(),
         "digests": [job_plan(case, job) for job in case.jobs()],
-        "marks": marks | ({"thesis": thesis} if thesis else {}),
+        "marks": marks | {"thesis": {knob: value for knob, value in thesis.items() if value}},
         "tier": plan.tier,
         "load": case.study.settings["load"]["name"],
         "source": source_digest("contactsim.figures.accuracy"),
@@ -198,73 +199,3 @@ def job_plan(case: Case, job: str) -> dict:
     """What a job depends on: its settings and its code."""
     kind = DEFAULT if job == REFERENCE else job
     return {"job": case.job_settings(job), "source": source_digest("contactsim.cost", module_of(kind))}
-
-
-def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset) -> pd.DataFrame:
-    """One row a setting: solver, knob, points, tolerance, members, error of each quantity, work, share unconverged.
-
-    jobs: datasets by solver, with the reference's; study: the study's dataset, for the size of the ensemble. Errors are
-    relative, root mean square over variants, members and loads; work is transforms times points.
-    """
-    rows = []
-    references = {str(one.knob.item()): one for one in _each(jobs[REFERENCE])}
-    for kind, data in jobs.items():
-        for one in _each(data) if kind != REFERENCE else ():
-            reference = references[one.knob.item()]
-            rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", "points", "tolerance")})
-            for name in case_settings["quantities"]:
-                rows[-1][name] = float(np.sqrt(((one[name] / reference[name] - 1) ** 2).mean()))
-            rows[-1]["work"] = float(one.transforms.sum() * one.points)
-            rows[-1]["unconverged"] = float((one.status != Status.CONVERGED.value[0]).mean())
-    columns = ["solver", "knob", "points", "tolerance", "members", *case_settings["quantities"], "work", "unconverged"]
-    return pd.DataFrame(rows + list(_ensembles(case_settings, study)), columns=columns)
-
-
-def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:
-    return (data.isel(setting=place) for place in range(data.setting.size))
-
-
-def _ensembles(case_settings: dict, study: xr.Dataset) -> Iterable[dict]:
-    """The standard error of ensembles of two members up to all, from the study's own scatter."""
-    most = study.member.size
-    chosen = study.sel({load_name(study): case_settings["load"]}, method="nearest")
-    for members in range(2, most + 1) if most > 1 else ():
-        row = {"solver": DEFAULT, "knob": "members", "points": int(study.points), "members": members}
-        for name in case_settings["quantities"]:
-            share = chosen[f"{name}_standard_error"] / chosen[f"{name}_mean"] * np.sqrt(most / members)
-            row[name] = float(np.sqrt((share**2).mean()))
-        yield row | {"work": float(chosen.transforms.mean("member").sum() * members * study.points), "unconverged": 0.0}
-
-
-def order(table: pd.DataFrame, quantity: str) -> float:
-    """Observed order of convergence in the number of points: slope of log error, by least squares."""
-    return -float(np.polyfit(np.log(table.points), np.log(table[quantity]), 1)[0]) if len(table) > 1 else float("nan")
-
-
-def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
-    """Least cost at which the error is met, on straight lines between the points of a curve; NaN if it is not."""
-    curve = table.sort_values(cost)
-    lowest = np.minimum.accumulate(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
-    errors, costs = np.log(lowest), np.log(curve[cost])
-    if not (errors.min() <= np.log(error) <= errors.max()):
-        return float("nan")
-    return float(np.exp(np.interp(-np.log(error), -errors, costs)))
-
-
-def compared(
-    table: pd.DataFrame, quantity: str, levels: Mapping[str, Iterable[float]], costs: Iterable[str]
-) -> pd.DataFrame:
-    """At equal error, how many times more each solver costs than the default one: one row a knob, level and solver.
-
-    levels: errors by knob; a ratio is NaN where a solver was not measured at that error.
-    """
-    rows = []
-    good = table[(table.unconverged == 0) & table.knob.isin(levels)]
-    for (knob, kind), curve in good.groupby(["knob", "solver"], sort=False):
-        own = good[(good.knob == knob) & (good.solver == DEFAULT)]
-        for level in levels[knob]:
-            ratios = {
-                cost: cost_at(curve, quantity, level, cost) / cost_at(own, quantity, level, cost) for cost in costs
-            }
-            rows.append({"knob": knob, "error": level, "solver": kind} | ratios)
-    return pd.DataFrame(rows, columns=["knob", "error", "solver", *costs])

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from contactsim import analytic
 from contactsim.aggregate import departure
@@ -70,8 +71,7 @@ def fig_3_1(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
 
 def table_3_1(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Cylinder: width, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1, line)."""
-    least, most = FREE_OF_EDGES
-    rows = _cylinder(data).sel(contact_ratio=slice(least, most)).to_dataframe().reset_index()[list(TABLE)]
+    rows = _cylinder(data).to_dataframe().reset_index()[list(TABLE)]
     style.table(axes, list(TABLE.values()), [[f"{value:#.4g}" for value in row] for row in rows.to_numpy()])
     return rows
 
@@ -84,7 +84,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
 
     kappa_r: the thesis's constant.
     """
-    left, middle, right = axes
+    left, middle, right, last = axes
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value)
         whole, contact = one.reduced_pressure, one.reduced_pressure_contact_mean
@@ -94,7 +94,8 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
         for panel in (middle, right):
             style.with_errors(panel, contact, one, "kappa_r", color=style.CONTACT, **look)
         style.with_errors(right, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
-        style.grid_band(right, contact, one, "kappa_r", style.CONTACT)
+        style.grid_error(last, contact, one, "kappa_r", color=style.CONTACT, **look)
+        style.grid_error(last, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
     persson = analytic.persson_area(dense)
     left.plot(dense, persson, color=style.EXACT, lw=0.8)
@@ -104,9 +105,11 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     left.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
     middle.set(ylabel=r"$\kappa^{1D}$, $\kappa_r^{1D}$")
     right.set(ylabel=r"$\kappa_r^{1D}$")
-    style.keep_in_view(right, kappa_r - 0.15, kappa_r + 0.15)
-    for panel, letter in zip(axes, "abc", strict=True):
-        panel.set(xscale="log", xlabel="reduced pressure " + (r"$p_r^*$" if panel is right else r"$p^*$, $p_r^*$"))
+    style.keep_in_view(right, kappa_r - 0.15, kappa_r + 0.05)
+    last.set(yscale="log", ylabel=r"grid error of $\kappa_r^{1D}$")
+    for panel, letter in zip(axes, "abcd", strict=True):
+        both = panel in (left, middle)
+        panel.set(xscale="log", xlabel="reduced pressure " + (r"$p^*$, $p_r^*$" if both else r"$p_r^*$"))
         style.letter(panel, letter)
     left.legend(handles=style.hurst_key(data.hurst.values), loc="upper left")
     colours = {r"$\bar g$ over the whole surface": style.WHOLE, r"$\bar g_r$ over the contact (Eq. 3.8)": style.CONTACT}
@@ -133,6 +136,10 @@ def _constancy(data: xr.Dataset) -> str:
     return "\n".join(lines)
 
 
+FIT_LOOKS = {"area": {"lw": 1.6, "alpha": 1.0}, "logarithm": {"lw": 0.8, "alpha": 0.6}}
+"""Lines of a fit by how it weighs."""
+
+
 def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Eq. 3.11 fitted to each Hurst exponent and to all (thesis Fig. 3.3).
 
@@ -140,25 +147,34 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 200)
     lowest = data.sel(fit_limit=float(data.fit_limit.min()))
-    for weighting, width, alpha in (("area", 1.5, 1.0), ("logarithm", 1.0, 0.5)):
+    for weighting in FIT_LOOKS:
         for name in data.fitted.values:
             fit = lowest.sel(weighting=weighting, fitted=name)
-            curve = _kappa_fit(dense, fit.fit_b1.item(), fit.fit_b2.item())
-            color, line = (style.PAIRS, "-") if name == "all" else (style.WHOLE, style.hurst(float(name))["linestyle"])
-            axes.plot(dense, curve, color=color, ls=line, lw=width, alpha=alpha)
+            axes.plot(dense, _kappa_fit(dense, fit.fit_b1.item(), fit.fit_b2.item()), **_fit_look(name, weighting))
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value) | {"linestyle": "none"}
         style.with_errors(axes, one.reduced_pressure, one, "kappa", color="#888888", **look)
-    axes.plot(dense, analytic.persson_area(dense) / dense, color=style.EXACT, lw=0.8)
+    axes.plot(dense, analytic.persson_area(dense) / dense, color=style.EXACT, lw=0.8, ls="-.")
     axes.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}_{\mathrm{fit}}$")
     axes.set_ylim(top=axes.get_ylim()[1] * 1.22)
-    colours = {"fit to one $H$": style.WHOLE, "fit to all $H$": style.PAIRS}
-    keys = style.hurst_key(data.hurst.values) + style.key(colours, {"Persson (2D)": "-"})
-    axes.legend(handles=keys, ncols=2, loc="upper right")
+    lines = {"fit to all $H$, of the area": ("all", "area"), "of its logarithm": ("all", "logarithm")}
+    lines |= {"fit to one $H$, of the area": ("one", "area"), "of its logarithm ": ("one", "logarithm")}
+    keys = [Line2D([], [], label=label, **_fit_look(*fit)) for label, fit in lines.items()]
+    last = style.key({}, {"Persson (2D)": "-."})
+    axes.legend(handles=style.hurst_key(data.hurst.values) + last + keys, ncols=2, loc="upper right")
     names = [name for name in data.data_vars if str(name).startswith("fit_")]
     fitted = data[names].assign(kappa_fit=xr.apply_ufunc(_kappa_fit, data.reduced_pressure, data.fit_b1, data.fit_b2))
     order = [*data.fit_b1.dims, "reduced_pressure"]
     return fitted.to_dataframe(dim_order=order).reset_index()
+
+
+def _fit_look(name: str, weighting: str) -> dict[str, object]:
+    """The fit to all is broad and lies below those to one Hurst exponent, so that both are seen where they meet."""
+    look = FIT_LOOKS[weighting]
+    if name == "all":
+        return {"color": style.PAIRS, "lw": 2.5 * look["lw"], "alpha": 0.5 * look["alpha"], "zorder": 1.5}
+    line = "-" if name == "one" else style.hurst(float(name))["linestyle"]
+    return look | {"color": style.WHOLE, "ls": line}
 
 
 def _kappa_fit(pressure: Array, b1: Array, b2: Array) -> Array:

@@ -19,15 +19,37 @@ COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb
 COLUMNS = {
     "source": ("thesis", 1.3),
     "statement": ("statement", 2.6),
-    "measure": ("what is compared", 1.75),
+    "measure": ("what is compared", 1.65),
     "expected": ("expected", 0.85),
     "value": ("found", 0.65),
     "ensemble_error": ("ensemble\nerror", 0.75),
     "grid_error": ("grid\nerror", 0.65),
-    "verdict": ("verdict", 1.75),
+    "verdict": ("verdict; on a condition: found\n± ensemble error ± grid error", 1.85),
     "because": ("why this band", 2.85),
 }
 """Head and width in inches of each column."""
+SYMBOLS = {
+    "relative_contact_area": "aᵣₑₗ",
+    "kappa": "κ",
+    "kappa_r": "κᵣ",
+    "kappa_r_bond": "κᵣ of pairs",
+    "rms_gradient_contact": "ḡᵣ",
+    "rms_gradient_contact_bond": "ḡᵣ of pairs",
+    "rms_gradient_exact": "the exact ḡᵣ",
+    "reduced_pressure": "p*",
+    "reduced_pressure_contact": "pᵣ*",
+    "mean_pressure": "p",
+    "mean_gap": "the mean gap",
+    "contact_ratio": "c/R",
+    "half_width": "c",
+    "half_width_exact": "the exact c",
+    "hurst": "H",
+    "kappa_fit": "κ of the fit to each H",
+    "kappa_fit_logarithm": "κ of the logarithmic fit",
+    "kappa_fit_all": "κ of the fit to all H",
+    "spread_ratio": "ratio of spreads",
+}
+"""Names of the config as they are read in a text."""
 CHARACTERS = 18
 """Characters of the table's font in an inch."""
 PADDING = 0.07
@@ -73,17 +95,37 @@ def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
 
 def _cells(row: dict) -> dict[str, str]:
     """The text of each cell; under a condition, what was found there follows the verdict."""
-    texts = {name: row[name] for name in ("source", "statement", "measure", "expected", "because", "verdict")}
-    numbers = {"value": 4, "ensemble_error": 2, "grid_error": 2}
-    texts |= {name: _rounded(row[name], digits) for name, digits in numbers.items()}
+    texts = {name: row[name] for name in ("source", "statement", "expected", "because", "verdict")}
+    texts["measure"] = " ".join(map(symbol, row["measure"].split()))
+    numbers = ("value", "ensemble_error", "grid_error")
+    texts |= dict(zip(numbers, rounded(*(row[name] for name in numbers)), strict=True))
     if row["condition"]:
-        found = [_rounded(row[f"condition_{name}"], digits) for name, digits in numbers.items()]
-        texts["verdict"] += f": {row['condition']}; there {' ± '.join(found)}"
-    return {name: textwrap.fill(texts[name], int(width * CHARACTERS)) for name, (_, width) in COLUMNS.items()}
+        found = rounded(*(row[f"condition_{name}"] for name in numbers))
+        texts["verdict"] += f": {row['condition']}; there " + "\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}".join(found)
+    cells = {name: text.replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*") for name, text in texts.items()}
+    return {name: textwrap.fill(cells[name], int(width * CHARACTERS)) for name, (_, width) in COLUMNS.items()}
 
 
-def _rounded(value: float, digits: int) -> str:
-    return f"{value:.{digits}g}" if np.isfinite(value) else "–"
+def symbol(name: str) -> str:
+    """A name of the config in symbols; other words as they are."""
+    of = name.removesuffix("_grid_error")
+    return ("grid error of " if of != name else "") + SYMBOLS.get(of, of)
+
+
+def rounded(value: float, *errors: float) -> list[str]:
+    """A value and its errors: errors to two digits, the value to the place of the smallest that is not zero.
+
+    Without an error the value has four digits; a dash stands for what is unknown.
+    """
+    places = {error: _places(error, 2) for error in errors if np.isfinite(error) and error > 0}
+    finest = places[min(places)] if places else _places(value, 4)
+    texts = [f"{value:.{finest}f}" if np.isfinite(value) else "–"]
+    return texts + [f"{error:.{places.get(error, 0)}f}" if np.isfinite(error) else "–" for error in errors]
+
+
+def _places(value: float, digits: int) -> int:
+    """Decimals that show so many significant digits."""
+    return max(0, digits - 1 - int(f"{abs(value):.{digits - 1}e}".split("e")[1])) if np.isfinite(value) else 0
 
 
 def made_text(data: Mapping[str, xr.Dataset]) -> str:
@@ -95,6 +137,7 @@ def made_text(data: Mapping[str, xr.Dataset]) -> str:
         members = f"{one.member.size} members" if one.member.size > 1 else "1 member"
         points = style.points_text(settings[study], int(one.points))
         parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")
-    parts.append("ensemble error: one standard error over members; grid error: change on halving the points")
+    parts.append("errors to two digits; ensemble error: one standard error over members")
+    parts.append("grid error: change on halving the points")
     parts.append("not decidable: an edge of the band is nearer than both errors in quadrature")
     return " · ".join(parts)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import textwrap
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -28,18 +28,19 @@ def render(plan: Mapping, data_path: str, costs_path: str | None, targets: Mappi
     data, settings = dataset.read(data_path), plan["settings"]
     module = import_module(f"contactsim.figures.{plan['chapter']}")
     draw = getattr(module, plan["name"])
-    footer = module.footer(data) if costs_path is None else footer_text(data, pd.read_csv(costs_path))
     for dim, (least, largest) in settings["select"].items():
         data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
+    footer = module.footer(data) if costs_path is None else footer_text(data, pd.read_csv(costs_path))
     figure, panels = framed(settings, footer)
     shown = draw(data, panels if len(panels) > 1 else panels[0], **settings["reference"])
     save(figure, shown, targets)
 
 
-def framed(settings: Mapping, footer: str, rows: int = 1) -> tuple[Figure, list]:
+def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float] | None = None) -> tuple[Figure, list]:
     """An empty figure with its panels, row by row, the title above, caption and footer below them.
 
-    settings: of a figure, with size, panels a row, title and caption; the text below adds to the height.
+    settings: of a figure, with size, panels a row, title and caption; widths: of the columns, relative to each other.
+    The text below adds to the height.
     """
     width, height = settings["size"]
     caption = textwrap.wrap(settings["caption"], int(width * 19.5))
@@ -52,11 +53,11 @@ def framed(settings: Mapping, footer: str, rows: int = 1) -> tuple[Figure, list]
     bottom = LINE_INCHES * 0.4 / (height + below)
     figure.text(0.01, share - 0.3 * LINE_INCHES / (height + below), "\n".join(caption), fontsize=7, va="top")
     figure.text(0.01, bottom, "\n".join(made), fontsize=6, color="#777777", va="bottom")
-    return figure, list(figure.subplots(rows, settings["panels"], squeeze=False).flat)
+    return figure, list(figure.subplots(rows, settings["panels"], squeeze=False, width_ratios=widths).flat)
 
 
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
-    """Tier, grid, members, unconverged solutions, largest grid errors, time of all solutions."""
+    """Tier, grid, members, and of the loads shown unconverged solutions and largest errors; the study's time."""
     settings = dataset.settings_of(data)
     lost, total = aggregate.left_out(data)
     members = data.member.size
@@ -75,7 +76,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         ]
         if sizes:
             parts.append(f"{error} error up to: {', '.join(sizes)}")
-    return " · ".join([*parts, f"solved in {costs.seconds.sum():.3g} CPU s"])
+    return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])
 
 
 def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from itertools import groupby
+
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -10,7 +13,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from contactsim import dataset
-from contactsim.figures import style  # noqa: F401 - the look of all figures
+from contactsim.figures import style
 from contactsim.stability import Outcome
 
 COLOURS = {
@@ -22,6 +25,8 @@ COLOURS = {
     Outcome.NON_FINITE: "#000000",
 }
 """Told apart without seeing red and green, and in grey (Okabe and Ito's)."""
+FONT = 5.2
+"""Points of the text in cells, which fits 21 columns."""
 
 
 def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -63,17 +68,41 @@ def _blocks(data: xr.Dataset, axes: Axes, blocks: int) -> None:
         axes.annotate(
             str(one.harder.values), (1, 0), xycoords=axes.texts[-1], fontsize=6, va="bottom", annotation_clip=False
         )
+        look = {"fontsize": FONT, "ha": "center", "va": "center"}
         for (row, column), cost in np.ndenumerate(one.transforms.values):
-            axes.text(
-                column + 0.5, top + row + 0.53, _short(cost), fontsize=4, ha="center", va="center"
-            )  # fits 21 columns
-        ticks += [(top + row + 0.5, name) for row, name in enumerate(data.solver.values)]
+            axes.text(column + 0.5, top + row + 0.53, _short(cost), **look)
+        for row, refused in enumerate(refusals(one)):
+            for (start, stop), reason in refused.items():
+                under = {"facecolor": COLOURS[Outcome.REFUSED], "linewidth": 0, "pad": 0.5}
+                axes.text((start + stop) / 2, top + row + 0.53, reason, bbox=under, **look)
+        ticks += [(top + row + 0.5, style.SOLVERS.get(name, name)) for row, name in enumerate(data.solver.values)]
     axes.set(xlim=(0, columns), ylim=(blocks * height, 0), xlabel="severity")
-    axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=5.5)
+    axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=6)
     shown = np.unique(np.linspace(0, columns - 1, min(columns, 11)).round().astype(int))
     axes.set_xticks(shown + 0.5, [f"{value:g}" for value in data.severity.values[shown]], fontsize=7)
     axes.tick_params(length=0, top=False, right=False)
     axes.spines[:].set_visible(False)
+
+
+def refusals(data: xr.Dataset) -> list[dict[tuple[int, int], str]]:
+    """Of each solver on one hazard, the short reason of each run of cells that were refused for it."""
+    refused = data.outcome.values == Outcome.REFUSED.value[0]
+    rows = []
+    for cells, reasons in zip(refused, data.reason.values, strict=True):
+        texts = [short_reason(str(reason)) if cell else "" for cell, reason in zip(cells, reasons, strict=True)]
+        runs, start = {}, 0
+        for text, run in groupby(texts):
+            stop = start + len(list(run))
+            runs |= {(start, stop): text} if text else {}
+            start = stop
+        rows.append(runs)
+    return rows
+
+
+def short_reason(reason: str) -> str:
+    """The heart of a refusal: the trait that a solver does not take, or the last clause."""
+    trait = re.search(r"one that accepts (\w+)", reason)
+    return f"takes no {trait[1].lower().replace('_', ' ')}" if trait else reason.rpartition(": ")[2]
 
 
 def _short(cost: float) -> str:

@@ -9,7 +9,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from contactsim.dataset import SUFFIXES
 
@@ -24,6 +26,8 @@ SYMBOLS = {
     "relative_contact_area": r"$a_{\mathrm{rel}}$",
 }
 """Symbols of quantities."""
+SOLVERS = {"active_set": "active set", "polonsky_keer": "Polonsky–Keer", "tamaas": "tamaas", "verlet": "Verlet"}
+"""Names of solvers, as in the literature."""
 
 mpl.rcParams.update(
     {
@@ -65,17 +69,47 @@ def with_errors(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look
     axes.errorbar(x.values, data[f"{name}_mean"].values, yerr=bars, elinewidth=0.8, capsize=1.5, **look)
 
 
-def grid_band(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, color: str) -> None:
-    """The grid error of a curve of means as a faint band, where it was measured."""
+def grid_error(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
+    """The grid error of a curve of means, where it was measured."""
     if f"{name}_grid_error" in data:
-        mean, error = data[f"{name}_mean"], data[f"{name}_grid_error"]
-        axes.fill_between(x, mean - error, mean + error, color=color, alpha=0.07, lw=0)
+        axes.plot(x.values, data[f"{name}_grid_error"].values, **look)
 
 
 def keep_in_view(axes: Axes, least: float, most: float) -> None:
     """Show at least this range of the vertical axis, and all that is drawn."""
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, least), max(high, most))
+
+
+def limits(errors: pd.Series) -> tuple[float, float]:
+    """The range of an axis that holds these, and a factor of ten at least."""
+    if errors.empty:
+        return 0.1, 1.0
+    low, high = errors.min() / 1.3, errors.max() * 1.3
+    wider = max(1.0, 10 * low / high) ** 0.5
+    return low / wider, high * wider
+
+
+def ticks(axis: Axis, low: float, high: float) -> None:
+    """Ticks and labels inside the range only: decades, of small ranges their halves and fifths too."""
+    decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    steps = np.outer(decades, np.arange(1, 10))
+    kept = (1, 2, 5) if high / low < 20 else (1,)
+    thin = -(-len(decades) // 7)
+    major, minor = np.outer(decades[::thin], kept).ravel(), steps.ravel()
+    axis.set_major_locator(FixedLocator([at for at in major if low <= at <= high]))
+    axis.set_minor_locator(FixedLocator([at for at in minor if low <= at <= high]))
+    axis.set_major_formatter(
+        FuncFormatter(lambda value, _: _number(value, low >= 1e-3 and high <= 1e4 and len(kept) > 1))
+    )
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _number(value: float, plain: bool) -> str:
+    if plain:
+        return f"{value:g}"
+    digit, power = f"{value:.0e}".split("e")
+    return (rf"${digit}\times" if digit != "1" else "$") + f"10^{{{int(power)}}}$"
 
 
 def letter(axes: Axes, name: str) -> None:

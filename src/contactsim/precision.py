@@ -1,0 +1,120 @@
+"""The error of every setting against what it took, and solvers compared at equal error.
+
+The error of points is measured against a finer grid, that of the tolerance against the same grid solved far more
+tightly; the error of the ensemble is its standard error. Cost is transforms, in equivalents of one on the grid at hand,
+times its size, so that grids compare.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from contactsim.aggregate import load_name
+from contactsim.cost import DEFAULT, REFERENCE
+from contactsim.solvers.base import Status
+
+ROUNDING = 1e-10
+"""Errors below it are rounding: both solutions have the same contact."""
+
+
+def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset) -> pd.DataFrame:
+    """One row a setting: solver, knob, points, tolerance, members, error of each quantity, work, share unconverged.
+
+    jobs: datasets by solver, with the reference's; study: the study's dataset, for the size of the ensemble. Errors are
+    relative, root mean square over variants, members and loads, infinite where one of them has no value, as without
+    contact; work is transforms times points.
+    """
+    rows = []
+    references = {str(one.knob.item()): one for one in _each(jobs[REFERENCE])}
+    for kind, data in jobs.items():
+        for one in _each(data) if kind != REFERENCE else ():
+            reference = references[one.knob.item()]
+            rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", "points", "tolerance")})
+            for name in case_settings["quantities"]:
+                rows[-1][name] = _root_mean_square(one[name] / reference[name] - 1)
+            rows[-1]["work"] = float(one.transforms.sum() * one.points)
+            rows[-1]["unconverged"] = _unconverged(one)
+    columns = ["solver", "knob", "points", "tolerance", "members", *case_settings["quantities"], "work", "unconverged"]
+    return pd.DataFrame(rows + list(_ensembles(case_settings, study)), columns=columns)
+
+
+def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:
+    return (data.isel(setting=place) for place in range(data.setting.size))
+
+
+def _ensembles(case_settings: dict, study: xr.Dataset) -> Iterable[dict]:
+    """The standard error of ensembles of two members up to all, from the study's own scatter."""
+    most = study.member.size
+    chosen = study.sel({load_name(study): case_settings["load"]}, method="nearest")
+    for members in range(2, most + 1) if most > 1 else ():
+        row = {"solver": DEFAULT, "knob": "members", "points": int(study.points), "members": members}
+        for name in case_settings["quantities"]:
+            share = chosen[f"{name}_standard_error"] / chosen[f"{name}_mean"] * np.sqrt(most / members)
+            row[name] = _root_mean_square(share)
+        work = float(chosen.transforms.mean("member").sum() * members * study.points)
+        yield row | {"work": work, "unconverged": _unconverged(chosen)}
+
+
+def _root_mean_square(errors: xr.DataArray) -> float:
+    return float(np.sqrt((errors**2).mean(skipna=False).fillna(np.inf)))
+
+
+def _unconverged(data: xr.Dataset) -> float:
+    """The share of solutions that did not converge."""
+    return float((data.status != Status.CONVERGED.value[0]).mean())
+
+
+def met(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
+    """The settings at which every solution converged and has an error."""
+    return table[(table.unconverged == 0) & np.isfinite(table[quantity])]
+
+
+def order(table: pd.DataFrame, quantity: str) -> float:
+    """Observed order of convergence in the number of points: slope of log error, by least squares.
+
+    Settings that failed, and those whose error is rounding, are left out.
+    """
+    good = met(table, quantity)
+    good = good[good[quantity] > ROUNDING]
+    return -float(np.polyfit(np.log(good.points), np.log(good[quantity]), 1)[0]) if len(good) > 1 else float("nan")
+
+
+def front(table: pd.DataFrame, quantity: str, cost: str) -> pd.DataFrame:
+    """The settings that no other beats in both error and cost, the cheapest first; all errors of rounding are equal."""
+    good = met(table, quantity).sort_values([cost, quantity])
+    errors = np.maximum(good[quantity], ROUNDING)
+    return good[errors < errors.cummin().shift(fill_value=np.inf)]
+
+
+def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
+    """Least cost at which the error is met, on straight lines between the points of a curve; NaN if it is not."""
+    curve = table.sort_values(cost)
+    lowest = np.minimum.accumulate(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
+    errors, costs = np.log(lowest), np.log(curve[cost])
+    if not (errors.min() <= np.log(error) <= errors.max()):
+        return float("nan")
+    return float(np.exp(np.interp(-np.log(error), -errors, costs)))
+
+
+def compared(
+    table: pd.DataFrame, quantity: str, levels: Mapping[str, Iterable[float]], costs: Iterable[str]
+) -> pd.DataFrame:
+    """At equal error, how many times more each solver costs than the default one: one row a knob, level and solver.
+
+    levels: errors by knob; a ratio is NaN where a solver was not measured at that error.
+    """
+    rows = []
+    good = met(table, quantity)
+    good = good[good.knob.isin(levels)]
+    for (knob, kind), curve in good.groupby(["knob", "solver"], sort=False):
+        own = good[(good.knob == knob) & (good.solver == DEFAULT)]
+        for level in levels[knob]:
+            ratios = {
+                cost: cost_at(curve, quantity, level, cost) / cost_at(own, quantity, level, cost) for cost in costs
+            }
+            rows.append({"knob": knob, "error": level, "solver": kind} | ratios)
+    return pd.DataFrame(rows, columns=["knob", "error", "solver", *costs])

@@ -1,0 +1,119 @@
+"""Errors, orders and costs by hand, from small made datasets."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from contactsim import precision
+from contactsim.solvers.base import Status
+from prices import REFERENCE, SETTINGS, job, study
+
+GRIDS = [("points", 16, 1e-3), ("points", 32, 1e-3)]
+
+
+def table_of(**jobs):
+    return precision.table(SETTINGS, {"reference": REFERENCE} | jobs, study())
+
+
+def rows(errors, costs, **columns):
+    """A table of one solver's settings, all converged."""
+    plain = {"solver": "active_set", "knob": "points", "unconverged": 0.0}
+    return pd.DataFrame(
+        {"points": 2 ** np.arange(4, 4 + len(errors)), "error": errors, "work": costs} | plain | columns
+    )
+
+
+def test_the_error_of_a_knob_is_against_the_reference_of_that_knob():
+    table = table_of(active_set=job([*GRIDS, ("tolerance", 32, 0.1)], [2.2, 2.1, 4.4]))
+    assert table.kappa_r[:3].to_numpy() == pytest.approx([0.1, 0.05, 0.1])
+
+
+def test_the_error_is_the_root_mean_square_over_loads_and_the_work_transforms_times_points():
+    table = table_of(active_set=job(GRIDS, [[2.2, 2.0], [2.0, 2.0]], [10, 30]))
+    assert table.kappa_r[:2].to_numpy() == pytest.approx([0.1 / np.sqrt(2), 0])
+    assert table.work[:2].tolist() == [2 * 10 * 16, 2 * 30 * 32]
+
+
+@pytest.mark.parametrize("missing", [[np.nan, 2.0], [np.nan, np.nan], [np.inf, 2.0]])
+def test_a_setting_without_a_value_at_one_load_has_no_finite_error(missing):
+    table = table_of(active_set=job(GRIDS, [missing, [2.1, 2.1]]))
+    assert table.kappa_r[0] == np.inf
+    assert len(precision.met(table.query("knob == 'points'"), "kappa_r")) == 1
+
+
+def test_a_reference_without_a_value_leaves_no_error():
+    data = {"reference": REFERENCE.assign(kappa_r=REFERENCE.kappa_r * np.nan), "active_set": job(GRIDS, [2.1, 2.1])}
+    assert np.isinf(precision.table(SETTINGS, data, study()).kappa_r[:2]).all()
+
+
+def test_the_share_of_unconverged_solutions_is_told():
+    data = job(GRIDS, [2.1, 2.1])
+    data["status"][1, 0] = Status.BUDGET.value[0]
+    assert table_of(active_set=data).unconverged[:2].tolist() == [0.0, 0.5]
+
+
+def test_the_work_of_an_ensemble_is_its_members_and_its_error_falls_as_their_root():
+    table = table_of(active_set=job(GRIDS, [2.1, 2.1]))
+    ensembles = table[table.knob == "members"]
+    assert ensembles.members.tolist() == [2, 3]
+    # on average a member takes 2 transforms at each of 2 loads, on 64 points
+    assert ensembles.work.tolist() == [2 * 2 * 2 * 64, 3 * 2 * 2 * 64]
+    assert ensembles.kappa_r.to_numpy() == pytest.approx([0.01 * np.sqrt(3 / 2), 0.01])
+    assert ensembles.points.tolist() == [64, 64]
+
+
+def test_an_ensemble_with_unconverged_solutions_says_so():
+    data = study()
+    data["status"][0, 0] = Status.BUDGET.value[0]
+    table = precision.table(SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, data)
+    assert (table[table.knob == "members"].unconverged == 1 / 6).all()
+
+
+def test_one_member_is_no_ensemble():
+    table = precision.table(SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, study(members=1))
+    assert set(table.knob) == {"points"}
+
+
+def test_the_observed_order_and_the_cost_at_an_error_are_those_planted():
+    points = np.array([100, 200, 400, 800])
+    table = rows(5.0 * points**-1.5, 7.0 * points, points=points)
+    assert precision.order(table, "error") == pytest.approx(1.5)
+    assert precision.cost_at(table, "error", 5.0 * 300**-1.5, "work") == pytest.approx(2100.0)
+    assert np.isnan(precision.cost_at(table, "error", 1e-9, "work"))  # no setting meets it
+
+
+@pytest.mark.parametrize("bad", [{"unconverged": 0.1}, {"error": np.inf}, {"error": 0.0}, {"error": 1e-16}])
+def test_the_observed_order_leaves_out_failures_and_rounding(bad):
+    table = rows([0.4, 0.2, 0.1, 7.0], [1.0, 2.0, 4.0, 8.0])
+    table.loc[3, list(bad)] = list(bad.values())
+    assert precision.order(table, "error") == pytest.approx(1.0)
+    assert np.isnan(precision.order(table[2:], "error"))
+
+
+def test_on_the_front_a_dearer_setting_is_a_better_one():
+    table = rows([0.5, 0.6, 0.2, 0.2, 0.1, 1e-12, 1e-14], [1.0, 2.0, 3.0, 3.5, 5.0, 6.0, 7.0])
+    found = precision.front(table.sample(frac=1, random_state=1), "error", "work")
+    assert found.error.tolist() == [0.5, 0.2, 0.1, 1e-12]
+    assert found.work.tolist() == [1.0, 3.0, 5.0, 6.0]
+
+
+@pytest.mark.parametrize("bad", [{"unconverged": 0.5}, {"error": np.inf}])
+def test_failures_are_not_on_the_front(bad):
+    table = rows([0.5, 0.2, 0.1], [1.0, 2.0, 3.0])
+    table.loc[1, list(bad)] = list(bad.values())
+    assert precision.front(table, "error", "work").index.tolist() == [0, 2]
+
+
+def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
+    points = np.array([100.0, 1000.0])
+    table = pd.concat(
+        rows(1 / points, factor * points, solver=kind, unconverged=bad)
+        for kind, factor, bad in (("active_set", 1.0, 0), ("slow", 30.0, 0), ("failed", 0.1, 1))
+    )
+    found = precision.compared(table, "error", {"points": [0.005, 1e-9]}, ["work"]).set_index(["solver", "error"])
+    assert found.work["slow", 0.005] == pytest.approx(30.0)
+    assert np.isnan(found.work["slow", 1e-9])
+    assert "failed" not in found.index
+    assert precision.compared(table, "error", {"tolerance": [0.1]}, ["work"]).empty
