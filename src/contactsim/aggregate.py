@@ -73,7 +73,10 @@ def left_out(data: xr.Dataset) -> tuple[int, int]:
 
 def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
     """Datasets of runs, each with its place among the varied keys and members, as one, with κ and κ_r."""
-    places = [data.drop_vars(APART).expand_dims({name: [at] for name, at in place.items()}) for data, place in parts]
+    places = [
+        data.drop_vars(APART, errors="ignore").expand_dims({name: [at] for name, at in place.items()})
+        for data, place in parts
+    ]
     data = xr.combine_by_coords(places, combine_attrs="drop")
     for name in ("points", "length", "contact_modulus", "seed"):
         if (data[name] == data[name].values.flat[0]).all():

@@ -24,7 +24,7 @@ def press(
     mean_pressure: float | None = None,
     approach: float | None = None,
     tolerance: float = 1e-3,
-    solver: str | Solver = "active_set",
+    solver: str | Solver | None = None,
     threads: int = 1,
 ) -> Result:
     """Press a rigid periodic profile into an elastic half-space, without adhesion or friction.
@@ -53,7 +53,7 @@ def press(
         given = {"mean_pressure": mean_pressure, "approach": approach}
         raise SceneError("load", given, "exactly one of mean_pressure and approach")
     path = loading.press([mean_pressure]) if approach is None else loading.approach([approach])
-    scene = Scene(Body(Flat(surface.length), HalfSpace(contact_modulus)), Body(surface), (HardWall(),), path)
+    scene = Scene(Body(Flat.facing(surface), HalfSpace(contact_modulus)), Body(surface), (HardWall(),), path)
     method = named(solver) if isinstance(solver, str) else solver
     require(method, scene)
     return solve(method, *pose(scene, path.steps[0], profile.heights, tolerance, threads))

@@ -26,7 +26,7 @@ from contactsim import dataset
 from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
-from contactsim.observables import wall_observables
+from contactsim.observables import KEPT, wall_observables
 from contactsim.provenance import digest
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
@@ -34,9 +34,6 @@ from contactsim.solvers import solver, usual
 from contactsim.solvers.base import Result, Solver, require, solve
 
 logger = logging.getLogger(__name__)
-
-KEPT = ("contact", "pressure", "profile", "fields")
-"""What may be kept beside the numbers; all but the last by default."""
 
 
 @dataclass(frozen=True)
@@ -61,8 +58,8 @@ def simulate(
     """Follow a scene's load path; the workflow's runs are this function.
 
     points: of the grid along x, None for those of a measured surface; tolerance: in grid steps; method: a solver or
-    the name of one, None for the usual one; keep: of `KEPT`; known: points that need not be solved again, by step. Returns one dataset with dimension `step`: numbers,
-    contact sets, pressures on them, the profile's Fourier coefficients; and `seconds`, the one variable that is not
+    the name of one, None for the usual one; keep: of `KEPT`; known: points that need not be solved again, by step.
+    Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
     reproducible.
     """
     known = known or {}

@@ -12,6 +12,9 @@ import numpy as np
 from contactsim.grid import Array
 from contactsim.roughness import rms_gradient, rms_gradient_bonds
 
+KEPT = ("contact", "pressure", "profile", "fields")
+"""What a run may keep beside its numbers; all but the last by default."""
+
 
 def touching(pressure: Array) -> Array:
     """Points in contact at a hard wall: positive pressure, bool of the same shape (Chapter 3)."""

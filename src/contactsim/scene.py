@@ -134,8 +134,8 @@ def grid_step(heights: Array) -> float:
 class WallProblem:
     """The complementarity problem at one load step, without units (see the module's text).
 
-    heights: (n,) or (ny, nx), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure) and
-    approach (beyond first touch) is given; tally counts the work.
+    heights: (n,) or (ny, nx), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure)
+    and approach (beyond first touch) is given; tally counts the work.
     """
 
     heights: Array

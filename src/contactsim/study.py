@@ -19,10 +19,12 @@ from contactsim.config import Key, choice, keys_of, listed, mapping, number, pos
 from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
+from contactsim.observables import KEPT
 from contactsim.provenance import digest, source_digest, versions
-from contactsim.solvers import SOLVERS, module_of, solver, solver_class
+from contactsim.solvers import SOLVERS, module_of, solver, solver_class, usual_kind
 from contactsim.solvers.base import require
-from contactsim.surface import SURFACES
+from contactsim.surface import SURFACES, Flat
+from contactsim.traits import Trait
 
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
 KINDS: dict[str, tuple[Mapping[str, object], Callable[[str], type]]] = {
@@ -44,8 +46,9 @@ STUDY_KEYS = {
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "companion": Key(mapping, "a mapping with `points` and `members`", None),
     "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
-    "solver": Key(mapping, "a mapping with `kind` and that solver's options", {"kind": "active_set"}),
+    "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
     "tolerance": Key(positive, "a positive number of grid steps"),
+    "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
     "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
 }
 COMPANION_KEYS = {
@@ -104,6 +107,7 @@ class Study:
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
         settings["load"] = _load(settings["load"], file, f"{prefix}.load")
+        settings["solver"] = {"kind": _usual(settings["surface"])} | settings["solver"]
         for part, keys, knob in (("companion", COMPANION_KEYS, "points"), ("tight", TIGHT_KEYS, "tolerance")):
             if settings[part] is None:
                 continue
@@ -179,7 +183,7 @@ class Study:
                 raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {known}", self.file)
             sections[head] = sections[head] | {tail: value}
         parts = {name: self._part(name, section) for name, section in sections.items()}
-        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", "points")} | change
+        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", "points", "keep")} | change
         settings = {"study": self.name, "member": member, "seed": self.seed} | shared | parts
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
@@ -213,6 +217,13 @@ class Study:
         except SceneError as error:
             section = next((f".{name}" for name in KINDS if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error
+
+
+def _usual(surface: dict) -> str:
+    """The kind of solver for a surface's dimension; a surface that is wrong is refused later."""
+    kind = SURFACES.get(str(surface.get("kind")), Flat)
+    dimensions = surface.get("dimensions", getattr(kind, "dimensions", 1))
+    return usual_kind(frozenset({Trait.SURFACE if dimensions == 2 else Trait.LINE}))
 
 
 def _load(section: dict, file: object, prefix: str) -> dict:

@@ -12,8 +12,8 @@ takes their excess away on cells of 4 × 4 points, through transforms of that re
 
 Inside, everything but the pressure is in single precision, on a gap counted from the contact's level: each step of the
 outer loop begins with a gap in double precision, which is computed anew before the rounding of what is added to it
-matters. The start is the solution on half as many points, and so on: pressure where there is contact and, with a negative sign, gap where
-there is none are continued as one field, which puts the edge of the contact in its place.
+matters. The start is the solution on half as many points, and so on: pressure where there is contact and, with a
+negative sign, gap where there is none are continued as one field, which puts the edge of the contact in its place.
 """
 
 from __future__ import annotations
@@ -188,7 +188,7 @@ class ConjugateGradients:
 
 
 class _Spread:
-    """The compliance in single precision, from `change` to `out`, both (ny, nx and padding); `scratch` is overwritten."""
+    """The compliance in single precision, from `change` to `out`, both (ny, nx and padding); `scratch` is lent."""
 
     def __init__(self, compliance: Operator) -> None:
         ny, nx = compliance.grid.shape
@@ -201,7 +201,7 @@ class _Spread:
         self.scratch = wide.view(np.float32)
 
     def apply(self) -> None:
-        """out = S change; the change stays."""
+        """Out = S change; the change stays."""
         self._grid.forward(self.change[:, : self._columns], out=self._half)
         self._half *= self._symbol
         ducc0.fft.c2r(

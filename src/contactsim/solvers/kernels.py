@@ -62,7 +62,7 @@ class Rows:
 
 @compiled
 def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, sums):
-    """out = G r; cells: sums of out over each cell; code: which neighbours are in contact."""
+    """Out = G r; cells: sums of out over each cell; code: which neighbours are in contact."""
     ny = contact.shape[0]
     for i in range(low, high):
         up = i - 1 if i > 0 else ny - 1
@@ -91,7 +91,7 @@ def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, s
 
 @compiled
 def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, table, code, field, smooth, out, sums):
-    """out = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
+    """Out = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
     ny = contact.shape[0]
     now = 0.0
     then = 0.0
@@ -128,7 +128,7 @@ def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, ta
 
 @compiled
 def turn(low, high, nx, contact, words, corrected, beta, direction, pressure, length, shift, sums):
-    """direction = corrected + beta × direction; sums: load of max(p + length × direction - shift, 0), its points."""
+    """Direction = corrected + beta × direction; sums: load of max(p + length × direction - shift, 0), its points."""
     load = 0.0
     count = 0
     for i in range(low, high):
@@ -167,7 +167,7 @@ def carried(low, high, nx, contact, words, pressure, direction, length, shift, s
 
 @compiled
 def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap, level, change, sums):
-    """change = max(p + length × direction - shift, 0) - p; sums: change·r, number of pressures cut to zero."""
+    """Change = max(p + length × direction - shift, 0) - p; sums: change·r, number of pressures cut to zero."""
     along = 0.0
     cut = 0
     for i in range(low, high):
@@ -206,7 +206,7 @@ def work(low, high, nx, contact, words, change, spread, sums):
 
 @compiled
 def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta, level, overlap, direction, sums):
-    """p += theta × change, gap += theta × spread; drop points that carry nothing and gape, add those that overlap.
+    """P += theta × change, gap += theta × spread; drop points that carry nothing and gape, add those that overlap.
 
     level: the gap on the contact after the step; overlap: how far below it a point is added. sums: gap on the new
     contact, its points, points added, largest overlap, largest gap where pressure is, direction on the new contact.
@@ -272,7 +272,7 @@ def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta,
 
 @compiled
 def between(before, left, right, after, part):
-    """A signed field at `part` of the way from left to right: cubic among one sign, else linear in its signed square."""
+    """A signed field `part` of the way from left to right: cubic among one sign, else linear in the signed square."""
     if part == 0.0:
         return left
     if (before > 0) == (left > 0) == (right > 0) == (after > 0):
