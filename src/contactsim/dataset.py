@@ -36,6 +36,8 @@ SETTINGS = {
     "unit": ("1", "unit of a measured profile's file"),
     "variable": ("1", "variable of a measured profile's file"),
     "contact_modulus": ("GPa", "contact modulus E*"),
+    "poisson_ratio": ("1", "Poisson's ratio"),
+    "thickness": ("nm", "thickness"),
     "kind": ("1", "kind"),
 }
 """Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""
