@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from contactsim import analytic, loading
-from contactsim.elasticity import ELASTICITIES
+from contactsim.elasticity import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
 from contactsim.loading import LoadPath
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
+from contactsim.traits import Trait
 
 
 def scene_of(settings: dict) -> Scene:
@@ -23,7 +24,7 @@ def scene_of(settings: dict) -> Scene:
     upper = kind(**surface)
     elasticity = ELASTICITIES[body.pop("kind")](**body)
     effects = tuple(EFFECTS[name]() for name in settings["effects"])
-    path = load_path(settings, upper, elasticity.contact_modulus)
+    path = load_path(settings, upper, elasticity)
     return Scene(Body(Flat(upper.length), elasticity), Body(upper), effects, path)
 
 
@@ -35,12 +36,13 @@ def points_of(settings: dict, surface: Surface) -> int:
     return points
 
 
-def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadPath:
+def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadPath:
     """Mean pressures from the loads as the study gives them.
 
     reduced_pressure: times E* and the rms gradient, the one prescribed or else that of the heights; contact_ratio:
-    what a cylinder needs for a half-width of that part of its radius (Eq. 3.5).
+    what a cylinder needs for a half-width of that part of its radius on a half-space (Eq. 3.5).
     """
+    contact_modulus = elasticity.contact_modulus
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -55,5 +57,7 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
         radius = settings["surface"].get("radius")
         if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
+        if Trait.HALF_SPACE not in elasticity.traits:
+            raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         values = analytic.cylinder_load(values * radius, radius, contact_modulus) / surface.length
     return loading.press([float(value) for value in values], labels)
