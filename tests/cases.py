@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 import contactsim
-from contactsim.solvers import PEERS, SOLVERS
+from contactsim.solvers import PEERS, SOLVERS, solver_class
 from contactsim.solvers.base import Result
 from contactsim.surface import SelfAffine, generator
+from contactsim.traits import Trait
 
-ALL = tuple(kind for kind in SOLVERS if kind not in PEERS)
+ALL = tuple(kind for kind in SOLVERS if kind not in PEERS and Trait.LINE in solver_class(kind).accepts)
 FAST = ("active_set", "polonsky_keer")
 
 

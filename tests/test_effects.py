@@ -49,7 +49,7 @@ def test_a_scene_in_which_nothing_gives_way_is_refused():
 
 
 def test_bodies_of_different_period_are_refused():
-    with pytest.raises(SceneError, match="one period"):
+    with pytest.raises(SceneError, match="the same periods"):
         scene(upper=Body(Flat(65.0)))
 
 

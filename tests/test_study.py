@@ -100,7 +100,7 @@ BAD = {
     ),
     "unknown key": ({"pionts": 64}, "pionts", 64, "points"),
     "no title": ({"title": GONE}, "title", "nothing", "a line of text"),
-    "unknown surface": ({"surface/kind": "sphere"}, "surface.kind", "sphere", "cylinder, flat, measured, self_affine"),
+    "unknown surface": ({"surface/kind": "cone"}, "surface.kind", "cone", "cylinder, flat, measured, self_affine"),
     "surface without kind": ({"surface/kind": GONE}, "surface.kind", "nothing", "self_affine"),
     "surface that is no mapping": ({"surface": "flat"}, "surface", "flat", "a mapping with `kind`"),
     "key of another surface": ({"surface/radius": 10.0}, "surface.radius", 10.0, "hurst, rolloff_wavelength"),
@@ -141,9 +141,8 @@ BAD = {
         {"solver": {"kind": "guess"}},
         "solver.kind",
         "guess",
-        "active_set, polonsky_keer, tamaas, verlet",
+        "active_set, conjugate_gradients, polonsky_keer, tamaas, verlet",
     ),
-    "solver without kind": ({"solver": {"budget": 5}}, "solver.kind", "nothing", "active_set"),
     "option of another solver": ({"solver": {"kind": "verlet", "reduction": 0.1}}, "solver.reduction", 0.1, "damping"),
     "private part of a solver": ({"solver": {"kind": "verlet", "_stiffness": 1}}, "solver._stiffness", 1, "damping"),
     "wrong type of option": ({"solver": {"kind": "active_set", "budget": 2.5}}, "solver.budget", 2.5, "whole"),
@@ -314,9 +313,15 @@ def test_a_run_has_the_varied_values_in_its_settings():
 def test_settings_hold_what_a_run_depends_on_and_nothing_else():
     run = study({"title": "Another title", "thesis_points": 999}).runs()[0]
     assert set(run.settings) == {
-        *("study", "member", "seed", "points", "effects", "load", "tolerance", "surface", "body", "solver")
+        *("study", "member", "seed", "points", "effects", "load", "tolerance", "keep", "surface", "body", "solver")
     }
     assert canonical(run.settings) == canonical(study().runs()[0].settings)
+
+
+def test_a_solver_that_is_not_named_is_the_usual_one_of_the_dimension():
+    assert study({"solver": {"budget": 5}}).runs()[0].settings["solver"]["kind"] == "active_set"
+    surface = study({"surface/dimensions": 2, "solver": {"budget": 5}})
+    assert surface.runs()[0].settings["solver"]["kind"] == "conjugate_gradients"
 
 
 def test_defaults_stand_in_the_settings_as_if_they_were_given():

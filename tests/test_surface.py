@@ -119,7 +119,7 @@ def test_a_measured_profile_is_detrended_and_made_periodic_by_the_named_options(
     np.save(tmp_path / "profile.npy", np.array([0.0, 2.0, 1.0, 5.0]))
     as_read = Measured(str(tmp_path / "profile.npy"), "none", "none", 2.0, "um")
     assert np.array_equal(as_read.heights(4), [0.0, 2000.0, 1000.0, 5000.0])
-    assert as_read.length == 8.0
+    assert as_read.lengths == (8.0,)
     mirrored = Measured(str(tmp_path / "profile.npy"), "mean", "mirror", 2.0)
     assert mirrored.points == 6
     assert mirrored.heights(6) == pytest.approx([-2, 0, -1, 3, -1, 0])

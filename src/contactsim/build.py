@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from contactsim import analytic, loading
-from contactsim.elasticity import ELASTICITIES
+from contactsim.elasticity import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
 from contactsim.laws import EFFECTS
@@ -13,6 +13,7 @@ from contactsim.loading import LoadPath
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
+from contactsim.traits import Trait
 
 
 def scene_of(settings: dict) -> Scene:
@@ -24,7 +25,7 @@ def scene_of(settings: dict) -> Scene:
     upper = kind(**surface)
     elasticity = ELASTICITIES[body.pop("kind")](**body)
     effects = tuple(EFFECTS[name]() for name in settings["effects"])
-    path = load_path(settings, upper, elasticity.contact_modulus)
+    path = load_path(settings, upper, elasticity)
     return Scene(Body(Flat.facing(upper), elasticity), Body(upper), effects, path)
 
 
@@ -36,12 +37,14 @@ def points_of(settings: dict, surface: Surface) -> int:
     return points
 
 
-def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadPath:
+def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadPath:
     """Mean pressures from the loads as the study gives them.
 
     reduced_pressure: times E* and the rms gradient, the one prescribed or else that of the heights; contact_ratio:
-    what a cylinder needs for a half-width, or a sphere for a contact radius, of that part of its radius (Eq. 3.5).
+    what a cylinder needs for a half-width, or a sphere for a contact radius, of that part of its radius on a half-space
+    (Eq. 3.5).
     """
+    contact_modulus = elasticity.contact_modulus
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -57,6 +60,8 @@ def load_path(settings: dict, surface: Surface, contact_modulus: float) -> LoadP
         radius = settings["surface"].get("radius")
         if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
+        if Trait.HALF_SPACE not in elasticity.traits:
+            raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: analytic.cylinder_load, 2: analytic.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
     return loading.press([float(value) for value in values], labels)

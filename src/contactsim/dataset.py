@@ -25,6 +25,7 @@ SETTINGS = {
     "shortest_wavelength": ("nm", "shortest wavelength of the roughness"),
     "rms_gradient": ("1", "rms gradient prescribed"),
     "amplitudes": ("1", "distribution of the amplitudes"),
+    "width": ("nm", "period along y"),
     "dimensions": ("1", "dimensions of the surface"),
     "radius": ("nm", "radius of the cylinder or sphere"),
     "amplitude": ("nm", "amplitude of the wave"),
@@ -37,6 +38,8 @@ SETTINGS = {
     "unit": ("1", "unit of a measured profile's file"),
     "variable": ("1", "variable of a measured profile's file"),
     "contact_modulus": ("GPa", "contact modulus E*"),
+    "poisson_ratio": ("1", "Poisson's ratio"),
+    "thickness": ("nm", "thickness"),
     "kind": ("1", "kind"),
 }
 """Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""

@@ -5,8 +5,11 @@ Everything said here is read off the scene and the solvers' own declarations, so
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
+import numpy as np
+
+from contactsim.dataset import SETTINGS
 from contactsim.laws import EFFECTS
 from contactsim.scene import Scene
 from contactsim.solvers import SOLVERS, installed, solver, solver_class
@@ -81,7 +84,14 @@ def _body(scene: Scene, side: str) -> str:
     kind = type(body.surface).__name__
     if body.elasticity is None:
         return f"{kind}, rigid"
-    return f"{kind}, {type(body.elasticity).__name__} with E* = {body.elasticity.contact_modulus:g} GPa"
+    others = [entry.name for entry in fields(body.elasticity) if entry.name != "contact_modulus"]
+    named = "".join(f", {_setting(name, getattr(body.elasticity, name))}" for name in others)
+    return f"{kind}, {type(body.elasticity).__name__} with E* = {body.elasticity.contact_modulus:g} GPa{named}"
+
+
+def _setting(key: str, value: float) -> str:
+    unit, name = SETTINGS[key]
+    return f"{name} {value:g}" + f" {unit}" * (unit != "1")
 
 
 def _name(effect: object) -> str:
@@ -108,6 +118,8 @@ def _left_out(scene: Scene) -> dict[str, str]:
         out["the second displacement field"] = "aligned bodies: their compliances add"
     if Trait.HALF_SPACE in scene.traits:
         out["mean displacement"] = "free on a half-space: zero by convention"
+    elif scene.compliance(np.zeros(1))[0] == 0:
+        out["mean displacement"] = "zero: an incompressible layer keeps its volume"
     unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(on, kind) for on in scene.effects)]
     return out | dict.fromkeys(unlisted, "not listed")
 

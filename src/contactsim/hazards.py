@@ -25,7 +25,8 @@ class Case:
 
     Exactly one of mean_pressure and approach is given. exact: the pressure (n,), None where it is unknown; area: the
     exact relative contact area, of a profile so smooth that the grid moves it by at most half a point at each edge;
-    refuse: whether this must be refused; mirror: the point about which the scene is symmetric, where there is one.
+    refuse: whether this must be refused; mirror: the point about which the scene is symmetric, where there is one;
+    thickness and poisson_ratio: of a layer, None on a half-space.
     """
 
     heights: Array
@@ -38,24 +39,48 @@ class Case:
     area: float | None = None
     refuse: bool = False
     mirror: int | None = None
+    thickness: float | None = None
+    poisson_ratio: float | None = None
+
+    @property
+    def compliance(self) -> Array:
+        """Displacement over pressure of each real Fourier mode (n//2 + 1,); by numpy and other formulas than ours."""
+        q = 2 * np.pi * np.fft.rfftfreq(self.heights.size, self.spacing)
+        if self.thickness is None:
+            return np.divide(2 / self.contact_modulus, q, out=np.zeros_like(q), where=q > 0)
+        return layer_response(q * self.thickness, self.poisson_ratio) * (self.thickness / self.contact_modulus)
 
 
-def displacement(pressure: Array, spacing: float = 1.0, contact_modulus: float = 1.0) -> Array:
-    """Displacement S p (n,), zero on average, of a half-space under pressure (n,); by numpy's transforms alone."""
-    q = 2 * np.pi * np.fft.rfftfreq(pressure.size, spacing)
-    response = np.divide(2 / contact_modulus, q, out=np.zeros_like(q), where=q > 0)
-    return np.fft.irfft(np.fft.rfft(pressure - pressure.mean()) * response, pressure.size)
+def layer_response(x: Array, poisson_ratio: float) -> Array:
+    """Compliance over h/E* of a bonded layer at x = |q|h (Johnson 1985), (sinh 2x - 2x)/2x as an integral.
+
+    That is ∫₀¹ (cosh 2xt - 1) dt, by 60 points of Gauss; from x = 30 on it is the half-space's 2/x to 20 digits.
+    """
+    k, deep = 3 - 4 * poisson_ratio, np.minimum(x, 30.0)
+    points, weights = np.polynomial.legendre.leggauss(60)
+    bulk = 2 * np.sinh(np.outer(deep, (points + 1) / 2)) ** 2 @ (weights / 2)
+    layer = 4 * (k * bulk + (2 - 4 * poisson_ratio)) / (k * np.cosh(2 * deep) + (1 + k**2) / 2 + 2 * deep**2)
+    return np.where(x < 30, layer, 2 / np.maximum(x, 30.0))
 
 
-def made(field: Array, scale: float = 1.0, unit: float = 1.0, tolerance: float = 1e-8) -> Case:
+def displacement(pressure: Array, compliance: Array) -> Array:
+    """Displacement S p (n,) less its mean under pressure (n,); by numpy's transforms alone."""
+    return np.fft.irfft(np.fft.rfft(pressure - pressure.mean()) * compliance, pressure.size)
+
+
+def made(field: Array, scale: float = 1.0, unit: float = 1.0, tolerance: float = 1e-8, **layer: float) -> Case:
     """The case whose pressure is the positive part of a field (n,), and whose gap is the negative part.
 
-    scale: factor on heights and pressure; unit: of length, with a modulus that keeps the load of a length.
+    scale: factor on heights and pressure; unit: of length, with a modulus that keeps the load of a length; layer:
+    its thickness, in spacings, and Poisson's ratio.
     """
-    pressure, gap = np.maximum(field, 0.0), np.maximum(-field, 0.0)
-    heights = scale * (displacement(pressure) - gap)
+    if layer:
+        layer |= {"thickness": unit * layer["thickness"]}
+    pressure = np.maximum(field, 0.0)
     exact = scale / unit * pressure
-    return Case(unit * heights, exact.mean(), spacing=unit, contact_modulus=1 / unit, tolerance=tolerance, exact=exact)
+    case = Case(field, exact.mean(), spacing=unit, contact_modulus=1 / unit, tolerance=tolerance, exact=exact, **layer)
+    heights = displacement(exact, case.compliance) - unit * scale * np.maximum(-field, 0.0)
+    return replace(case, heights=heights)
 
 
 def _rough(points: int = POINTS) -> Array:
@@ -80,8 +105,9 @@ def _alone(heights: Array, load: float | None = None, depth: float = 0.0) -> Arr
     top = int(np.argmax(heights))
     pressure = np.zeros_like(heights)
     pressure[top] = 1.0
-    pressure[top] = depth / displacement(pressure)[top] if load is None else load * heights.size
-    gap = displacement(pressure) - heights
+    half_space = Case(heights).compliance
+    pressure[top] = depth / displacement(pressure, half_space)[top] if load is None else load * heights.size
+    gap = displacement(pressure, half_space) - heights
     return pressure if (gap >= gap[top]).all() else None
 
 
@@ -216,6 +242,37 @@ def last_gap(severity: float) -> Case:
     return Case(case.heights, approach=0.0, tolerance=1e-8, exact=case.exact)
 
 
+def thin_layer(severity: float) -> Case:
+    """A layer of ν = 0.3 gets thinner, from the roll-off wavelength to 1e-4 of it: points yield each on their own."""
+    return made(_level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-severity / 25), poisson_ratio=0.3)
+
+
+def incompressible_layer(severity: float) -> Case:
+    """In a layer a tenth as thick as the roll-off wavelength, ν rises from 0.3 to exactly 0.5: the volume is fixed."""
+    ratio = 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
+    return made(_level(_rough(), 0.1), thickness=POINTS / 40, poisson_ratio=ratio)
+
+
+def thin_incompressible_layer(severity: float) -> Case:
+    """A layer of ν = 0.5 gets thinner, from the roll-off wavelength to 1e-3 of it: long waves meet no compliance."""
+    return made(_level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
+
+
+def thick_layer(severity: float) -> Case:
+    """A layer of ν = 0.3 gets thicker, from the roll-off wavelength to 1e12 spacings: at last it is a half-space."""
+    return made(_level(_rough(), 0.1), thickness=POINTS / 4 * (4e12 / POINTS) ** (severity / 100), poisson_ratio=0.3)
+
+
+def pushed_layer(severity: float) -> Case:
+    """The approach to a layer of ν = 0.3 is prescribed, up to a million times that of complete contact."""
+    case = Case(_rough(), thickness=POINTS / 4, poisson_ratio=0.3)
+    flat = np.fft.irfft(np.fft.rfft(case.heights) / case.compliance)  # of mean zero, as the heights
+    full = -flat.min()
+    load = full * (0.5 + 10 ** (-4 + severity / 10))
+    exact = load + flat if load >= full else None
+    return replace(case, approach=load * case.compliance[0], exact=exact)
+
+
 def zero_load(severity: float) -> Case:
     """No load, on profiles from 1e-12 to 1e12 high: no contact, and no iteration."""
     return Case(_rough() * 10 ** (-12 + 24 * severity / 100), 0.0, exact=np.zeros(POINTS))
@@ -253,6 +310,11 @@ HAZARDS: dict[str, Callable[[float], Case]] = {
         awkward_sizes,
         units,
         far_datum,
+        thin_layer,
+        incompressible_layer,
+        thin_incompressible_layer,
+        thick_layer,
+        pushed_layer,
         zero_load,
         tension,
         tight_tolerance,

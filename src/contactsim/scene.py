@@ -6,17 +6,18 @@ to do (the traits) follow from what the scene lists.
 
 The hard-wall problem is posed without units. Lengths are in grid steps, the typical height difference of neighbouring
 points (see `grid_step`); pressures in E*·step/spacing. Nothing a solver does can then depend on the units of the
-input. With w the displacement of the elastic surface, zero on average on a half-space, and h ≤ 0 the heights below the
-highest point,
+input. With w the displacement of the elastic surface and h ≤ 0 the heights below the highest point,
 
     gap = w - h - a ≥ 0,   w = S p,   p ≥ 0,   p·gap = 0,
 
-where a is the approach beyond first touch, given or, with the mean pressure prescribed, found.
+where a is the approach beyond first touch, given or, with the mean pressure prescribed, found. On a half-space w is
+zero on average by convention, on an incompressible layer because it keeps its volume. With the mean pressure
+prescribed it is so for any body: a uniform displacement leaves the gap alone, and is added to the approach afterwards.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 
 import numpy as np
@@ -30,9 +31,11 @@ from contactsim.surface import Surface
 from contactsim.traits import Trait
 
 FLATTEST = 1e-10
-"""Smallest grid step told from rounding, over p·spacing/E*: below it the latter counts as the length."""
+"""Smallest grid step told from rounding, over p·spacing/E* or the approach: below it the latter counts as length."""
 
 
+SAMPLE = 2**22
+"""Points of a surface, in whole rows, that are enough to say what is typical."""
 STEEPEST = 1e-9
 """Height differences below it, over the rms of all, count as none when the typical one is sought."""
 
@@ -107,11 +110,15 @@ class Scene:
 
 @dataclass(frozen=True)
 class Scale:
-    """Units of a problem: length of a grid step (nm), pressure E*·step/spacing (GPa), largest height (nm)."""
+    """Units of a problem: length of a grid step (nm), pressure E*·step/spacing (GPa); and what its approach leaves out.
+
+    highest: largest height (nm); sunk: mean displacement under the load given (nm), which no gap feels.
+    """
 
     step: float
     pressure: float
     highest: float
+    sunk: float = 0.0
 
 
 def grid_step(heights: Array) -> float:
@@ -120,11 +127,13 @@ def grid_step(heights: Array) -> float:
     The median over 0.6745, which for Gaussian heights is the rms difference, of what differs at all; at most the rms.
     The rms itself would let a single pit, which the contact never feels, make every tolerance loose.
     """
-    scale = np.max(np.abs(heights), initial=0.0)
+    scale = max(abs(float(heights.max())), abs(float(heights.min())))
     if not scale:
         return 0.0
-    axes = range(heights.ndim)
-    differences = np.abs([heights / scale - np.roll(heights, 1, axis) / scale for axis in axes])
+    row = np.arange(0, heights.shape[0], 1 if heights.ndim == 1 else max(heights.size // SAMPLE, 1))
+    here = heights[row] / scale
+    steps = [here - np.roll(here, 1, -1)] if heights.ndim > 1 else []
+    differences = np.abs(np.stack([*steps, here - heights[row - 1] / scale]))
     rms = float(np.sqrt(np.mean(differences**2)))
     felt = differences[differences > STEEPEST * rms]
     return float(scale * min(rms, np.median(felt) / 0.6745)) if felt.size else 0.0
@@ -214,15 +223,23 @@ class Certificate:
 def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressure: float) -> Array:
     """The compliance over spacing/E*; refused where that, heights or pressures leave the range of floating point."""
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
-        flexibility = grid.spacing[0] / np.float64(scene.contact_modulus)
+        flexibility = grid.spacing[-1] / np.float64(scene.contact_modulus)
         symbol = scene.compliance(grid.wavenumber) / flexibility
         largest = np.float64(heights.size) * max(unit / flexibility, pressure)
-        extents = flexibility, largest, (heights.max() - heights.min()) / unit, *symbol[1:]
-    if not (np.isfinite(extents).all() and flexibility > 0 and (symbol[1:] > 0).all()):
-        given = f"{grid.spacing[0]:g}, {scene.contact_modulus:g}, {np.abs(heights).max():g}, {pressure:g}"
+        extents = flexibility, largest, (heights.max() - heights.min()) / unit
+    positive = np.isfinite(symbol).all() and (symbol.ravel()[1:] > 0).all()
+    if not (np.isfinite(extents).all() and flexibility > 0 and positive):
+        given = f"{grid.spacing[-1]:g}, {scene.contact_modulus:g}, {np.abs(heights).max():g}, {pressure:g}"
         allowed = "units in which heights, pressures and their ratios stay within the range of floating point"
         raise SceneError("spacing, contact_modulus, heights, mean_pressure", given, allowed)
     return symbol
+
+
+def _why_zero(scene: Scene) -> str:
+    """Why the compliance of the uniform mode is zero."""
+    if Trait.HALF_SPACE in scene.traits:
+        return "by convention on a half-space"
+    return "as an incompressible layer keeps its volume"
 
 
 def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int) -> tuple[WallProblem, Scale]:
@@ -230,21 +247,26 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
     grid = Grid(heights.shape, scene.lengths, threads)
-    flexibility = grid.spacing[-1] / scene.contact_modulus
     highest = float(heights.max())
+    overlap = step.value + highest  # beyond first touch, if it is an approach
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
     # A profile that is flat but for rounding has no grid step of its own: what the load moves takes its place.
     with np.errstate(over="ignore"):  # refused below
-        unit = max(grid_step(heights), FLATTEST * (pressure or 0.0) * flexibility) or flexibility
-    approach = None if pressure is not None else (step.value + highest) / unit
-    free = Trait.HALF_SPACE in scene.traits
-    if free and approach is not None and approach > 0 and step.value >= -heights.mean():
-        limit = 0.0 if abs(heights.mean()) < 1e-12 * np.abs(heights).max() else -heights.mean()
-        allowed = f"below {limit:.17g}, where the half-space would be in full contact"
-        raise SceneError("approach", step.value, allowed)
+        flexibility = float(grid.spacing[-1] / np.float64(scene.contact_modulus))
+        moved = max(overlap, 0.0) if pressure is None else pressure * flexibility
+        unit = max(grid_step(heights), FLATTEST * moved) or flexibility
+    approach = None if pressure is not None else overlap / unit
     symbol = _without_units(scene, grid, heights, unit, pressure or 0.0)
+    uniform = float(symbol.flat[0])
+    if uniform == 0 and approach is not None and approach > 0 and step.value >= -heights.mean():
+        limit = 0.0 if abs(heights.mean()) < 1e-12 * np.abs(heights).max() else -heights.mean()
+        allowed = f"below {limit:.17g}, full contact: the mean displacement is zero, {_why_zero(scene)}"
+        raise SceneError("approach", step.value, allowed)
     scale = Scale(unit, unit / flexibility, highest)
+    load = None if pressure is None else pressure / scale.pressure
+    if load is not None:  # a uniform displacement leaves the gaps alone, and would only add its rounding to them
+        scale = replace(scale, sunk=uniform * flexibility * pressure)
+        symbol.flat[0] = 0.0
     tally = Tally(heights.size)
     compliance = Operator(grid, symbol, tally)
-    load = None if pressure is None else pressure / scale.pressure
     return WallProblem((heights - highest) / unit, compliance, tolerance, load, approach, tally), scale

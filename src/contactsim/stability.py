@@ -56,6 +56,8 @@ def judge(case: Case, method: str | Solver) -> Verdict:
             contact_modulus=case.contact_modulus,
             mean_pressure=case.mean_pressure,
             approach=case.approach,
+            thickness=case.thickness,
+            poisson_ratio=case.poisson_ratio,
             tolerance=case.tolerance,
             solver=method,
         )
@@ -76,11 +78,16 @@ def judge(case: Case, method: str | Solver) -> Verdict:
 
 def faults(case: Case, result: Result) -> str:
     """What is wrong with a converged result; empty if nothing is."""
-    gap = displacement(result.pressure, case.spacing, case.contact_modulus) - case.heights - result.approach
     allowed, pressure = _allowed(case, result), result.pressure
+    sunk = case.compliance[0] * result.mean_pressure
+    gap = displacement(pressure, case.compliance) - case.heights
+    level = gap[result.contact].mean() if sunk else result.approach
+    gap -= level
+    if abs(level + sunk - result.approach) > allowed + 1e-14 * sunk:
+        return "approach and mean displacement do not fit the gap"
     if pressure.min() < 0:
         return "negative pressure"
-    if case.approach is not None and abs(result.approach - case.approach) > allowed:
+    if case.approach is not None and abs(result.approach - case.approach) > allowed + 1e-14 * sunk:
         return "not the approach asked for"
     if case.approach is None and abs(result.mean_pressure - case.mean_pressure) > 1e-12 * case.mean_pressure:
         return "forces do not balance"
@@ -110,13 +117,14 @@ def _allowed(case: Case, result: Result) -> float:
 def _precision(case: Case, load: float, allowed: float) -> float:
     """Largest rms error of the pressure, of any field that meets the contact condition to within `allowed`.
 
-    At equal load, δp·S δp is at most the sum of both loads times the largest error of the gap, and S is at least
-    2Δx/(πE*). Where that says little, because a grid step is large beside what the load moves, a hundredth of the
-    exact pressure is the most. With the approach prescribed there is no such bound: a thousandth of the load.
+    At equal load, δp·S δp is at most the sum of both loads times the largest error of the gap, and S is at least its
+    value for the stiffest wave. Where that says little, because a grid step is large beside what the load moves, a
+    hundredth of the exact pressure is the most. With the approach prescribed there is no such bound: a thousandth of
+    the load.
     """
     if case.mean_pressure is None:
         return 1e-3 * load
-    bound = float(np.sqrt(np.pi * case.contact_modulus / case.spacing * allowed * load)) + 1e-12 * load
+    bound = float(np.sqrt(2 * allowed * load / case.compliance[1:].min())) + 1e-12 * load
     return bound if case.exact is None else min(bound, 1e-2 * _rms(case.exact))
 
 

@@ -16,5 +16,6 @@ class Trait(Enum):
     SURFACE = "surface contact: surfaces vary along two directions"
     WALL = "hard wall: the gap is never negative, the pressure never pulls"
     HALF_SPACE = "half-space: the mean displacement is free, so the uniform mode has no stiffness"
+    LAYER = "layer on a rigid base: long waves meet a stiffness that depends on thickness and Poisson's ratio"
     MEAN_PRESSURE = "load step given by a mean pressure"
     APPROACH = "load step given by an approach"

@@ -9,8 +9,16 @@ across each open gap, K is the stiffness of the whole line, Eᵀ the adjoint. In
 displacement continued smoothly needs hardly any pressure there: two to four iterations gain a factor ten, at any
 fraction of contact, and at full contact the preconditioner is the exact inverse. Setting the continuation to zero
 instead costs three to six times more. Constants are continued to constants, which K maps to zero, so with a
-prescribed load every search direction keeps the load; with a prescribed approach the uniform mode gets the stiffness
-of the longest wave.
+prescribed load every search direction keeps the load; with a prescribed approach the uniform mode gets its own
+stiffness or, on a half-space, which has none, that of the longest wave.
+
+A layer feels nothing beyond its thickness h: what is continued dies out within it, at a rate read off the stiffness of
+the softest wave, which on a half-space is the longest one and gives no decay at all. The iterations then fall with h,
+from those of the half-space to a third of them where h is below a hundredth of the longest waves. Only where an
+incompressible layer is much thinner than the contacts are wide do they grow as h falls, to about three times those of
+the half-space for few contacts and more for many: the volume that leaves a contact heaps up around it, which no
+continuation of this kind shows. The stiffness then is no M-matrix either; on rough lines, with h of half a spacing and
+more, the sets have settled nevertheless.
 
 K itself needs no transform of full length there: what a few neighbours cannot express of |q| is smooth, and is added
 on blocks of eight points (`BlockStiffness`). The number of iterations stays the same and each one costs 2.25 transforms
@@ -31,18 +39,23 @@ from contactsim.traits import Trait
 
 
 class Continuation:
-    """E and Eᵀ: linear interpolation between the contact points on the circle, and its adjoint.
+    """E and Eᵀ: interpolation between the contact points on the circle, and its adjoint.
 
-    Results of `extend`, and arguments of `restrict`, start at the first contact point instead of at x = 0; a
-    translation-invariant operator between the two does not mind.
+    Linear, and decaying from both ends of a gap where there is a rate of decay. Results of `extend`, and arguments of
+    `restrict`, start at the first contact point instead of at x = 0; a translation-invariant operator between the two
+    does not mind.
     """
 
-    def __init__(self, contact: Array) -> None:
+    def __init__(self, contact: Array, decay: float = 0.0) -> None:
+        """decay: rate at which what is continued dies out, per point."""
         self.index = np.flatnonzero(contact)
         gaps = np.diff(self.index, append=self.index[0] + contact.size)
         self._begin = np.cumsum(gaps) - gaps
         self._owner = np.repeat(np.arange(self.index.size), gaps)
         self._fraction = (np.arange(contact.size) - self._begin[self._owner]) / gaps[self._owner]
+        self._envelope = None
+        if decay * contact.size > 1e-8:  # or else it is 1 to rounding
+            self._envelope = _decaying(self._fraction, decay * gaps, self._owner)
 
     def extend(self, values: Array, out: Array, scratch: Array) -> None:
         """From the contact points, shape (m,), to all points: `out`, shape (n,)."""
@@ -50,11 +63,33 @@ class Continuation:
         scratch *= self._fraction
         np.take(values, self._owner, out=out, mode="clip")
         out += scratch
+        if self._envelope is not None:
+            out *= self._envelope
 
     def restrict(self, values: Array, scratch: Array | None = None) -> Array:
-        """The adjoint: from all points, shape (n,), to the contact points, shape (m,)."""
+        """The adjoint: from all points, shape (n,), overwritten, to the contact points, shape (m,)."""
+        if self._envelope is not None:
+            values *= self._envelope
+        return self.share(values, scratch)
+
+    def share(self, values: Array, scratch: Array | None = None) -> Array:
+        """The adjoint without the envelope, which keeps the sum."""
         right = np.add.reduceat(np.multiply(values, self._fraction, out=scratch), self._begin)
         return np.add.reduceat(values, self._begin) - right + np.roll(right, 1)
+
+
+DECAY = 8.0
+"""Rate at which a continuation dies out, per point, over the stiffness of the softest wave beyond the half-space's."""
+
+
+def _decaying(fraction: Array, reach: Array, owner: Array) -> Array:
+    """How a constant is continued across gaps of `reach` decay lengths, at a fraction of the way: 1 at both ends."""
+    far = reach[owner]
+    near = fraction * far
+    np.exp(np.subtract(near, far, out=far), out=far)
+    far += np.exp(np.negative(near, out=near), out=near)
+    far /= np.take(1 + np.exp(-reach), owner, out=near, mode="clip")
+    return far.astype(np.float32)  # digits enough, as E and Eᵀ use the same
 
 
 def block_of(points: int) -> int:
@@ -65,13 +100,14 @@ def block_of(points: int) -> int:
 class BlockStiffness:
     """Stiffness K for preconditioning: nearest neighbours, and the rest on blocks of points.
 
+    Short waves have K = a + b|q|, with a = 0 unless a layer is as thin as the grid is wide, and
     |q| = π/2 - (4/π) Σ cos(jq)/j² over odd j (rad per point). Three terms are applied as differences; what they miss
     is smooth and is applied to means over blocks of eight points, through transforms of that reduced length. A grid
-    that does not divide into blocks has K itself.
+    that does not divide into blocks has K itself. decay: rate at which a continuation dies out, per point.
     """
 
     def __init__(self, compliance: Operator, uniform: bool) -> None:
-        """uniform: whether the uniform mode is free (K = 0 there) or as stiff as the longest wave."""
+        """uniform: whether the uniform mode is free, so that its stiffness is of no account."""
         grid = compliance.grid
         size = grid.size
         self.block = block_of(size)
@@ -79,11 +115,19 @@ class BlockStiffness:
         coarse = grid.coarser((size // self.block,))
         stiffness = np.zeros(coarse.size // 2 + 1)
         stiffness[1:] = 1 / compliance.symbol[1 : coarse.size // 2 + 1]
-        stiffness[0] = 0.0 if uniform else stiffness[1]
+        softest = max(1 / compliance.symbol[1:].max() - np.pi / size, 0.0)  # beyond the half-space's longest wave
+        self.decay = DECAY * softest
+        if uniform:
+            stiffness[0] = softest
+        else:
+            stiffness[0] = 1 / compliance.symbol[0] if compliance.symbol[0] > 0 else stiffness[1]
         angle = 2 * np.pi * np.arange(stiffness.size) / size
-        highest = 1 / (compliance.symbol[-1] * 2 * np.pi * (size // 2) / size)  # K/|q| on the shortest waves
-        self._centre = highest * np.pi / 2 if self.reach else 0.0
-        self._weights = [-highest * 2 / np.pi / j**2 for j in self.reach]
+        slope, self._centre = 0.0, 0.0
+        if self.reach:
+            shortest = 1 / compliance.symbol[-1]
+            slope = (shortest - stiffness[-1]) / (np.pi - angle[-1])
+            self._centre = shortest - slope * np.pi / 2
+        self._weights = [-slope * 2 / np.pi / j**2 for j in self.reach]
         local = self._centre + 2 * sum(w * np.cos(j * angle) for w, j in zip(self._weights, self.reach, strict=True))
         self._rest = Operator(coarse, stiffness - local, compliance.tally)
         self._mean = np.full(self.block, 1 / self.block)
@@ -131,8 +175,8 @@ class ActiveSet:
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
-    fields = 31
-    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE, Trait.APPROACH})
+    fields = 32
+    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
 
     def __post_init__(self) -> None:
         if not 0 < self.reduction < 1:
@@ -151,7 +195,9 @@ class ActiveSet:
             pressure[contact] = problem.load or 0.0
         stiffness = BlockStiffness(problem.compliance, uniform=problem.load is not None)
         work = np.empty((3, problem.heights.size))
-        return ActiveSetState(pressure, False, Continuation(_solvable(problem, contact)), 0, stiffness, work)
+        return ActiveSetState(
+            pressure, False, Continuation(_solvable(problem, contact), stiffness.decay), 0, stiffness, work
+        )
 
     def step(self, problem: WallProblem, state: ActiveSetState) -> ActiveSetState:
         """Solve on the contact set, then drop what pulls and add what overlaps."""
@@ -163,8 +209,8 @@ class ActiveSet:
         overlapping[index] = False
         if not (overlapping.any() or (pressure < 0).any()):
             return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=state.count + 1)
-        continuation = Continuation(_solvable(problem, (pressure > 0) | overlapping))
-        moved = continuation.restrict(np.roll(pressure, -continuation.index[0]))
+        continuation = Continuation(_solvable(problem, (pressure > 0) | overlapping), state.stiffness.decay)
+        moved = continuation.share(np.roll(pressure, -continuation.index[0]))
         pressure[:] = 0.0
         if problem.load is not None and moved.size == 1:
             moved[:] = problem.load * pressure.size  # exactly: a small load is lost in the rounding of what moved
@@ -187,6 +233,8 @@ class ActiveSet:
                 break
             continuation.extend(residual, stiffness.field, moved)
             corrected = continuation.restrict(stiffness(spread, moved), moved)
+            if problem.load is not None:
+                corrected -= corrected.mean()  # every direction keeps the load
             previous, energy = energy, float(residual @ corrected)
             if not energy > 0:
                 break
@@ -209,10 +257,10 @@ def _residual(problem: WallProblem, gap: Array) -> tuple[Array, float]:
 
 
 def _solvable(problem: WallProblem, contact: Array) -> Array:
-    """A set on which the inner problem has a solution: never empty, and never full with the approach given."""
+    """A set on which the inner problem has a solution: never empty; full only where the approach is free or felt."""
     if not contact.any():
         contact[np.argmax(problem.heights)] = True
-    if problem.load is None and contact.all():
+    if problem.load is None and problem.compliance.symbol[0] == 0 and contact.all():
         contact[np.argmin(problem.heights)] = False
     return contact
 

@@ -158,7 +158,7 @@ def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
     return Result(
         pressure=pressure * scale.pressure,
         gap=certificate.gap * scale.step,
-        approach=certificate.approach * scale.step - scale.highest,
+        approach=certificate.approach * scale.step - scale.highest + scale.sunk,
         status=status,
         record=record,
         seconds=time.process_time() - begin,

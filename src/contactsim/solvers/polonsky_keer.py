@@ -33,7 +33,7 @@ class PolonskyKeer:
     batch: int = 25
     budget: int = 400
     fields = 18
-    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
+    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
 
     def transforms(self, points: int) -> float:
         """Real transforms of an iteration on a grid of that size."""

@@ -34,7 +34,7 @@ class WallVerlet:
     """One outer step is a batch of time steps, after which the force outside the contact is looked at.
 
     time_step: δt relative to the stability limit 2/√K_max of the undamped scheme, below 1; damping: relative to the
-    critical damping of the longest wave, so 1 settles that wave fastest.
+    critical damping of the softest wave, the longest on a half-space, so 1 settles that wave fastest.
     """
 
     time_step: float = 0.7
@@ -42,7 +42,7 @@ class WallVerlet:
     batch: int = 100
     budget: int = 2000
     fields = 18
-    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
+    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
 
     def __post_init__(self) -> None:
         if not 0 < self.time_step < 1:
@@ -69,7 +69,7 @@ class WallVerlet:
         """A batch of time steps, then the reaction of the wall as pressure."""
         stiffness = state.stiffness
         square = 4 * self.time_step**2 / stiffness.symbol.max()
-        friction = min(2 * self.damping * np.sqrt(stiffness.symbol[1] * square), 1.0)
+        friction = min(2 * self.damping * np.sqrt(stiffness.symbol[1:].min() * square), 1.0)
         surface, previous = state.surface, state.previous
         for _ in range(self.batch):
             force = -problem.load - stiffness(surface)
