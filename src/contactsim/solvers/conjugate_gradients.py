@@ -2,7 +2,7 @@
 
 Minimise ½ p·Sp - p·h over p ≥ 0 at a given load. An iteration moves the pressure along a conjugate direction (Polak
 and Ribière's), cuts it at zero, shifts it so that the load stays, and takes the exact step along the change that is
-left, at most the whole of it if anything was cut. Points that carry nothing and gape are dropped at once, points that
+left, as far as no pressure turns negative. Points that carry nothing and gape are dropped at once, points that
 overlap are added. The gap is updated with the same transform that gives the step: one application of S an iteration.
 
 The residual is preconditioned by Gᵀ(1 - B)G. G is a factorised sparse approximate inverse of S on the contact: the row
@@ -36,8 +36,11 @@ NEIGHBOURS = ((0, -1), (-1, -1), (-1, 0), (-1, 1))
 """West, north-west, north and north-east: (row, column)."""
 ROUNDING = 5e-7
 """Fall of the residual after which rounding in single precision begins to show, and the gap is computed anew."""
-SHARE = 1e-12
-"""Part of the load by which the shift of a step may miss it."""
+LONGEST = 3.0
+"""Most by which a step may be longer than was tried, and the next trial than this one."""
+EPSILON = float(np.finfo(float).eps)
+SHARE, CORRECTIONS = 1e-12, 30
+"""Part of the load by which the shift of a step may miss it, and most corrections of the shift."""
 OPENING = 0.75
 """Pressure over gap, in E* a spacing, when both are continued as one field."""
 
@@ -57,7 +60,7 @@ class Preconditioner:
         grid = compliance.grid
         self.tally = compliance.tally
         self.table = stencil(compliance)
-        coarse = grid.coarser(tuple(-(-size // kernels.CELL) for size in grid.shape))
+        coarse = grid.coarser(tuple(max(-(-size // kernels.CELL), 2) for size in grid.shape))
         self.cells = np.zeros(coarse.shape, np.float32)
         symbol = np.abs(compliance.symbol[coarse.modes_of(grid)])
         ratio = np.divide(wavelength / np.pi, symbol, out=np.zeros_like(symbol), where=symbol > 0)
@@ -109,7 +112,7 @@ class ConjugateGradients:
     wavelength: float = 16.0
     budget: int = 60
     fields = 9
-    accepts = frozenset({Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE, Trait.APPROACH})
+    accepts = frozenset({Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
 
     def __post_init__(self) -> None:
         if not self.wavelength > 0:
@@ -130,7 +133,7 @@ class ConjugateGradients:
 
     def step(self, problem: WallProblem, state: ConjugateGradientsState) -> ConjugateGradientsState:
         """Iterate from the state's pressure, whose gap is computed anew."""
-        pressure = np.array(state.pressure)
+        pressure = problem.admissible(state.pressure)
         gap = _gap(problem, pressure, pressure > 0)
         done, level = self._relax(problem, pressure, gap)
         gap -= np.float32(level)
@@ -147,7 +150,7 @@ class ConjugateGradients:
         load = problem.load * problem.heights.size if free else 0.0
         overlap, none = np.float32(problem.tolerance / 2), np.float32(0)
         moving = (*where, pressure, spread.change, gap, spread.out)
-        total, points, added, deepest, widest, along = rows(kernels.advance, *moving, none, none, overlap, direction)
+        total, points, added, along, deepest, widest = rows(kernels.advance, *moving, none, none, overlap, direction)
         level = total / points if free and points else 0.0
         first = worst = max(deepest, widest) + abs(level)
         length, past, energy = 1.0, (spread.out, none, np.float32(level)), 0.0
@@ -166,20 +169,26 @@ class ConjugateGradients:
             shift = length * (sums + beta * along) / points if free else 0.0
             turning = (*where, spread.change, np.float32(beta), direction, pressure, length, shift)
             carried, carriers, *_ = rows(kernels.turn, *turning)
-            while free and abs(carried - load) > SHARE * load:
+            for _ in range(CORRECTIONS if free else 0):  # Newton's, which from the left do not overshoot
+                if abs(carried - load) <= max(SHARE * load, EPSILON * carriers * abs(shift)):
+                    break
                 shift += (carried - load) / carriers if carriers else -abs(shift) - load
                 carried, carriers, *_ = rows(kernels.carried, *where, pressure, direction, length, shift)
-            product, cut, *_ = rows(kernels.trial, *where, pressure, direction, length, shift, gap, here, spread.change)
+            product, *_, taken, _ = rows(
+                kernels.trial, *where, pressure, direction, length, shift, gap, here, spread.change
+            )
             spread.apply()
             stiffness, risen, *_ = rows(kernels.work, *where, spread.change, spread.out)
             if not stiffness > 0:
                 break
             exact = product / stiffness
-            theta = np.float32(min(exact, 1.0) if cut else exact)
-            length *= min(max(exact, 0.1), 10.0)
+            if not exact > 0:  # rounding has moved the load, and the change does nothing but bring it back: let it
+                exact, energy = 1.0, 0.0
+            theta = np.float32(min(exact, LONGEST, 1 / taken if taken > 0 else LONGEST))
+            length *= min(max(exact, 1 / LONGEST), LONGEST)
             past = (spread.out, theta, here)
             level = level + theta * risen / points if free else 0.0
-            total, points, added, deepest, widest, along = rows(
+            total, points, added, along, deepest, widest = rows(
                 kernels.advance, *moving, theta, np.float32(level), overlap, direction
             )
             worst = max(deepest, widest)

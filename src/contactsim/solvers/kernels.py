@@ -1,8 +1,9 @@
 """Loops over a surface in single precision, compiled: what conjugate gradients does between two transforms.
 
 Every kernel works on the rows from `low` to `high` of arrays of shape (ny, nx or more), periodic in both directions,
-and writes its sums into `sums`. `Rows` calls it block by block, on several threads if asked to; the blocks depend on
-the grid alone and their sums are added in order, so that the result does not depend on the number of threads.
+and writes its results into `sums`, first what adds up, then largest values. `Rows` calls it block by block, on several
+threads if asked to; the blocks depend on the grid alone and their sums are added in order, so that the result does not
+depend on the number of threads.
 
 contact is 1 where a point may carry pressure; the residual there is level - gap. It is padded with zeros to WORD
 columns a word, and `words` is the same memory as whole words: those that are zero are passed over. What is read and
@@ -27,7 +28,8 @@ CELL = 4
 """Points along a side of a cell on which long waves are corrected."""
 WORD = 8
 """Points whose contact is looked at in one go."""
-SUMS = 6
+SUMS, MOST = 4, 2
+"""Numbers of a kernel's results: sums over all points, then largest values."""
 
 compiled = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "arcp", "nsz"})
 
@@ -50,19 +52,19 @@ class Rows:
         self._pool = ThreadPoolExecutor(threads) if threads > 1 and len(self.bounds) > 1 else None
 
     def __call__(self, kernel: Callable, *arguments: object) -> Array:
-        """Sums over all rows, shape (SUMS,)."""
-        sums = np.zeros((len(self.bounds), SUMS))
+        """Sums over all rows, then largest values, shape (SUMS + MOST,)."""
+        sums = np.zeros((len(self.bounds), SUMS + MOST))
 
         def block(place: int) -> None:
             kernel(*self.bounds[place], self.width, *arguments, sums[place])
 
         list((self._pool.map if self._pool else map)(block, range(len(self.bounds))))
-        return sums.sum(axis=0)
+        return np.concatenate((sums[:, :SUMS].sum(axis=0), sums[:, SUMS:].max(axis=0)))
 
 
 @compiled
 def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, sums):
-    """Out = G r; cells: sums of out over each cell; code: which neighbours are in contact."""
+    """`out` = G r; cells: sums of out over each cell; code: which neighbours are in contact."""
     ny = contact.shape[0]
     for i in range(low, high):
         up = i - 1 if i > 0 else ny - 1
@@ -91,7 +93,7 @@ def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, s
 
 @compiled
 def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, table, code, field, smooth, out, sums):
-    """Out = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
+    """`out` = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
     ny = contact.shape[0]
     now = 0.0
     then = 0.0
@@ -128,7 +130,7 @@ def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, ta
 
 @compiled
 def turn(low, high, nx, contact, words, corrected, beta, direction, pressure, length, shift, sums):
-    """Direction = corrected + beta × direction; sums: load of max(p + length × direction - shift, 0), its points."""
+    """`direction` = corrected + beta × direction; sums: load of max(p + length × direction - shift, 0), its points."""
     load = 0.0
     count = 0
     for i in range(low, high):
@@ -167,9 +169,9 @@ def carried(low, high, nx, contact, words, pressure, direction, length, shift, s
 
 @compiled
 def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap, level, change, sums):
-    """Change = max(p + length × direction - shift, 0) - p; sums: change·r, number of pressures cut to zero."""
+    """`change` = max(p + length × direction - shift, 0) - p; sums: change·r; largest part of a pressure taken away."""
     along = 0.0
-    cut = 0
+    taken = 0.0
     for i in range(low, high):
         for word in range(words.shape[1]):
             if words[i, word] == 0:
@@ -177,14 +179,13 @@ def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap
             for j in range(WORD * word, min(WORD * word + WORD, nx)):
                 if contact[i, j]:
                     value = pressure[i, j] + length * direction[i, j] - shift
-                    if value < 0:
-                        value = 0.0
-                        if pressure[i, j] > 0:
-                            cut += 1
+                    value = max(value, 0.0)
                     change[i, j] = value - pressure[i, j]
+                    if value < pressure[i, j] * (1 - taken):
+                        taken = 1 - value / pressure[i, j]
                     along += change[i, j] * (level - gap[i, j])
     sums[0] = along
-    sums[1] = cut
+    sums[4] = taken
 
 
 @compiled
@@ -206,10 +207,10 @@ def work(low, high, nx, contact, words, change, spread, sums):
 
 @compiled
 def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta, level, overlap, direction, sums):
-    """P += theta × change, gap += theta × spread; drop points that carry nothing and gape, add those that overlap.
+    """Step: p += theta × change, gap += theta × spread; drop points that carry nothing and gape, add those that overlap.
 
     level: the gap on the contact after the step; overlap: how far below it a point is added. sums: gap on the new
-    contact, its points, points added, largest overlap, largest gap where pressure is, direction on the new contact.
+    contact, its points, points added, direction on the new contact; largest overlap, largest gap where pressure is.
     """
     total = 0.0
     count = 0
@@ -265,9 +266,9 @@ def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta,
     sums[0] = total
     sums[1] = count
     sums[2] = added
-    sums[3] = deepest
-    sums[4] = widest
-    sums[5] = along
+    sums[3] = along
+    sums[4] = deepest
+    sums[5] = widest
 
 
 @compiled
