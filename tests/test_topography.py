@@ -19,11 +19,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from cases import refusal
-from contactsim import measured
+from contactsim import dataset, march, measured
 from contactsim.config import keys_of, read
 from contactsim.errors import SceneError
 from contactsim.scans import UNITS
-from contactsim.study import STUDY_KEYS, Study
+from contactsim.solvers.base import Status
+from contactsim.study import Study
 from contactsim.surface import SURFACES, MeasuredSurface
 from contactsim.topography import DETREND, PERIODIC, Topography, prepare, read_topography
 
@@ -743,18 +744,37 @@ def test_a_measured_surface_can_be_configured() -> None:
             read({"file": "t.npy", "spacing": spacing}, keys, "ch9.yaml", "surface")
 
 
-def test_a_measured_surface_whose_file_changes_makes_another_run(tmp_path: Path) -> None:
+def area(file: Path) -> Study:
+    """A study that presses a measured surface."""
     section = {
         "title": "An area",
-        "surface": {"kind": "measured_surface", "file": str(write_npy(tmp_path)), "spacing": [DY, DX]},
+        "surface": {"kind": "measured_surface", "file": str(file), "spacing": [DY, DX]},
         "body": {"kind": "half_space", "contact_modulus": 1.0},
         "effects": ["hard_wall"],
-        "load": {"mean_pressure": [1e-3]},
+        "load": {"reduced_pressure": [1e-2]},
         "tolerance": 1e-3,
     }
-    study = Study("area", read(section, STUDY_KEYS, "ch9.yaml"), "ch9.yaml", 1)
-    (before,) = study.runs()
-    npy_file(tmp_path, HEIGHTS + 1)
-    (after,) = study.runs()
+    return Study.read("area", section, "ch9.yaml", 1)
+
+
+def test_a_measured_surface_whose_file_changes_makes_another_run(tmp_path: Path) -> None:
+    (before,) = area(write_npy(tmp_path)).runs()
+    (after,) = area(npy_file(tmp_path, HEIGHTS + 1)).runs()
     assert before.settings["surface"] == after.settings["surface"]
     assert before.digest != after.digest
+
+
+def test_a_measured_surface_is_pressed_on_its_own_grid(tmp_path: Path) -> None:
+    heights = np.random.default_rng(0).standard_normal((24, 16))
+    (run,) = area(npy_file(tmp_path, heights)).runs()
+    march.run(run.settings, run.source, tmp_path / "run.nc", tmp_path / "run.json")
+    data = dataset.read(tmp_path / "run.nc")
+    assert data.status == Status.CONVERGED.value[0]
+    assert (int(data.points), int(data.points_y), float(data.length), float(data.length_y)) == (30, 46, 15.0, 115.0)
+    assert float(data.rms_height) == pytest.approx(prepared(heights, "plane", "mirror").std(), rel=1e-12)
+
+
+def test_a_measured_surface_with_a_hole_stops_the_study(tmp_path: Path) -> None:
+    file = npy_file(tmp_path, np.where(HEIGHTS == 8.0, np.nan, HEIGHTS))
+    error = refusal("studies.area.heights", file, lambda: area(file))
+    assert error.value == "1 of 12 points missing or not finite, the first nan in row 2, column 3"

@@ -288,6 +288,7 @@ class MeasuredSurface(Sampled):
     spacing: float | list[float] | None = None
     unit: str | None = None
     variable: str | None = None
+    dimensions = 2
 
     def __post_init__(self) -> None:
         raw = topography.read_topography(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
