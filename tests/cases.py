@@ -1,10 +1,14 @@
-"""Profiles and one-line ways to press them, shared by the tests of solvers."""
+"""Profiles and one-line ways to press them, shared by the tests of solvers; and how an input is refused."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
+import pytest
 
 import contactsim
+from contactsim.errors import SceneError
 from contactsim.solvers import PEERS, SOLVERS, solver_class
 from contactsim.solvers.base import Result
 from contactsim.surface import SelfAffine, generator
@@ -38,3 +42,16 @@ def compliance(points: int) -> np.ndarray:
     first = np.fft.ifft(symbol).real
     index = np.arange(points)
     return first[(index[:, None] - index) % points]
+
+
+def refusal(key: str, file: object, call: Callable[[], object]) -> SceneError:
+    """Return the error of a call, after checking that it names file, key, value and what is allowed."""
+    with pytest.raises(SceneError) as caught:
+        call()
+    error = caught.value
+    assert error.key == key
+    assert str(error.file) == str(file)
+    assert error.allowed
+    assert str(error).startswith(f"{file}: {key}: got ")
+    assert str(error).endswith(f"allowed: {error.allowed}")
+    return error

@@ -10,7 +10,7 @@ import pytest
 from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
-errors traits grid roughness measured surface elasticity laws loading scene
+errors traits grid roughness scans measured topography surface elasticity laws loading scene
 solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.conjugate_gradients
 observables analytic provenance dataset config build study march aggregate costs joblog takes claims api hazards

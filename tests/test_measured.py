@@ -14,8 +14,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cases import refusal
 from contactsim.errors import SceneError
-from contactsim.measured import DETREND, PERIODIC, UNITS, Profile, detrend, make_periodic, prepare, read_profile
+from contactsim.measured import DETREND, PERIODIC, Profile, detrend, make_periodic, prepare, read_profile
+from contactsim.scans import UNITS
 
 SPACING = 2.5
 HEIGHTS = np.array([0.0, 1.5, -2.25, 3.0, 0.5, -1.0])
@@ -67,19 +69,6 @@ def same(profile: Profile, spacing: float = SPACING) -> None:
     np.testing.assert_allclose(profile.heights, HEIGHTS, rtol=1e-12)
     assert profile.heights.dtype == np.float64
     assert profile.spacing == pytest.approx(spacing, rel=1e-12)
-
-
-def refusal(key: str, file: object, call: Callable[[], object]) -> SceneError:
-    """Return the error of a call, after checking that it names file, key, value and what is allowed."""
-    with pytest.raises(SceneError) as caught:
-        call()
-    error = caught.value
-    assert error.key == key
-    assert str(error.file) == str(file)
-    assert error.allowed
-    assert str(error).startswith(f"{file}: {key}: got ")
-    assert str(error).endswith(f"allowed: {error.allowed}")
-    return error
 
 
 # --- the formats agree ------------------------------------------------------------------------------------------

@@ -175,11 +175,17 @@ def size(value: object) -> list[float]:
     return [positive(entry) for entry in pair(value)]
 
 
+def each_way(value: object) -> float | list[float]:
+    """A positive number for both directions, or one for each."""
+    return size(value) if isinstance(value, list) else positive(value)
+
+
 _TYPES = {
     float: (number, "a number"),
     int: (whole(1), "a whole number, 1 or more"),
     str: (text, "text"),
     float | None: (number, "a number, or leave the key out"),
+    float | list[float] | None: (each_way, "a positive number or a list of two, for y and x, or leave the key out"),
     str | None: (text, "text, or leave the key out"),
 }
 

@@ -162,14 +162,16 @@ class Study:
         ]
 
     def _values(self, name: str) -> list:
-        values = self.settings["vary"][name]
+        values, key = self.settings["vary"][name], f"studies.{self.name}.vary.{name}"
         if (
             not isinstance(values, list)
             or not values
             or any(value in values[:place] for place, value in enumerate(values))
         ):
-            key = f"studies.{self.name}.vary.{name}"
             raise SceneError(key, values, "a list with at least one entry, none twice", self.file)
+        for value in values:
+            if isinstance(value, list | dict):
+                raise SceneError(key, value, "single values, which a dimension can have", self.file)
         return values
 
     def _run(self, varied: dict, member: int, change: dict) -> Run:
@@ -201,7 +203,7 @@ class Study:
         return read(section, {"kind": kind} | keys_of(class_of(chosen)), self.file, prefix)
 
     def _file_digest(self, path: str) -> str:
-        """Digest of a measured profile's file, so that a changed file is pressed anew."""
+        """Digest of a measured surface's file, so that a changed file is pressed anew."""
         try:
             return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
         except OSError as error:

@@ -19,7 +19,7 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim import measured
+from contactsim import measured, topography
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
 
@@ -238,9 +238,9 @@ class SelfAffine(_Smooth):
 
 @dataclass(frozen=True)
 class Sampled:
-    """Heights given as numbers: a checked profile (n,), of two or more finite values at equal spacing, nm."""
+    """Heights given as numbers: a checked profile (n,) or topography (ny, nx), at equal spacing, nm."""
 
-    profile: measured.Profile
+    profile: measured.Profile | topography.Topography
     modes = None
 
     @property
@@ -277,6 +277,24 @@ class Measured(Sampled):
         object.__setattr__(self, "profile", measured.prepare(raw, self.detrend, self.periodic))
 
 
+@dataclass(frozen=True)
+class MeasuredSurface(Sampled):
+    """A topography read from a file, detrended and made periodic (options as in `contactsim.topography`)."""
+
+    profile: topography.Topography = field(init=False, repr=False)
+    file: str
+    detrend: str = "plane"
+    periodic: str = "mirror"
+    spacing: float | list[float] | None = None
+    unit: str | None = None
+    variable: str | None = None
+    dimensions = 2
+
+    def __post_init__(self) -> None:
+        raw = topography.read_topography(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
+        object.__setattr__(self, "profile", topography.prepare(raw, self.detrend, self.periodic))
+
+
 SURFACES = {
     "flat": Flat,
     "cylinder": Cylinder,
@@ -284,4 +302,5 @@ SURFACES = {
     "sinusoid": Sinusoid,
     "self_affine": SelfAffine,
     "measured": Measured,
+    "measured_surface": MeasuredSurface,
 }

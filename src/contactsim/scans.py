@@ -1,0 +1,244 @@
+"""Measured heights, along a line or over an area: what reading and preparing them share.
+
+Numbers come from text, numpy and netCDF files and become float64 in nm; a file that misses one is refused.
+A shape is removed, and a seam closed, in every direction alike, so a profile and a topography mean the same by it.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from numbers import Real
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from contactsim.errors import SceneError
+
+Array = NDArray[np.float64]
+Kinds = Mapping[str, Callable[[Array], Array]]
+
+UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
+TEXT = (".csv", ".txt", ".xyz", ".dat")
+TOLERANCE = 1e-3  # of positions, in mean spacings
+TAPER = 0.1  # of the length, at each end
+
+
+def existing(path: object) -> Path:
+    """The path of a file that there is; SceneError else."""
+    if not isinstance(path, str | Path) or not Path(path).is_file():
+        raise SceneError("path", path, "an existing file", path)
+    return Path(path)
+
+
+def refuse_unused(key: str, value: object, suffixes: tuple[str, ...], file: Path) -> None:
+    """SceneError if a value is given for a file whose suffix has no use for it."""
+    if value is not None and file.suffix.lower() not in suffixes:
+        raise SceneError(key, value, f"none for {file.suffix.lower()}, only for {', '.join(suffixes)}", file)
+
+
+@contextmanager
+def readable(file: Path, *more: type[Exception]) -> Iterator[None]:
+    """Turn what a damaged file makes a reader raise, and `more`, into a SceneError."""
+    try:
+        yield
+    except SceneError:
+        raise
+    except (OSError, RuntimeError, ValueError, *more) as error:
+        why = " ".join(str(error).split())[:200]
+        raise SceneError("path", str(file), f"a readable {file.suffix.lower()} file ({why})", file) from error
+
+
+def positive(spacing: object, file: object) -> float:
+    """A spacing as a float; SceneError unless it is a positive finite number."""
+    if isinstance(spacing, Real) and not isinstance(spacing, bool) and 0 < spacing < np.inf:
+        return float(spacing)
+    raise SceneError("spacing", spacing, "a positive finite number, in nm", file)
+
+
+def finite(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
+    """A scaled float64 copy of finite numbers, two or more in each of `dims` directions."""
+    array = np.ma.asarray(values)
+    if array.dtype.kind not in "iuf" or array.ndim != dims or min(array.shape) < 2:
+        allowed = f"two or more real numbers{' each way' * (dims > 1)}, in {dims}D"
+        raise SceneError(key, f"shape {array.shape} of {array.dtype}", allowed, file)
+    with np.errstate(over="ignore", invalid="ignore"):
+        numbers = array.astype(np.float64).filled(np.nan) * scale
+    bad = ~np.isfinite(numbers)
+    if bad.any():
+        at = np.unravel_index(np.argmax(bad), bad.shape)
+        where = ", ".join(f"{name} {place + 1}" for name, place in zip(("row", "column"), at, strict=False))
+        found = f"{numbers[at]} in {where}"
+        if dims > 1:
+            found = f"{bad.sum()} of {bad.size} points missing or not finite, the first {found}"
+        raise SceneError(key, found, "finite numbers, none missing", file)
+    return numbers
+
+
+def factor(key: str, stated: str | None, unit: str | None, file: Path) -> float:
+    """Nanometres in the unit that the file states, or else the one given; they must not differ."""
+    names = [unicodedata.normalize("NFKC", str(name)).strip() for name in (stated or None, unit) if name is not None]
+    wrong = [name for name in names if name not in UNITS]
+    if wrong or not names:
+        allowed = f"for {key} one of {', '.join(UNITS)}, in the file or as `unit`"
+        raise SceneError("unit", wrong[0] if wrong else None, allowed, file)
+    if UNITS[names[0]] != UNITS[names[-1]]:
+        raise SceneError("unit", unit, f"none, or that in the file, {stated}", file)
+    return UNITS[names[0]]
+
+
+def mean_step(positions: Array, key: str, file: Path) -> float:
+    """The step of equally spaced positions (n,), negative if they descend; SceneError if they are not."""
+    mean = float(positions[-1] - positions[0]) / (positions.size - 1)
+    off = np.abs(np.diff(positions) - mean)
+    row = int(np.argmax(off)) + 1
+    if mean == 0 or off[row - 1] > TOLERANCE * abs(mean):
+        found = f"{off[row - 1]:.6g} nm off the mean step {mean:.6g} nm from row {row} to {row + 1}"
+        raise SceneError(key, found, f"equal steps to {TOLERANCE:g} of the mean step", file)
+    return mean
+
+
+def agreeing(spacing: float, given: float | None, file: Path) -> float:
+    """The spacing that a file states; SceneError if one is given that differs."""
+    if given is not None and abs(given - spacing) > TOLERANCE * spacing:
+        raise SceneError("spacing", given, f"none, or that of the positions, {spacing:.6g} nm", file)
+    return spacing
+
+
+def load_npy(file: Path) -> NDArray:
+    """The array in a .npy file; pickled objects are not loaded."""
+    with file.open("rb") as stream:
+        return np.lib.format.read_array(stream, allow_pickle=False)
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text file of numbers: its header and its number in the file, the rows with theirs, and the separator."""
+
+    header: tuple[int, str]
+    rows: list[tuple[int, str]]
+    mark: str
+
+    @classmethod
+    def read(cls, file: Path, delimiter: str | None) -> Text:
+        """Split a file into lines, without comments and blank lines; the separator is found if None."""
+        if delimiter not in (None, ",", ";", "\t", " "):
+            raise SceneError("delimiter", delimiter, 'one of "," ";" tab " "', file)
+        text = file.read_text("utf-8-sig", errors="surrogateescape").replace("\udcb5", "\u03bc")  # latin-1 micro sign
+        numbered = ((number, line.strip()) for number, line in enumerate(text.splitlines(), 1))
+        rows = [(number, line) for number, line in numbered if line and not line.startswith("#")]
+        # The second row, surely no header, has the separator: a semicolon, else a comma, else blanks.
+        mark = delimiter or next((each for each in ";," if any(each in line for _, line in rows[1:2])), " ")
+        # A header begins like a name and has no number, so that a mistyped first row, `1.O5`, is not taken for one.
+        named = bool(rows) and (rows[0][1][0].isalpha() or rows[0][1][0] in "\"'")
+        header = rows.pop(0) if named and set(_numbers(rows[0][1], mark)) == {None} else (0, "")
+        if len(rows) < 2:
+            raise SceneError("heights", f"{len(rows)} rows", "two or more rows of numbers", file)
+        return cls(header, rows, mark)
+
+    def units(self, columns: int, file: Path) -> list[str]:
+        """The units in the header, like `x [um]`, of all columns; none if there are none; SceneError if of some."""
+        units = re.findall(r"[\[(]([^\])]*)[\])]", self.header[1])
+        if len(units) not in (0, columns):
+            found = f"a unit for each of {columns} columns, or none"
+            raise SceneError(f"line {self.header[0]}", self.header[1], found, file)
+        return units
+
+    def table(self, widths: range, allowed: str, file: Path) -> Array:
+        """The numbers (rows, columns), of a number of columns in `widths`; SceneError with the line else."""
+        table = []
+        for number, line in self.rows:
+            values = _numbers(line, self.mark)
+            if None in values or len(values) not in widths or len(values) != len(table[0] if table else values):
+                raise SceneError(f"line {number}", line, allowed, file)
+            table.append(np.array(values, dtype=np.float64))
+        return np.array(table)
+
+
+def _numbers(line: str, mark: str) -> list[float | None]:
+    """Return the numbers of a line, None for what is none; the mark " " is any blanks."""
+    values: list[float | None] = []
+    for field in line.split() if mark == " " else line.split(mark):
+        try:
+            values.append(None if "_" in field else float(field))
+        except ValueError:
+            values.append(None)
+    return values
+
+
+def find_heights(data: netCDF4.Dataset, dims: int, variable: str | None, file: Path) -> netCDF4.Variable:
+    """The heights in a netCDF file: the variable named, else one named like heights, else the only floats."""
+    fields = {name: each for name, each in data.variables.items() if each.ndim == dims}
+    near = {name for each in data.variables.values() for name in _near(each)}
+    free = [name for name in fields if name not in near]
+    named = [name for name in free if name in ("heights", "height", "z")]
+    floats = [name for name in free if np.dtype(fields[name].dtype).kind == "f"]
+    found = [str(variable)] if variable is not None else named if len(named) == 1 else floats
+    if len(found) != 1 or found[0] not in fields:
+        raise SceneError("variable", variable, f"the name of the {dims}D heights, of those: {list(fields)}", file)
+    return fields[found[0]]
+
+
+def positions_along(
+    dimension: str, data: netCDF4.Dataset, heights: netCDF4.Variable, unit: str | None, file: Path
+) -> Array | None:
+    """The coordinate (n,) of the heights along a dimension, in nm; None if there is none."""
+    others = [data.variables[name] for name in _near(heights) if name in data.variables and name != heights.name]
+    for each in others:
+        if each.dimensions == (dimension,):
+            return finite(each[:], each.name, file, factor(each.name, stated_unit(each) or unit, None, file))
+    return None
+
+
+def stated_unit(variable: netCDF4.Variable) -> str:
+    """The unit that a netCDF variable states as `units`, or as some writers do as `unit`; empty if none."""
+    return str(getattr(variable, "units", getattr(variable, "unit", "")))
+
+
+def _near(variable: netCDF4.Variable) -> list[str]:
+    return [*variable.dimensions, *str(getattr(variable, "coordinates", "")).split()]
+
+
+def less_fit(degree: int, heights: Array) -> Array:
+    """Heights less their least-squares polynomial of a total degree in all directions.
+
+    Products of the discrete orthonormal polynomials of each direction are orthonormal on the grid, so the fit is a
+    projection.
+    """
+    bases = [np.linalg.qr(np.polynomial.legendre.legvander(np.linspace(-1, 1, n), degree)).Q for n in heights.shape]
+    fit = heights
+    for basis in bases:  # each direction in turn leads, and goes last
+        fit = np.tensordot(fit, basis, (0, 0))
+    fit = np.where(sum(np.indices(fit.shape)) <= degree, fit, 0.0)
+    for basis in bases:
+        fit = np.tensordot(fit, basis, (0, 1))
+    return heights - fit
+
+
+def windowed(heights: Array) -> Array:
+    """Mean-free heights tapered by cosines to zero over `TAPER` of the length at each end of each direction."""
+    tapered = heights - heights.mean()
+    for axis, size in enumerate(heights.shape):
+        edge = np.minimum(np.arange(size), np.arange(size)[::-1]) / (size - 1)
+        taper = 0.5 - 0.5 * np.cos(np.pi * np.minimum(edge / TAPER, 1))
+        tapered *= np.expand_dims(taper, [other for other in range(heights.ndim) if other != axis])
+    return tapered
+
+
+def mirrored(heights: Array) -> Array:
+    """Heights followed by their reverse in each direction, the ends once: n become 2n-2."""
+    for axis, size in enumerate(heights.shape):
+        heights = heights.take([*range(size), *range(size - 2, 0, -1)], axis)
+    return heights
+
+
+def applied(kinds: Kinds, key: str, kind: str, heights: ArrayLike, source: object, dims: int) -> Array:
+    """Checked heights, shaped by the one of `kinds` named; SceneError else."""
+    if not isinstance(kind, str) or kind not in kinds:
+        raise SceneError(key, kind, f"one of {', '.join(kinds)}", source)
+    return kinds[kind](finite(heights, "heights", source, dims=dims))
