@@ -21,7 +21,7 @@ FAST = ("active_set", "polonsky_keer")
 def rough(points: int, hurst: float = 0.8, gradient: float = 1.0, modes: int = 0) -> np.ndarray:
     """A self-affine profile on `points` points of unit spacing, with a shortest wavelength of 8 points."""
     modes = modes or points // 8
-    surface = SelfAffine(points, hurst, points / 4, points / (modes + 0.5), gradient, generator(7, hurst))
+    surface = SelfAffine(points, hurst, points / 4, points / (modes + 0.5), gradient, rng=generator(7, hurst))
     return surface.heights(points)
 
 

@@ -43,7 +43,7 @@ def press(
 
 
 def rough(points, hurst=0.8, seed=1):
-    surface = SelfAffine(points, hurst, points / 2, 8.0, 1.0, generator(seed, hurst), dimensions=2)
+    surface = SelfAffine(points, hurst, points / 2, 8.0, 1.0, rng=generator(seed, hurst), dimensions=2)
     return surface.heights(points)
 
 

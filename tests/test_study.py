@@ -105,6 +105,21 @@ BAD = {
     "surface that is no mapping": ({"surface": "flat"}, "surface", "flat", "a mapping with `kind`"),
     "key of another surface": ({"surface/radius": 10.0}, "surface.radius", 10.0, "hurst, rolloff_wavelength"),
     "surface without a key": ({"surface/rolloff_wavelength": GONE}, "surface.rolloff_wavelength", "nothing", "number"),
+    "neither gradient nor height": ({"surface/rms_gradient": GONE}, "surface.rms_gradient", None, "exactly one of"),
+    "gradient and height": ({"surface/rms_height": 10.0}, "surface.rms_gradient", [0.01, 10.0], "exactly one of"),
+    "height that is text": ({"surface/rms_height": "10"}, "surface.rms_height", "10", "a number"),
+    "height of nought": (
+        {"surface/rms_gradient": GONE, "surface/rms_height": 0.0},
+        "surface.rms_height",
+        0.0,
+        "positive, finite number in nm",
+    ),
+    "varied height beside a gradient": (
+        {"vary": {"surface.rms_height": [10.0]}},
+        "surface.rms_gradient",
+        [0.01, 10.0],
+        "exactly one of",
+    ),
     "generator from a config": ({"surface/rng": 1}, "surface.rng", 1, "no such key"),
     "hurst above one": ({"surface/hurst": 1.2, "vary": {}}, "surface.hurst", 1.2, "from 0 to 1"),
     "varied hurst below nought": ({"vary": {"surface.hurst": [0.5, -0.1]}}, "surface.hurst", -0.1, "from 0 to 1"),
@@ -447,6 +462,26 @@ def test_reduced_pressures_are_times_modulus_and_the_gradient_asked_for():
     for run in study({"vary": {"surface.rms_gradient": [0.01, 0.02]}}).runs():
         expected = np.array([0.01, 0.1]) * 2.0 * run.settings["surface"]["rms_gradient"]
         np.testing.assert_allclose(pressures(run), expected, rtol=1e-15)
+
+
+def test_reduced_pressures_of_prescribed_heights_use_each_members_own_gradient_whatever_the_grid():
+    runs = study({"surface/rms_gradient": GONE, "surface/rms_height": 3.0}).runs()
+    places = {}
+    for run in runs:
+        surface = scene_of(run.settings).upper.surface
+        np.testing.assert_allclose(pressures(run), np.array([0.01, 0.1]) * 2.0 * surface.gradient, rtol=1e-15)
+        places.setdefault((*run.coordinates.values(), run.member), []).append(pressures(run).tolist())
+    assert all(loads == [loads[0]] * len(loads) for loads in places.values())  # of a run and its companion
+    assert len({tuple(loads[0]) for loads in places.values()}) == len(places)
+
+
+def test_a_varied_height_has_a_dimension_beside_the_height_found():
+    height = {"surface/rms_gradient": GONE, "vary": {"surface.rms_height": [10.0, 30.0]}, "companion": GONE}
+    varied = study(height | {"surface/rms_height": 10.0})
+    assert varied.dimensions == ["surface_rms_height", "member", "reduced_pressure"]
+    first, *_, last = varied.runs()
+    ten, thirty = (scene_of(run.settings | {"member": 0}).heights(128) for run in (first, last))
+    assert np.allclose(thirty, 3 * ten, rtol=1e-12)  # the same profile, so that its contact is an identity
 
 
 def test_reduced_pressures_without_a_prescribed_gradient_use_that_of_the_heights():

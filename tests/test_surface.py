@@ -5,7 +5,7 @@ import pytest
 
 from contactsim.errors import SceneError
 from contactsim.measured import Profile
-from contactsim.roughness import rms_gradient, spectrum
+from contactsim.roughness import rms_gradient, rms_height, spectrum
 from contactsim.surface import Cylinder, Flat, Measured, Sampled, SelfAffine, Sinusoid, generator
 
 THESIS = {"length": 160000.0, "rolloff_wavelength": 20000.0, "shortest_wavelength": 39.0625, "rms_gradient": 1e-3}
@@ -21,6 +21,26 @@ def test_the_gradient_of_the_profile_is_exactly_the_one_asked_for(hurst, amplitu
     surface = self_affine(hurst, amplitudes=amplitudes)
     q = 2 * np.pi * np.arange(surface.modes + 1) / surface.length
     assert np.sqrt(2 * np.sum(q**2 * np.abs(surface.coefficients) ** 2)) == pytest.approx(1e-3, rel=1e-12)
+
+
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.8, 1.0])
+def test_the_height_of_the_profile_is_exactly_the_one_asked_for(hurst, amplitudes):
+    surface = self_affine(hurst, amplitudes=amplitudes, rms_gradient=None, rms_height=10.0)
+    assert rms_height(surface.heights(16384)) == pytest.approx(10.0, rel=1e-12)
+    steep = self_affine(hurst, amplitudes=amplitudes, rms_gradient=surface.gradient)
+    assert np.allclose(steep.coefficients, surface.coefficients, rtol=1e-12, atol=0)  # one profile, asked for twice
+
+
+def test_the_height_of_a_surface_is_exactly_the_one_asked_for():
+    surface = self_affine(rms_gradient=None, rms_height=3.0, dimensions=2, shortest_wavelength=5000.0)
+    assert rms_height(surface.heights(128)) == pytest.approx(3.0, rel=1e-12)
+    fine = surface.heights(1024)  # 32 points a wave: differences fall short of slopes by a part in a thousand
+    assert rms_gradient(fine, 160000.0 / 1024) == pytest.approx(surface.gradient, rel=2e-3)
+
+
+def test_the_gradient_of_a_profile_is_the_one_asked_for():
+    assert self_affine().gradient == 1e-3
 
 
 def test_differences_on_the_thesis_grid_miss_the_gradient_by_two_in_ten_thousand():
@@ -98,6 +118,10 @@ def test_smooth_surfaces_have_their_shape():
         (lambda: self_affine(rolloff_wavelength=2e5), "rolloff_wavelength"),
         (lambda: self_affine(shortest_wavelength=2e4), "shortest_wavelength"),
         (lambda: self_affine(rms_gradient=0.0), "rms_gradient"),
+        (lambda: self_affine(rms_gradient=None), "rms_gradient"),
+        (lambda: self_affine(rms_height=10.0), "rms_gradient"),
+        (lambda: self_affine(rms_gradient=None, rms_height=0.0), "rms_height"),
+        (lambda: self_affine(rms_gradient=None, rms_height=float("nan")), "rms_height"),
         (lambda: self_affine(amplitudes="some"), "amplitudes"),
         (lambda: self_affine(length=float("inf")), "length"),
         (lambda: self_affine().heights(8190), "points"),

@@ -40,16 +40,17 @@ def points_of(settings: dict, surface: Surface) -> int:
 def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadPath:
     """Mean pressures from the loads as the study gives them.
 
-    reduced_pressure: times E* and the rms gradient, the one prescribed or else that of the heights; contact_ratio:
-    what a cylinder needs for a half-width, or a sphere for a contact radius, of that part of its radius on a half-space
-    (Eq. 3.5).
+    reduced_pressure: times E* and the rms gradient, of self-affine heights that of the band-limited profile, of others
+    that of their differences on the grid; contact_ratio: what a cylinder needs for a half-width, or a sphere for a
+    contact radius, of that part of its radius on a half-space (Eq. 3.5).
     """
     contact_modulus = elasticity.contact_modulus
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
-        gradient = settings["surface"].get("rms_gradient")
-        if gradient is None:
+        if isinstance(surface, SelfAffine):
+            gradient = surface.gradient
+        else:
             points = points_of(settings, surface)
             heights = surface.heights(points)
             gradient = rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)

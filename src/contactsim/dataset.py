@@ -24,6 +24,7 @@ SETTINGS = {
     "rolloff_wavelength": ("nm", "roll-off wavelength"),
     "shortest_wavelength": ("nm", "shortest wavelength of the roughness"),
     "rms_gradient": ("1", "rms gradient prescribed"),
+    "rms_height": ("nm", "rms height prescribed"),
     "amplitudes": ("1", "distribution of the amplitudes"),
     "width": ("nm", "period along y"),
     "dimensions": ("1", "dimensions of the surface"),
@@ -125,6 +126,8 @@ def dimension(section: str, key: str) -> str:
 
 
 SUFFIXES = {
+    "_change_standard_error": ": standard error of the change, member by member",
+    "_change": ": change from a reference, as a part of it",
     "_mean": ": mean over members",
     "_standard_error": ": standard error of the mean over members",
     "_grid_error": ": change of the mean on halving the grid",

@@ -85,7 +85,7 @@ def made(field: Array, scale: float = 1.0, unit: float = 1.0, tolerance: float =
 
 def _rough(points: int = POINTS) -> Array:
     """A self-affine profile of rms gradient 1 whose shortest wavelength is eight points."""
-    return SelfAffine(points, 0.8, points / 4, 8.0, 1.0, generator(5, 0.8)).heights(points)
+    return SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(5, 0.8)).heights(points)
 
 
 def _level(field: Array, share: float) -> Array:

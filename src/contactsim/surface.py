@@ -5,8 +5,8 @@ first. A finer grid samples the same surface: the random numbers of mode k do no
 
 The power spectrum of Eq. 3.10 fixes the mean power of each mode. The text leaves open whether amplitudes are that
 value with random phases ("fixed") or Gaussian with that variance ("gaussian", the default, which is what "a Gaussian
-height distribution" means); the result is then scaled so that the rms gradient of this very profile is the one asked
-for, the gradient being that of the band-limited profile itself, not of its differences on a grid.
+height distribution" means); the result is then scaled so that the rms gradient or the rms height of this very profile
+is the one asked for, the gradient being that of the band-limited profile itself, not of its differences on a grid.
 """
 
 from __future__ import annotations
@@ -166,19 +166,20 @@ class SelfAffine(_Smooth):
     """Random heights with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
 
     The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
-    rolloff_wavelength, shortest_wavelength: nm; rms_gradient: scaled to this exactly, over a surface the root of the
-    mean of both squared slopes added; rng: draws the modes, two numbers each, longest waves first; amplitudes:
-    "gaussian" or "fixed" (random phases alone).
+    rolloff_wavelength, shortest_wavelength: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
+    over a surface being the root of the mean of both squared slopes added; rng: draws the modes, two numbers each,
+    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone).
     """
 
     length: float
     hurst: float
     rolloff_wavelength: float
     shortest_wavelength: float
-    rms_gradient: float
-    rng: np.random.Generator
+    rms_gradient: float | None = None
+    rms_height: float | None = None
     amplitudes: str = "gaussian"
     dimensions: int = 1
+    rng: np.random.Generator = field(kw_only=True)
 
     def __post_init__(self) -> None:
         _check_length(self.length)
@@ -190,8 +191,13 @@ class SelfAffine(_Smooth):
         if not 0 < self.shortest_wavelength < self.rolloff_wavelength:
             allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm"
             raise SceneError("shortest_wavelength", self.shortest_wavelength, allowed)
-        if not (np.isfinite(self.rms_gradient) and self.rms_gradient > 0):
-            raise SceneError("rms_gradient", self.rms_gradient, "a positive, finite number")
+        if (self.rms_gradient is None) == (self.rms_height is None):
+            given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
+            raise SceneError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
+        for name, unit in (("rms_gradient", ""), ("rms_height", " in nm")):
+            value = getattr(self, name)
+            if value is not None and not (np.isfinite(value) and value > 0):
+                raise SceneError(name, value, f"a positive, finite number{unit}")
         if self.amplitudes not in AMPLITUDES:
             raise SceneError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
 
@@ -206,10 +212,8 @@ class SelfAffine(_Smooth):
 
         Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
         """
-        along = np.arange(self.modes + 1)
-        across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
-        *y, x = np.meshgrid(*across, along, indexing="ij")
-        q = 2 * np.pi / self.length * np.sqrt(x**2.0 + sum(k**2.0 for k in y))
+        *y, x = self._mode_numbers()
+        q = self._wavenumber(*y, x)
         drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
         drawn &= q <= 2 * np.pi / self.length * self.modes * (1 + 1e-12)
         order = np.lexsort([*(k[drawn] for k in y), x[drawn], np.max(np.abs([x, *y]), axis=0)[drawn]])
@@ -222,9 +226,26 @@ class SelfAffine(_Smooth):
         half[places] = np.maximum(q[places] / rolloff, 1.0) ** (-(self.dimensions + 2 * self.hurst) / 2) * normal
         if y:  # along x = 0 waves of both signs of y are kept
             half[:, 0] += np.conj(np.roll(half[::-1, 0], 1))
-        twice = np.where(x > 0, 2.0, 1.0)
-        gradient = np.sqrt(np.sum(twice * q**2 * np.abs(half) ** 2))
-        return half * (self.rms_gradient / gradient)
+        if self.rms_height is None:
+            return half * (self.rms_gradient / _rms(half, q))
+        return half * (self.rms_height / _rms(half))
+
+    def _mode_numbers(self) -> list[Array]:
+        """Whole numbers of waves in the period for each coefficient, along y first."""
+        along = np.arange(self.modes + 1)
+        across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
+        return list(np.meshgrid(*across, along, indexing="ij"))
+
+    def _wavenumber(self, *numbers: Array) -> Array:
+        """|q| (rad/nm) of modes."""
+        return 2 * np.pi / self.length * np.sqrt(sum(k**2.0 for k in reversed(numbers)))
+
+    @property
+    def gradient(self) -> float:
+        """Rms gradient of this very profile: the one asked for, or what follows from its rms height."""
+        if self.rms_gradient is not None:
+            return self.rms_gradient
+        return _rms(self.coefficients, self._wavenumber(*self._mode_numbers()))
 
     def heights(self, points: int) -> Array:
         """Heights with zero mean, shape (points,) or (points, points), nm."""
@@ -234,6 +255,13 @@ class SelfAffine(_Smooth):
         half = np.zeros(grid.half_shape, complex)
         half[grid.low_modes(self.modes)] = self.coefficients
         return grid.backward(half)
+
+
+def _rms(half: Array, factor: Array | float = 1.0) -> float:
+    """Root of the mean square of a real field, each wave times a factor, from its half-complex coefficients."""
+    twice = np.full(half.shape[-1], 2.0)
+    twice[0] = 1.0
+    return float(np.sqrt(np.sum(twice * factor**2 * np.abs(half) ** 2)))
 
 
 @dataclass(frozen=True)
