@@ -8,7 +8,16 @@ import xarray as xr
 from scipy.stats import t as student
 
 from contactsim import aggregate, analytic, dataset
-from contactsim.aggregate import AVERAGED, WEIGHTINGS, departure, fit_line_area, fits, left_out, load_name
+from contactsim.aggregate import (
+    AVERAGED,
+    WEIGHTINGS,
+    departure,
+    fit_line_area,
+    fits,
+    left_out,
+    load_name,
+    relative_change,
+)
 from contactsim.errors import SceneError
 from contactsim.solvers.base import Status
 
@@ -292,6 +301,39 @@ def test_unconverged_members_make_the_error_of_a_difference_larger():
     pairs = values[0, 3:, 0] - values[0, 3:, 1]
     assert paired.difference == pytest.approx(abs(pairs.mean()), rel=1e-12)
     assert paired.standard_error == pytest.approx(pairs.std(ddof=1) / np.sqrt(3), rel=1e-12)
+
+
+def bodies(values, bad=()):
+    """The same with Poisson's ratios in place of Hurst exponents."""
+    return ensemble(values, bad).rename(hurst="poisson_ratio")
+
+
+def test_a_difference_between_two_bodies_is_found_member_by_member():
+    values = 10 * np.random.default_rng(5).random((1, 6, 1)) + np.zeros((2, 1, 1))
+    values[1] += 1e-3 * (1 + np.random.default_rng(6).random((6, 1)))
+    found = departure(bodies(values), "kappa", "poisson_ratio")
+    pairs = values[1, :, 0] - values[0, :, 0]
+    assert found.difference == pytest.approx(pairs.mean(), rel=1e-9)  # a difference of numbers near 10: 1e-15/1e-3
+    assert found.standard_error == pytest.approx(pairs.std(ddof=1) / np.sqrt(6), rel=1e-9)
+
+
+def test_a_relative_change_is_that_of_the_same_members():
+    values = 1 + np.random.default_rng(7).random((2, 5, 3))
+    found = relative_change(bodies(values, [(1, 4, 0)]), "kappa", "poisson_ratio", 0.0)
+    assert (found.kappa_change.sel(poisson_ratio=0.0) == 0).all()
+    for load, known in ((0, slice(0, 4)), (1, slice(0, 5))):
+        pairs, level = values[1, known, load] - values[0, known, load], values[0, known, load].mean()
+        count = len(pairs)
+        one = found.isel(poisson_ratio=1, reduced_pressure=load)
+        assert one.kappa_change.item() == pytest.approx(pairs.mean() / level, rel=1e-12)
+        error = pairs.std(ddof=1) / np.sqrt(count) / level
+        assert one.kappa_change_standard_error.item() == pytest.approx(error, rel=1e-12)
+
+
+def test_the_relative_change_of_one_member_has_no_error():
+    found = relative_change(bodies(np.ones((2, 1, 3))), "kappa", "poisson_ratio", 0.0)
+    assert (found.kappa_change == 0).all()
+    assert found.kappa_change_standard_error.isnull().all()
 
 
 def test_a_load_that_never_converged_is_passed_over():

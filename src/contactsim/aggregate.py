@@ -147,8 +147,8 @@ class Departure:
 def departure(data: xr.Dataset, name: str, along: str) -> Departure:
     """The most significant difference of a quantity between two values of `along`, all else being equal.
 
-    Members are the same profiles along the load, so differences are taken member by member there; different Hurst
-    exponents are independent. Needs two members or more.
+    Members are the same profiles but for their scale along everything else than the Hurst exponent, so differences are
+    taken member by member there; different Hurst exponents are independent. Needs two members or more.
     """
     if data.member.size < 2:
         raise SceneError("members", data.member.size, "2 or more: without a spread nothing is significant")
@@ -161,7 +161,7 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
         (a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]
     ):
         one, two = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
-        paired = along in LOADS
+        paired = along != "hurst"
         gap = abs((one - two).mean("member")) if paired else abs(one.mean("member") - two.mean("member"))
         square = _squared_error(one - two) if paired else _squared_error(one) + _squared_error(two)
         error = np.sqrt(square)
@@ -178,6 +178,21 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
         if best is None or found.in_errors > best.in_errors:
             best = found
     return best
+
+
+def relative_change(data: xr.Dataset, name: str, along: str, reference: object) -> xr.Dataset:
+    """Change of a quantity from its value at a reference of `along`, as a part of that, with its standard error.
+
+    Taken member by member, so only for what leaves the profiles as they are. Variables `NAME_change` and
+    `NAME_change_standard_error`, the latter NaN for one member.
+    """
+    values = converged(data[name], data)
+    start = values.sel({along: reference}, drop=True)
+    difference = values - start
+    level = start.where(difference.notnull()).mean("member")
+    error = np.sqrt(_squared_error(difference)) if data.member.size > 1 else level * np.nan
+    found = {f"{name}_change": difference.mean("member") / level, f"{name}_change_standard_error": error / level}
+    return xr.Dataset(found)
 
 
 def _squared_error(values: xr.DataArray) -> xr.DataArray:
