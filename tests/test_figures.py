@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from conftest import ROOT
 from contactsim import dataset
 from contactsim.elasticity import HalfSpace
-from contactsim.figures import ch3, claims, render, sketch, style
+from contactsim.figures import ch3, ch5, claims, render, sketch, style
 from contactsim.laws import HardWall
 from contactsim.loading import press
 from contactsim.plan import Plan
@@ -121,8 +121,39 @@ def test_the_fits_are_given_as_the_curves_that_they_draw(made):
     assert {(color, width) for color, _, width in looks} <= keys
 
 
+def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
+    data = dataset.read(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
+    axes = list(Figure().subplots(1, 4))
+    shown = ch5.fig_5_2(data, axes, kappa_r=1.75)
+    variants = data.hurst.size * data.poisson_ratio.size * data.thickness.size
+    assert len(axes[0].containers) == variants
+    assert len(axes[1].containers) == variants * 3 // 2  # over pairs of the half-space alone
+    assert len(axes[2].containers) == 2 * variants // 2  # area and κ_r, of the layer alone
+    assert len(axes[3].lines) == 2 * variants
+    assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
+    assert len(shown) == variants * data.reduced_pressure.size
+    thick = shown.thickness == data.thickness.values.max()
+    names = [
+        f"{name}_change{error}" for name in ("kappa_r", "relative_contact_area") for error in ("", "_standard_error")
+    ]
+    assert (shown[thick][names] == 0).all(axis=None)
+    assert (shown[~thick]["relative_contact_area_change"] != 0).all()
+    look = {(line.get_color(), line.get_marker(), line.get_linestyle()) for line in axes[3].lines}
+    assert len(look) == variants
+
+
+def test_on_a_half_space_poissons_ratio_changes_no_contact(made):
+    data = dataset.read(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
+    assert np.allclose(data.rms_height, 10.0, rtol=1e-12)
+    thick = data.sel(thickness=data.thickness.max())
+    assert not thick.relative_contact_area.diff("poisson_ratio").any()
+    assert data.relative_contact_area.sel(thickness=640.0).diff("poisson_ratio").any()
+
+
 def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
     assert style.hurst(0.35)["marker"] == "x"
+    assert style.hurst_colour(0.35) not in style.HURST_COLOURS.values()
+    assert style.poisson(0.3)["marker"] not in [marker for marker, _ in style.POISSON.values()]
 
 
 def test_a_measured_surface_has_points_and_no_wavelength():
@@ -177,6 +208,7 @@ def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(va
         (0.2061, (0.01, np.nan), ["0.206", "0.010", "–"]),
         (np.nan, (np.nan, np.nan), ["–", "–", "–"]),
         (1234.6, (56.0, 0.0), ["1235", "56", "0"]),
+        (5.6e-17, (5.08e-17, np.nan), ["5.6e-17", "5.1e-17", "–"]),
     ],
 )
 def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors, shown):

@@ -5,10 +5,12 @@ from copy import deepcopy
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
 from contactsim import provenance
+from contactsim.elasticity import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical
@@ -141,6 +143,20 @@ def test_no_two_runs_of_a_plan_write_one_file(tiers):
     for plan in tiers.values():
         stems = [run.stem for study in plan.studies.values() for run in study.runs()]
         assert len(set(stems)) == len(stems)
+
+
+def test_figure_5_2_has_the_thesis_geometry_and_a_body_as_good_as_a_half_space(tiers):
+    settings = tiers["standard"].studies["nonadhesive_compressible"].settings
+    surface, vary = settings["surface"], settings["vary"]
+    assert surface["length"] == 8 * surface["rolloff_wavelength"] == 8 * 512 * surface["shortest_wavelength"]
+    assert settings["points"] * surface["shortest_wavelength"] == 32 * surface["length"]
+    assert vary["surface.hurst"] == [0.2, 0.8]
+    assert vary["body.poisson_ratio"] == [0.1, 0.45]
+    longest = 2 * np.pi / surface["length"]
+    thick = settings["body"] | {"thickness": max(vary["body.thickness"])}
+    thick.pop("kind")
+    symbol = Layer(**thick).compliance(np.array([longest]))
+    assert symbol == pytest.approx(HalfSpace(thick["contact_modulus"]).compliance(np.array([longest])), rel=1e-15)
 
 
 # --- reading ------------------------------------------------------------------------------------------------------

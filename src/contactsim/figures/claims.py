@@ -44,6 +44,8 @@ SYMBOLS = {
     "half_width": "c",
     "half_width_exact": "the exact c",
     "hurst": "H",
+    "poisson_ratio": "ν",
+    "thickness": "the thickness",
     "kappa_fit": "κ of the fit to each H",
     "kappa_fit_logarithm": "κ of the logarithmic fit",
     "kappa_fit_all": "κ of the fit to all H",
@@ -53,6 +55,8 @@ SYMBOLS = {
 CHARACTERS = 18
 """Characters of the table's font in an inch."""
 PADDING = 0.07
+TINY = 1e-9
+"""Numbers below it have more zeros than a cell of the table."""
 
 
 def render_claims(plan: Mapping, paths: Mapping[str, str], targets: Mapping[str, str]) -> None:
@@ -115,8 +119,11 @@ def symbol(name: str) -> str:
 def rounded(value: float, *errors: float) -> list[str]:
     """A value and its errors: errors to two digits, the value to the place of the smallest that is not zero.
 
-    Without an error the value has four digits; a dash stands for what is unknown.
+    Without an error the value has four digits; a dash stands for what is unknown. What rounding leaves of a zero, and
+    anything else as small, is written with a power of ten.
     """
+    if 0 < abs(value) < TINY:
+        return [f"{number:.1e}" if np.isfinite(number) else "–" for number in (value, *errors)]
     places = {error: _places(error, 2) for error in errors if np.isfinite(error) and error > 0}
     finest = places[min(places)] if places else _places(value, 4)
     texts = [f"{value:.{finest}f}" if np.isfinite(value) else "–"]

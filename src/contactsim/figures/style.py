@@ -51,6 +51,27 @@ def hurst(value: float) -> dict[str, object]:
     return {"marker": marker, "linestyle": line, "markersize": 3.5, "linewidth": 1.0, "markerfacecolor": "white"}
 
 
+POISSON = {0.1: ("o", 5.5), 0.45: ("x", 3.2)}
+"""Marker and size for a Poisson's ratio: one fits into the other, so that both are seen where they meet."""
+HURST_COLOURS = {0.2: WHOLE, 0.5: PAIRS, 0.8: CONTACT}
+
+
+def hurst_colour(value: float) -> str:
+    """Colour of a Hurst exponent where its marker stands for something else; those not in the thesis are grey."""
+    return HURST_COLOURS.get(round(float(value), 6), "#777777")
+
+
+def poisson(value: float) -> dict[str, object]:
+    """Marker of a Poisson's ratio; those not in the thesis get a triangle."""
+    marker, size = POISSON.get(round(float(value), 6), ("^", 3.5))
+    return {"marker": marker, "markersize": size, "markerfacecolor": "none", "markeredgewidth": 0.8}
+
+
+def poisson_key(values: Iterable[float]) -> list[Line2D]:
+    """Legend entries for Poisson's ratios."""
+    return [Line2D([], [], color="#777777", ls="none", label=rf"$\nu={value:g}$", **poisson(value)) for value in values]
+
+
 def hurst_key(values: Iterable[float]) -> list[Line2D]:
     """Legend entries for Hurst exponents."""
     return [Line2D([], [], color="#777777", label=f"$H={value:g}$", **hurst(value)) for value in values]
@@ -64,9 +85,13 @@ def key(colours: Mapping[str, str], lines: Mapping[str, object]) -> list[Line2D]
 
 def with_errors(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
     """A curve of ensemble means with standard errors as bars; no bars where there is one member."""
-    error = data[f"{name}_standard_error"].values
-    bars = error if np.isfinite(error).any() else None
-    axes.errorbar(x.values, data[f"{name}_mean"].values, yerr=bars, elinewidth=0.8, capsize=1.5, **look)
+    bars(axes, x, data[f"{name}_mean"], data[f"{name}_standard_error"], **look)
+
+
+def bars(axes: Axes, x: xr.DataArray, y: xr.DataArray, error: xr.DataArray, **look: object) -> None:
+    """A curve with bars, without them where no error is known."""
+    known = error.values if np.isfinite(error).any() else None
+    axes.errorbar(x.values, y.values, yerr=known, elinewidth=0.8, capsize=1.5, **look)
 
 
 def grid_error(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
