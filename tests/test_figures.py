@@ -54,7 +54,7 @@ def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monk
     framed = render.framed
     monkeypatch.setattr(render, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
     targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
-    render.render(plan, tmp_path / "data.nc", made / "results/quick/costs/ch3_smooth_line.csv", targets)
+    render.render(plan, [tmp_path / "data.nc"], [made / "results/quick/costs/ch3_smooth_line.csv"], targets)
     assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
     largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
     assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]

@@ -55,7 +55,7 @@ def press(
         raise SceneError("heights", heights, "finite numbers, none missing; these are masked in part")
     try:
         given = np.asarray(heights)
-        plane = given.ndim == 2
+        plane = given.ndim > 1
         profile = Topography(given, np.broadcast_to(spacing, 2), None) if plane else Profile(given, spacing, None)
     except SceneError:
         raise
