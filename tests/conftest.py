@@ -14,6 +14,7 @@ from contactsim.figures.render import render
 from contactsim.plan import Plan
 
 ROOT = Path(__file__).parents[1]
+FILES = (("datasets", ".nc"), ("costs", ".csv"))
 
 
 @pytest.fixture(scope="session")

@@ -33,7 +33,10 @@ AVERAGED = (
     "reduced_pressure_contact",
     "mean_gap",
 )
-ROUND = {False: ("half_width", analytic.cylinder_rms_gradient), True: ("contact_radius", analytic.sphere_rms_gradient)}
+ROUND = {
+    False: ("half_width_exact", analytic.cylinder_rms_gradient),
+    True: ("contact_radius_exact", analytic.sphere_rms_gradient),
+}
 """Size of the contact of a cylinder, or of a sphere, and the exact gradient in it."""
 LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 
@@ -47,8 +50,8 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
         size, gradient = ROUND["length_y" in fine]
-        fine[f"{size}_exact"] = fine.contact_ratio * radius
-        fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[f"{size}_exact"], radius)
+        fine[size] = fine.contact_ratio * radius
+        fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[size], radius)
     data = fine.merge(_ensemble(fine))
     for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
         others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]

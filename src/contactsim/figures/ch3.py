@@ -58,18 +58,18 @@ def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
         exact, words = ROUND[name]
         one = _round(data, exact)
         pressure, look = one.reduced_pressure_contact, {"fmt": mark, "ms": 4, "mfc": "white", "elinewidth": 0.7}
-        bars = one.kappa_r_grid_error if "kappa_r_grid_error" in one else None
-        axes.errorbar(pressure, one.kappa_r, bars, color=style.CONTACT, **look)
-        axes.plot(pressure, one.kappa_r_bond, "+" if mark == "o" else "x", color=style.PAIRS, ms=5)
+        for part, fade in (
+            (one.contact_ratio <= FREE_OF_NEIGHBOURS, 1.0),
+            (one.contact_ratio > FREE_OF_NEIGHBOURS, 0.35),
+        ):
+            x = pressure[part]
+            bars = one.kappa_r_grid_error[part] if "kappa_r_grid_error" in one else None
+            axes.errorbar(x, one.kappa_r[part], bars, color=style.CONTACT, alpha=fade, **look)
+            axes.plot(x, one.kappa_r_bond[part], "+" if mark == "o" else "x", color=style.PAIRS, ms=5, alpha=fade)
         shown.append(axes.axhline(exact, color=style.EXACT, lw=1, ls="-" if mark == "o" else "--", label=words))
         shown.append(Line2D([], [], color="#777777", ls="", marker=mark, mfc="white", ms=4, label=name))
         rows.append(one.to_dataframe().reset_index().assign(body=name))
-    ends = axes.get_xlim()
-    felt = np.interp(FREE_OF_NEIGHBOURS, one.contact_ratio, pressure)
-    axes.axvspan(felt, ends[1] * 1.1, color="#efefef", lw=0, zorder=0)
-    axes.text(felt, 0.03, " neighbours", transform=axes.get_xaxis_transform(), fontsize=7, color="#666666")
-    axes.set(xscale="log", xlim=(float(pressure.min()) / 1.5, ends[1] * 1.1))
-    style.keep_in_view(axes, 1.25, 1.95)
+    axes.set(xscale="log", ylim=(1.2, 2.2))
     axes.set(xlabel=r"reduced pressure $p_r^*$", ylabel=r"$\kappa_r$")
     colours = {"Eq. 3.8": style.CONTACT, "pairs in contact": style.PAIRS}
     axes.legend(handles=[*shown, *style.key(colours, {})], loc="upper left", ncols=2)

@@ -31,7 +31,7 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     for dim, (least, largest) in settings["select"].items():
         part = {dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}
         shown_data = [one.sel(part) if dim in one.dims else one for one in shown_data]
-    priced = [footer_text(one, pd.read_csv(path)) for one, path in zip(shown_data, costs, strict=False)]
+    priced = [footer_text(one, pd.read_csv(path)) for one, path in zip(shown_data, costs, strict=bool(costs))]
     figure, panels = framed(settings, " — ".join(priced) if priced else module.footer(*shown_data))
     shown = draw(*shown_data, panels if len(panels) > 1 else panels[0], **settings["reference"])
     save(figure, shown, targets)
