@@ -196,7 +196,8 @@ def fig_3_5(
         style.letter(panel, letter)
     names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_bond"}
     keys = {words: colours[quantity] for words, quantity in names.items()}
-    axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="best", ncols=2)
+    axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)
+    axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.3 * np.ptp(axes[0].get_ylim()))
     return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error"]]
 
 

@@ -63,7 +63,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     lost, total = aggregate.left_out(data)
     members = data.member.size
     parts = [
-        f"{settings['tier']} tier, {settings['name']}",
+        f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",
         style.points_text(settings, int(data.points)),
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
