@@ -14,6 +14,7 @@ from contactsim.figures.render import render
 from contactsim.plan import Plan
 
 ROOT = Path(__file__).parents[1]
+FILES = (("datasets", ".nc"), ("costs", ".csv"))
 
 
 @pytest.fixture(scope="session")
@@ -34,10 +35,13 @@ def made(tmp_path_factory) -> Path:
             costs.table(settings["runs"]).to_csv(plan.results / f"costs/{name}.csv", index=False)
         (plan.results / "figures").mkdir()
         for figure in plan.figures.values():
-            name = plan.dataset_name(figure.settings["study"])
+            names = [plan.dataset_name(study) for study in figure.studies]
+            files = [
+                [plan.results / f"{kind.format(name)}" for name in names] for kind in ("datasets/{}.nc", "costs/{}.csv")
+            ]
             targets = {kind: f"{plan.results}/figures/{figure.name}.{kind}" for kind in ("png", "pdf", "csv")}
             shown = json.loads(json.dumps(plan.figure_settings(figure.name)))
-            render(shown, plan.results / f"datasets/{name}.nc", plan.results / f"costs/{name}.csv", targets)
+            render(shown, *files, targets)
         (plan.results / "claims").mkdir()
         for chapter in plan.claims:
             data = {study: plan.results / f"datasets/{chapter}_{study}.nc" for study in plan.claims_studies(chapter)}

@@ -29,7 +29,7 @@ def test_the_given_heights_are_left_alone():
         ({"heights": []}, "heights", "two or more"),
         ({"heights": [0.0, np.nan, 1.0]}, "heights", "finite"),
         ({"heights": [0.0, np.inf, 1.0]}, "heights", "finite"),
-        ({"heights": np.zeros((4, 4))}, "heights", "1D"),
+        ({"heights": np.zeros((4, 4, 4))}, "heights", "2D"),
         ({"heights": ["a", "b"]}, "heights", "number"),
         ({"spacing": 0.0}, "spacing", "positive"),
         ({"spacing": -1.0}, "spacing", "positive"),

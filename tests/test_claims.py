@@ -237,7 +237,7 @@ def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
 def test_verdicts_depend_on_claims_code_and_every_study_asked():
     settings = PLAN.claims_settings("ch3")
     assert set(settings) == {"chapter", "claims", "source", "data"}
-    assert list(settings["data"]) == ["rough_line", "smooth_line"]
+    assert list(settings["data"]) == ["rough_line", "rough_surface", "smooth_line", "smooth_surface"]
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
     assert not any("verdict" in one for _, one in settings["claims"])
 

@@ -140,7 +140,7 @@ def test_one_changed_value_turns_the_verdict_and_the_exit_code(tiers, capsys):
     said = capsys.readouterr().out
     assert "fig_3_2: beyond 10 %" in said
     assert said.count("beyond") == 1
-    (line,) = (line for line in said.splitlines() if line.startswith("  kappa_mean "))
+    line, *_ = (line for line in said.splitlines() if line.startswith("  kappa_mean "))
     assert line.split()[1:6] == ["12", "20", "%", "0", "%"]
     assert line.endswith("hurst 0.5, reduced_pressure 0.00534")
     assert exit_code("--within", "0.21") == 0

@@ -54,7 +54,9 @@ def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monk
     framed = render.framed
     monkeypatch.setattr(render, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
     targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
-    render.render(plan, tmp_path / "data.nc", made / "results/quick/costs/ch3_smooth_line.csv", targets)
+    names = ("ch3_smooth_line", "ch3_smooth_surface")
+    prices = [made / f"results/quick/costs/{name}.csv" for name in names]
+    render.render(plan, [tmp_path / "data.nc", made / f"results/quick/datasets/{names[1]}.nc"], prices, targets)
     assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
     largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
     assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]
@@ -85,22 +87,50 @@ def test_without_a_measured_grid_error_the_rough_lines_are_drawn_all_the_same(ma
     assert not axes[3].lines
 
 
-def test_the_cylinder_is_drawn_beside_the_exact_line(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+def smooth(made):
+    return [dataset.read(made / f"results/quick/datasets/ch3_smooth_{kind}.nc") for kind in ("line", "surface")]
+
+
+def test_cylinder_and_sphere_are_drawn_beside_the_exact_lines(made):
     axes = Figure().subplots()
-    shown = ch3.fig_3_1(data, axes)
-    assert any(np.allclose(line.get_ydata(), 8 / (np.pi * np.sqrt(3))) for line in axes.lines)
-    inside = shown.contact_ratio.between(0.05, 0.25)
-    assert np.allclose(shown.kappa_r[inside], 1.470, rtol=0.01)
+    shown = ch3.fig_3_1(*smooth(made), axes)
+    for body, exact, within in (("cylinder", 8 / (np.pi * np.sqrt(3)), 0.01), ("sphere", 1.666, 0.03)):
+        assert any(np.allclose(line.get_ydata(), exact, rtol=1e-3) for line in axes.lines)
+        inside = shown[(shown.body == body) & shown.contact_ratio.between(0.05, 0.25)]
+        assert np.allclose(inside.kappa_r, exact, rtol=within)
 
 
 def test_the_table_lists_exact_and_computed(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
     axes = Figure().subplots()
-    rows = ch3.table_3_1(data, axes)
-    assert list(rows) == list(ch3.TABLE)
-    assert np.allclose(rows.width_exact, 2 * rows.contact_ratio)
-    assert np.allclose(rows.line_load, np.pi / 4 * rows.contact_ratio**2)
+    rows = ch3.table_3_1(*smooth(made), axes)
+    assert list(rows) == ["body", *ch3.TABLE]
+    line, sphere = (rows[rows.body == body] for body in ("cylinder", "sphere"))
+    assert np.allclose(line.area_exact, 2 * line.contact_ratio)
+    assert np.allclose(line.load, np.pi / 4 * line.contact_ratio**2)
+    assert np.allclose(sphere.load, 4 / 3 * sphere.contact_ratio**3)
+    many = sphere[sphere.contact_ratio >= 0.05]
+    assert np.allclose(many.area, np.pi * many.contact_ratio**2, rtol=0.03)
+
+
+def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(made):
+    rough = {name: dataset.read(made / f"results/quick/datasets/ch3_{name}.nc") for name in ROUGH}
+    axes = list(Figure().subplots(1, 3))
+    shown = ch3.fig_3_4(rough["rough_surface"], axes, kappa=2.2, kappa_r=1.88)
+    assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
+    axes = list(Figure().subplots(1, 2))
+    ratios = ch3.fig_3_5(*rough.values(), axes, ratio=0.92).query(
+        "grid == 'equal' and quantity == 'kappa' and hurst == 0.5"
+    )
+    line = rough["rough_line_coarse"].sel(hurst=0.5).kappa_mean.values
+    assert np.allclose(ratios.value * shown.query("hurst == 0.5").kappa_mean.values, line)
+
+
+ROUGH = ("rough_line", "rough_line_coarse", "rough_surface")
+
+
+def test_the_last_of_smooth_figures_counts_its_cells(made):
+    axes = Figure().subplots()
+    rows = ch3.table_3_1(*smooth(made), axes)
     assert len(axes.tables[0].get_celld()) == (len(rows) + 1) * len(rows.columns)
 
 

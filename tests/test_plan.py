@@ -102,24 +102,26 @@ def test_the_tier_is_that_of_the_config_unless_told(tiers):
     assert plan.figures == tiers[plan.tier].figures
 
 
-def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members(tiers):
+def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_two_of_surfaces(tiers):
     quick, standard = tiers["quick"], tiers["standard"]
     assert quick.figures == standard.figures
     assert quick.studies.keys() == standard.studies.keys()
     for name, study in quick.studies.items():
         asked = standard.studies[name].settings
         assert study.settings["vary"] == asked["vary"]
-        assert study.settings["members"] >= min(3, asked["members"])
+        least = 2 if study.settings["surface"].get("dimensions") == 2 else 3
+        assert study.settings["members"] >= min(least, asked["members"])
         assert (study.settings["companion"] is None) == (asked["companion"] is None)
         assert study.settings["fit_limits"] == asked["fit_limits"]
 
 
-def test_standard_has_at_least_the_points_of_the_thesis_and_no_tier_is_coarser_than_the_one_before(tiers):
+def test_standard_has_at_least_the_points_of_the_thesis_on_lines_and_no_tier_is_coarser_than_the_one_before(tiers):
     for name, study in tiers["standard"].studies.items():
         points = [plan.studies[name].settings["points"] for plan in tiers.values()]
         assert points == sorted(points)
-        assert points[0] < points[-1]
-        assert study.settings["points"] >= study.settings["thesis_points"]
+        assert points[0] < points[-1] or study.settings["thesis_points"] is None
+        if study.settings["surface"]["kind"] != "sphere" and "dimensions" not in study.settings["surface"]:
+            assert study.settings["points"] >= (study.settings["thesis_points"] or 0)
 
 
 def test_every_tier_has_the_loads_that_a_figure_selects_and_a_fit_needs(tiers):
@@ -135,7 +137,9 @@ def test_every_figure_has_a_function_that_takes_data_axes_and_the_values_of_the_
     assert figures
     for name, figure in figures.items():
         draw = getattr(import_module(f"contactsim.figures.{figure.chapter}"), name)
-        assert list(inspect.signature(draw).parameters) == ["data", "axes", *figure.settings["reference"]]
+        _, *beside, axes = list(inspect.signature(draw).parameters)[: len(figure.studies) + 1]
+        assert (len(beside), axes) == (len(figure.studies) - 1, "axes")
+        assert list(inspect.signature(draw).parameters)[len(figure.studies) + 1 :] == list(figure.settings["reference"])
         assert draw.__doc__
 
 
@@ -168,7 +172,7 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.results == Path("made/plain")
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
-    assert plan.figures["fig_3_1"].settings == FIGURE | {"panels": 1, "select": {}, "reference": {}}
+    assert plan.figures["fig_3_1"].settings == FIGURE | {"panels": 1, "select": {}, "reference": {}, "beside": []}
     assert plan.dataset_name("smooth") == "ch3_smooth"
 
 

@@ -221,7 +221,7 @@ def drawn(tmp_path_factory):
     settings = plan.map_settings()
     dataset.write(gather(parts, settings["settings"], settings["source"]), folder / "stability.nc")
     targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
-    render(json.loads(json.dumps(plan.map_figure())), folder / "stability.nc", None, targets)
+    render(json.loads(json.dumps(plan.map_figure())), [folder / "stability.nc"], [], targets)
     return folder
 
 

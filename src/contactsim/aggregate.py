@@ -33,6 +33,11 @@ AVERAGED = (
     "reduced_pressure_contact",
     "mean_gap",
 )
+ROUND = {
+    False: ("half_width_exact", analytic.cylinder_rms_gradient),
+    True: ("contact_radius_exact", analytic.sphere_rms_gradient),
+}
+"""Size of the contact of a cylinder, or of a sphere, and the exact gradient in it."""
 LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 
 
@@ -44,8 +49,9 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     fine = _read([run for run in runs if not run["companion"]])
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
-        fine["half_width_exact"] = fine.contact_ratio * radius
-        fine["rms_gradient_exact"] = xr.apply_ufunc(analytic.cylinder_rms_gradient, fine.half_width_exact, radius)
+        size, gradient = ROUND["length_y" in fine]
+        fine[size] = fine.contact_ratio * radius
+        fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[size], radius)
     data = fine.merge(_ensemble(fine))
     for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
         others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]
@@ -78,7 +84,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
         for data, place in parts
     ]
     data = xr.combine_by_coords(places, combine_attrs="drop")
-    for name in ("points", "length", "contact_modulus", "seed"):
+    for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
     return _derived(data)
@@ -101,7 +107,9 @@ def _derived(data: xr.Dataset) -> xr.Dataset:
     )
     if "reduced_pressure" in data.dims:
         data["kappa"] = area / data.reduced_pressure
-    if "contact_ratio" in data.dims:
+    if "contact_ratio" in data.dims and "length_y" in data:
+        data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
+    elif "contact_ratio" in data.dims:
         data["half_width"] = area * data.length / 2
     return data
 
@@ -198,6 +206,13 @@ def relative_change(data: xr.Dataset, name: str, along: str, reference: object) 
 def _squared_error(values: xr.DataArray) -> xr.DataArray:
     """Squared standard error of the mean over the members that are known."""
     return values.var("member", ddof=1) / values.notnull().sum("member")
+
+
+def ratio_of_means(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
+    """The mean of a quantity over that in another, independent ensemble: `value` and its standard `error`."""
+    value = one[f"{name}_mean"] / two[f"{name}_mean"]
+    parts = [data[f"{name}_standard_error"] / data[f"{name}_mean"] for data in (one, two)]
+    return xr.Dataset({"value": value, "error": value * np.sqrt(parts[0] ** 2 + parts[1] ** 2)})
 
 
 WEIGHTINGS = ("area", "logarithm")

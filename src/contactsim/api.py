@@ -15,6 +15,7 @@ from contactsim.solvers import solver as named
 from contactsim.solvers import usual
 from contactsim.solvers.base import Result, Solver, require, solve
 from contactsim.surface import Flat, Sampled
+from contactsim.topography import Topography
 
 
 def press(
@@ -32,7 +33,8 @@ def press(
 ) -> Result:
     """Press a rigid periodic profile into an elastic half-space or layer, without adhesion or friction.
 
-    heights: (n,), n ≥ 2, of the rigid counter-body: the largest touches first. spacing: between points.
+    heights: (n,) along a line or (ny, nx) over a surface, 2 points or more each way, of the rigid counter-body: the
+    largest touches first. spacing: between points; of a surface one number, or those along y and along x.
     contact_modulus: E* = E/(1-ν²). thickness: of a layer bonded to a rigid base, a half-space without it;
     poisson_ratio: the layer's, above -1 and up to exactly 0.5; a half-space, of which E* says all, has none.
 
@@ -41,22 +43,24 @@ def press(
     on a layer with poisson_ratio 0.5, which keeps its volume, full contact is at -mean(heights), and an approach must
     stay below; any other layer yields on average too, so it takes any approach.
 
-    tolerance: of gap in contact and of overlap outside, in grid steps (the rms height difference of neighbouring
+    tolerance: of gap in contact and of overlap outside, in grid steps (the typical height difference of neighbouring
     points); close to full contact, and on flat tops at a light load, choose it well below the mean gap, and below p*,
-    in such steps. solver: a name, or a solver with options of its own. Units are free but consistent: lengths in one,
-    pressures in that of E*.
+    in such steps. solver: a name, or a solver with options of its own; without it, the usual one of the dimension.
+    Units are free but consistent: lengths in one, pressures in that of E*.
 
-    Returns pressure (n,), never negative; gap (n,); contact (n,); relative_contact_area; approach; status; record
-    with transforms and the certificate. A `SceneError` says what is wrong with the input.
+    Returns pressure, never negative, gap and contact, each shaped as heights; relative_contact_area; approach; status;
+    record with transforms and the certificate. A `SceneError` says what is wrong with the input.
     """
     if np.ma.is_masked(heights):
         raise SceneError("heights", heights, "finite numbers, none missing; these are masked in part")
     try:
-        profile = Profile(np.asarray(heights), spacing, None)
+        given = np.asarray(heights)
+        plane = given.ndim > 1
+        profile = Topography(given, np.broadcast_to(spacing, 2), None) if plane else Profile(given, spacing, None)
     except SceneError:
         raise
     except ValueError as error:
-        raise SceneError("heights", heights, "two or more real numbers, in 1D") from error
+        raise SceneError("heights", heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
     surface = Sampled(profile)
     if (mean_pressure is None) == (approach is None):
         given = {"mean_pressure": mean_pressure, "approach": approach}

@@ -1,7 +1,8 @@
 """Two tiers side by side: how far the numbers that a figure shows differ.
 
 The rows of a figure's CSV are told apart by those of its columns that are dimensions of the study's dataset or of its
-fits; rows that both tiers have are joined by them. The columns compared are those that the figure's `compare` lists.
+fits, or hold words; rows that both tiers have are joined by them. The columns compared are those that the figure's
+`compare` lists.
 Differences are relative to the second tier. The files are read as they lie: `make` brings them up to date.
 """
 
@@ -85,7 +86,8 @@ def _figure(first: Plan, second: Plan, name: str) -> pd.DataFrame:
     figure = second.figures[name]
     a, b = (_numbers(plan, name) for plan in (first, second))
     places = (*FIT_DIMENSIONS, *second.studies[figure.settings["study"]].dimensions)
-    keys = [place for place in places if place in a and place in b]
+    keys = [place for place in (*places, *a.select_dtypes(exclude="number")) if place in a and place in b]
+    keys = list(dict.fromkeys(keys))
     for plan, table in ((first, a), (second, b)):
         known = list(table.drop(columns=keys).select_dtypes("number"))
         for column in figure.compare:

@@ -63,6 +63,8 @@ VARIABLES = {
     "kappa": ("1", "proportionality of area and pressure, gradient over all of the surface"),
     "kappa_r": ("1", "proportionality of area and pressure, gradient over the contact (Eq. 3.8)"),
     "kappa_r_bond": ("1", "proportionality of area and pressure, gradient over pairs in contact"),
+    "contact_radius_exact": ("nm", "radius of the contact, exact (Hertz)"),
+    "contact_radius": ("nm", "radius of the contact, of a circle of its area"),
     "half_width_exact": ("nm", "half-width of the contact, exact (Eq. 3.5)"),
     "rms_gradient_exact": ("1", "rms gradient over the contact, exact (Eq. 3.6)"),
     "half_width": ("nm", "half-width of the contact"),

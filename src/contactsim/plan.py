@@ -38,6 +38,7 @@ LEAST_WIDTH = 2.8
 
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter"),
+    "beside": Key(listed(text), "names of further studies of this chapter", []),
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
     "size": Key(size, "width and height in inches"),
@@ -56,6 +57,11 @@ class Figure:
     chapter: str
     settings: dict
     compare: list[str]
+
+    @property
+    def studies(self) -> list[str]:
+        """The studies whose data it shows."""
+        return [self.settings["study"], *self.settings["beside"]]
 
 
 @dataclass(frozen=True)
@@ -169,7 +175,7 @@ class Plan:
         """What a figure depends on: its settings, its code, and all that its data depend on."""
         figure = self.figures[name]
         code = source_digest(f"contactsim.figures.{figure.chapter}", "contactsim.figures.render")
-        data = digest(self.study_settings(figure.settings["study"]))
+        data = digest(*(self.study_settings(study) for study in figure.studies))
         return {"name": name, "chapter": figure.chapter, "settings": figure.settings, "source": code, "data": data}
 
     def claims_studies(self, chapter: str) -> list[str]:
@@ -200,8 +206,9 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     settings = read(section, FIGURE_KEYS, file, prefix)
     if settings["size"][0] < LEAST_WIDTH * settings["panels"]:
         raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
-    if settings["study"] not in studies:
-        raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(studies)}", file)
+    for key, named in (("study", [settings["study"]]), ("beside", settings["beside"])):
+        for study in set(named) - set(studies):
+            raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
     settings["select"] = selection(settings["select"], studies[settings["study"]].dimensions, file, f"{prefix}.select")
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:

@@ -17,7 +17,7 @@ prescribed it is so for any body: a uniform displacement leaves the gap alone, a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 
 import numpy as np
@@ -174,29 +174,34 @@ class WallProblem:
         )
 
     def admissible(self, pressure: Array) -> Array:
-        """The nearest field with p ≥ 0 and exactly the load asked for."""
-        clipped = np.maximum(pressure, 0.0)
-        if self.load is None:
-            return clipped
-        mean = clipped.mean()
-        return clipped * (self.load / mean) if mean > 0 else np.full_like(clipped, self.load)
+        """The nearest field with p ≥ 0 and exactly the load asked for, in memory of its own."""
+        nearest = np.maximum(pressure, 0.0)
+        if self.load is not None:
+            mean = nearest.mean()
+            if mean > 0:
+                nearest *= self.load / mean
+            else:
+                nearest[...] = self.load
+        return nearest
 
-    def certify(self, pressure: Array) -> Certificate:
-        """Everything that makes `pressure` a solution, recomputed from it alone."""
-        gap = self.compliance(pressure) - self.heights
+    def certify(self, pressure: Array) -> tuple[Certificate, Array]:
+        """Everything that makes `pressure` a solution, and its gap in grid steps, recomputed from it alone."""
+        gap = self.compliance(pressure)
+        gap -= self.heights
         contact = pressure > 0
         approach = self.approach
         if approach is None:
-            approach = float(gap[contact].mean()) if contact.any() else 0.0
+            approach = float(gap.mean(where=contact)) if contact.any() else 0.0
         gap -= approach
-        return Certificate(
-            non_uniformity=float(np.max(np.abs(gap[contact]), initial=0.0)),
-            penetration=float(np.max(-gap[~contact], initial=0.0)),
+        widest, deepest = (float(pick(gap, where=contact, initial=0.0)) for pick in (np.max, np.min))
+        certificate = Certificate(
+            non_uniformity=max(widest, -deepest),
+            penetration=0.0 - float(np.min(gap, where=~contact, initial=0.0)),
             smallest_pressure=float(pressure.min()),
             load_error=0.0 if not self.load else float(abs(pressure.mean() / self.load - 1)),
-            gap=gap,
             approach=approach,
         )
+        return certificate, gap
 
 
 @dataclass(frozen=True)
@@ -204,14 +209,13 @@ class Certificate:
     """How far a field of pressure is from the solution; lengths in grid steps.
 
     non_uniformity: largest |gap| in contact; penetration: largest overlap elsewhere; smallest_pressure: in
-    E*·step/spacing, never negative; load_error: relative; gap, approach: that belong to the pressure.
+    E*·step/spacing, never negative; load_error: relative; approach: that belongs to the pressure.
     """
 
     non_uniformity: float
     penetration: float
     smallest_pressure: float
     load_error: float
-    gap: Array = field(repr=False)
     approach: float
 
     def met(self, tolerance: float) -> bool:

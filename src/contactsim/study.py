@@ -215,7 +215,7 @@ class Study:
         try:
             scene = scene_of(run.settings)
             require(solver(**run.settings["solver"]), scene)
-            scene.heights(points_of(run.settings, scene.upper.surface))
+            scene.upper.surface.check(points_of(run.settings, scene.upper.surface))
         except SceneError as error:
             section = next((f".{name}" for name in KINDS if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error

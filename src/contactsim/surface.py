@@ -37,6 +37,10 @@ class Surface(Protocol):
     points: int | None
     modes: int | None
 
+    def check(self, points: int) -> None:
+        """Refuse a number of points along x that cannot sample it; cheap."""
+        ...
+
     def heights(self, points: int) -> Array:
         """Heights at equispaced positions from 0, `points` along x, shape (points,) or (points along y, points), nm."""
         ...
@@ -77,6 +81,12 @@ class _Smooth:
     def lengths(self) -> tuple[float, ...]:
         """Period in each direction, nm."""
         return (self.length,) * self.dimensions
+
+    def check(self, points: int) -> None:
+        """Refuse fewer than two points along x, and those that miss the shortest wave."""
+        Grid((points,), (self.lengths[-1],))
+        if self.modes is not None and points <= 2 * self.modes:
+            raise SceneError("points", points, f"more than {2 * self.modes}: two points per shortest wavelength")
 
 
 @dataclass(frozen=True)
@@ -249,8 +259,7 @@ class SelfAffine(_Smooth):
 
     def heights(self, points: int) -> Array:
         """Heights with zero mean, shape (points,) or (points, points), nm."""
-        if points <= 2 * self.modes:
-            raise SceneError("points", points, f"more than {2 * self.modes}: two points per shortest wavelength")
+        self.check(points)
         grid = Grid((points,) * self.dimensions, self.lengths)
         half = np.zeros(grid.half_shape, complex)
         half[grid.low_modes(self.modes)] = self.coefficients
@@ -281,10 +290,14 @@ class Sampled:
         """Period: number of points times spacing, nm."""
         return tuple(np.atleast_1d(self.profile.spacing) * self.profile.heights.shape)
 
-    def heights(self, points: int) -> Array:
-        """The heights as given; `points` must be their number along x: a measurement is not resampled."""
+    def check(self, points: int) -> None:
+        """Refuse another number of points than there are: a measurement is not resampled."""
         if points != self.points:
             raise SceneError("points", points, f"{self.points}, the number of points of the measurement")
+
+    def heights(self, points: int) -> Array:
+        """The heights as given; `points` must be their number along x."""
+        self.check(points)
         return self.profile.heights
 
 

@@ -84,7 +84,8 @@ def quantities(study: Study) -> list[str]:
     load = study.settings["load"]["name"]
     known = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
     if load == "contact_ratio":
-        known |= {"half_width", "half_width_exact", "rms_gradient_exact"}
+        size = "contact_radius" if study.settings["surface"]["kind"] == "sphere" else "half_width"
+        known |= {size, f"{size}_exact", "rms_gradient_exact"}
     if study.settings["companion"] is not None:
         known |= {f"{name}_grid_error" for name in AVERAGED if name in known}
     if study.dimensions == ["hurst", "member", "reduced_pressure"]:
@@ -98,10 +99,12 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
         return _fit(data, *FITTED[name])
     if name == "half_width":
         return quantity(data, "relative_contact_area") * data.length / 2
+    if name == "contact_radius":
+        return np.sqrt(quantity(data, "relative_contact_area") * data.length * data.length_y / np.pi)
     return converged(data[name], data).mean("member")
 
 
 def averaged(name: str) -> str | None:
     """The averaged quantity, with a grid error of its own, that another is made from; None for what is exact."""
-    made = "relative_contact_area" if name in FITTED or name == "half_width" else name
+    made = "relative_contact_area" if name in (*FITTED, "half_width", "contact_radius") else name
     return made if made in AVERAGED else None

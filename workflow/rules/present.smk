@@ -26,13 +26,13 @@ rule aggregate:
 
 
 for _name, _figure in PLAN.figures.items():
-    _data = PLAN.dataset_name(_figure.settings["study"])
+    _data = [PLAN.dataset_name(study) for study in _figure.studies]
 
     rule:
         name: _name
         input:
-            data=RESULTS / f"datasets/{_data}.nc",
-            costs=RESULTS / f"costs/{_data}.csv",
+            data=[RESULTS / f"datasets/{name}.nc" for name in _data],
+            costs=[RESULTS / f"costs/{name}.csv" for name in _data],
         output:
             png=RESULTS / f"figures/{_name}.png",
             pdf=RESULTS / f"figures/{_name}.pdf",

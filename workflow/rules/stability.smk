@@ -24,7 +24,7 @@ if PLAN.stability:
 
     rule stability:
         input:
-            data=RESULTS / "datasets/stability.nc",
+            data=[RESULTS / "datasets/stability.nc"],
         output:
             png=RESULTS / "figures/stability.png",
             pdf=RESULTS / "figures/stability.pdf",

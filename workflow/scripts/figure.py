@@ -6,4 +6,5 @@ from contactsim.figures.render import render
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])
-render(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.get("costs"), snakemake.output)
+files = snakemake.input
+render(json.loads(snakemake.params.plan), files.data, files.get("costs", []), snakemake.output)

@@ -11,68 +11,79 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import analytic
-from contactsim.aggregate import departure
+from contactsim import aggregate, analytic
 from contactsim.figures import style
 from contactsim.grid import Array
 
-FREE_OF_EDGES = 0.05, 0.25
-"""c/R between which a cylinder at L/R = 4 has enough points and does not feel its neighbours."""
+FREE_OF_NEIGHBOURS = 0.25
+"""Largest c/R at which a cylinder or sphere at L/R = 4 does not feel its neighbours."""
 
 
-def _cylinder(data: xr.Dataset) -> xr.Dataset:
-    """The one member, with the exact values and the width of a grid point, as a part of the contact's."""
+def _round(data: xr.Dataset, exact: float) -> xr.Dataset:
+    """The one member of a cylinder or sphere, with area and load without units, and the exact values."""
     one = data.isel(member=0)
-    radius = float(one.half_width_exact[0] / one.contact_ratio[0])
+    size = "contact_radius" if "contact_radius" in one else "half_width"
+    radius = float(one[f"{size}_exact"][0] / one.contact_ratio[0])
+    nominal = one.length / radius * (one.length_y / radius if "length_y" in one else 1.0)
+    ratio = one.contact_ratio
     return one.assign(
-        resolution=one.length / one.points / (2 * one.half_width_exact),
-        width=2 * one.half_width / radius,
-        width_exact=2 * one.half_width_exact / radius,
-        line_load=one.mean_pressure * one.length / (one.contact_modulus * radius),
-        rms_gradient_exact=one.contact_ratio.copy(data=analytic.cylinder_rms_gradient(one.half_width_exact, radius)),
-        kappa_r_exact=analytic.CYLINDER_KAPPA_R,
+        area=one.relative_contact_area * nominal,
+        area_exact=2 * ratio if size == "half_width" else np.pi * ratio**2,
+        load=one.mean_pressure * nominal / one.contact_modulus,
+        kappa_r_exact=exact,
     )
 
 
 TABLE = {
     "contact_ratio": r"$c/R$",
-    "width_exact": "$a_{act}/R$\nexact",
-    "width": "$a_{act}/R$\ncomputed",
-    "line_load": "$L/(E^*R)$\ngiven",
+    "area_exact": "$a_{act}$\nexact",
+    "area": "$a_{act}$\ncomputed",
+    "load": "$L$\ngiven",
     "rms_gradient_exact": r"$\bar g_r$" + "\nexact",
     "rms_gradient_contact": r"$\bar g_r$" + "\ncomputed",
     "kappa_r_exact": r"$\kappa_r$" + "\nexact",
     "kappa_r": r"$\kappa_r$" + "\ncomputed",
     "kappa_r_bond": r"$\kappa_r$" + "\nof pairs",
 }
+ROUND = {
+    "cylinder": (analytic.CYLINDER_KAPPA_R, r"cylinder, exact $8/(\pi\sqrt{3})$ = 1.470"),
+    "sphere": (analytic.SPHERE_KAPPA_R, r"sphere, exact $3\pi/(4\sqrt{2})$ = 1.666"),
+}
 
 
-def fig_3_1(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
-    """κ_r of the cylinder does not depend on the load (thesis Fig. 3.1, line)."""
-    one = _cylinder(data)
-    pressure, exact = one.reduced_pressure_contact, analytic.CYLINDER_KAPPA_R
-    low, high = float(pressure.min()) / 1.3, float(pressure.max()) * 1.4
-    edges = np.interp(FREE_OF_EDGES, one.contact_ratio, pressure)
-    for span, x, text in (((low, edges[0]), low, " few points"), ((edges[1], high), edges[1], " neighbours")):
-        axes.axvspan(*span, color="#efefef", lw=0, zorder=0)
-        axes.text(x, 0.03, text, transform=axes.get_xaxis_transform(), fontsize=7, color="#666666")
-    bars = exact * one.resolution
-    shown = [
-        axes.errorbar(pressure, one.kappa_r, bars, fmt="o", ms=4, color=style.CONTACT, elinewidth=0.7, label="Eq. 3.8"),
-        *axes.plot(pressure, one.kappa_r_bond, "+", color=style.PAIRS, ms=6, label="pairs in contact"),
-        axes.axhline(exact, color=style.EXACT, lw=1, label=rf"exact, $8/(\pi\sqrt{{3}})={exact:.3f}$"),
-    ]
-    axes.set(xscale="log", xlim=(low, high))
-    style.keep_in_view(axes, exact - 0.2, exact + 0.2)
-    axes.set(xlabel=r"reduced pressure $p_r^*$", ylabel=r"$\kappa_r^{1D}$")
-    axes.legend(handles=shown, loc="upper right")
-    return one[["reduced_pressure_contact", "resolution", *list(TABLE)[1:]]].to_dataframe().reset_index()
+def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
+    """κ_r of a cylinder and of a sphere do not depend on the load (thesis Fig. 3.1)."""
+    shown, rows = [], []
+    for data, name, mark in ((line, "cylinder", "o"), (surface, "sphere", "s")):
+        exact, words = ROUND[name]
+        one = _round(data, exact)
+        pressure, look = one.reduced_pressure_contact, {"fmt": mark, "ms": 4, "mfc": "white", "elinewidth": 0.7}
+        for part, fade in (
+            (one.contact_ratio <= FREE_OF_NEIGHBOURS, 1.0),
+            (one.contact_ratio > FREE_OF_NEIGHBOURS, 0.35),
+        ):
+            x = pressure[part]
+            bars = one.kappa_r_grid_error[part] if "kappa_r_grid_error" in one else None
+            axes.errorbar(x, one.kappa_r[part], bars, color=style.CONTACT, alpha=fade, **look)
+            axes.plot(x, one.kappa_r_bond[part], "+" if mark == "o" else "x", color=style.PAIRS, ms=5, alpha=fade)
+        shown.append(axes.axhline(exact, color=style.EXACT, lw=1, ls="-" if mark == "o" else "--", label=words))
+        shown.append(Line2D([], [], color="#777777", ls="", marker=mark, mfc="white", ms=4, label=name))
+        rows.append(one.to_dataframe().reset_index().assign(body=name))
+    axes.set(xscale="log", ylim=(1.2, 2.2))
+    axes.set(xlabel=r"reduced pressure $p_r^*$", ylabel=r"$\kappa_r$")
+    colours = {"Eq. 3.8": style.CONTACT, "pairs in contact": style.PAIRS}
+    axes.legend(handles=[*shown, *style.key(colours, {})], loc="upper left", ncols=2)
+    return pd.concat(rows)[["body", *list(TABLE)]]
 
 
-def table_3_1(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
-    """Cylinder: width, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1, line)."""
-    rows = _cylinder(data).to_dataframe().reset_index()[list(TABLE)]
-    style.table(axes, list(TABLE.values()), [[f"{value:#.4g}" for value in row] for row in rows.to_numpy()])
+def table_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
+    """Cylinder and sphere: area, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1)."""
+    parts = []
+    for data, name in ((line, "cylinder"), (surface, "sphere")):
+        parts.append(_round(data, ROUND[name][0]).to_dataframe().reset_index()[list(TABLE)].assign(body=name))
+    rows = pd.concat(parts)[["body", *TABLE]]
+    text = [[row[0], *(f"{value:#.4g}" for value in row[1:])] for row in rows.to_numpy()]
+    style.table(axes, ["", *TABLE.values()], text)
     return rows
 
 
@@ -122,13 +133,81 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     return style.averages(data, AVERAGES)
 
 
+def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float) -> pd.DataFrame:
+    """Area of surfaces against both reduced pressures, and the proportionality factors (thesis Fig. 3.4).
+
+    kappa, kappa_r: the thesis's values.
+    """
+    left, middle, right = axes
+    for value in data.hurst.values:
+        one, look = data.sel(hurst=value), style.hurst(value)
+        whole, contact = one.reduced_pressure, one.reduced_pressure_contact_mean
+        style.with_errors(left, whole, one, "relative_contact_area", color=style.WHOLE, **look)
+        style.with_errors(left, contact, one, "relative_contact_area", color=style.CONTACT, **look)
+        for x, name, color in (
+            (whole, "kappa", style.WHOLE),
+            (contact, "kappa_r", style.CONTACT),
+            (contact, "kappa_r_bond", style.PAIRS),
+        ):
+            style.with_errors(middle, x, one, name, color=color, **look)
+            style.grid_error(right, x, one, name, color=color, **look)
+    dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
+    persson = analytic.persson_area(dense)
+    left.plot(dense, persson, color=style.EXACT, lw=0.8)
+    middle.plot(dense, persson / dense, color=style.EXACT, lw=0.8)
+    for value, color in ((kappa, style.WHOLE), (kappa_r, style.CONTACT)):
+        middle.axhline(value, color=color, lw=0.8, ls=(0, (6, 3)))
+    left.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
+    middle.set(ylabel=r"$\kappa^{2D}$, $\kappa_r^{2D}$")
+    right.set(yscale="log", ylabel=r"grid error of $\kappa^{2D}$, $\kappa_r^{2D}$")
+    for panel, letter in zip(axes, "abc", strict=True):
+        panel.set(xscale="log", xlabel=r"reduced pressure $p^*$, $p_r^*$")
+        style.letter(panel, letter)
+    left.legend(handles=style.hurst_key(data.hurst.values), loc="upper left")
+    colours = {r"$\bar g$ over the whole surface": style.WHOLE, r"$\bar g_r$ over the contact (Eq. 3.8)": style.CONTACT}
+    lines = {rf"thesis, {kappa:g} and {kappa_r:g}": (0, (6, 3)), r"Persson, erf$(\sqrt{2}p^*)$": "-"}
+    middle.legend(handles=style.key(colours | {r"$\bar g_r$ over pairs in contact": style.PAIRS}, lines), loc="best")
+    middle.set_ylim(top=middle.get_ylim()[1] + 0.45 * np.ptp(middle.get_ylim()))
+    return style.averages(data, AVERAGES)
+
+
+def fig_3_5(
+    line: xr.Dataset, coarse: xr.Dataset, surface: xr.Dataset, axes: list[Axes], *, ratio: float
+) -> pd.DataFrame:
+    """Proportionality factors of lines over those of surfaces (thesis Fig. 3.5); ratio: the thesis's, of κ_r."""
+    rows = []
+    smooth = analytic.CYLINDER_KAPPA_R / analytic.SPHERE_KAPPA_R
+    colours = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
+    for panel, lines, name in zip(axes, (coarse, line), ("equal", "own"), strict=True):
+        shared = lines.sel(reduced_pressure=surface.reduced_pressure, method="nearest")
+        shared = shared.assign_coords(reduced_pressure=surface.reduced_pressure)
+        for value in surface.hurst.values:
+            one, two = shared.sel(hurst=value), surface.sel(hurst=value)
+            for quantity, color in colours.items():
+                found = aggregate.ratio_of_means(one, two, quantity)
+                bars = found.error if np.isfinite(found.error).any() else None
+                look = style.hurst(value) | {"color": color, "elinewidth": 0.8, "capsize": 1.5}
+                panel.errorbar(found.reduced_pressure, found.value, bars, **look)
+                rows.append(found.to_dataframe().reset_index().assign(quantity=quantity, hurst=value, grid=name))
+        panel.axhline(ratio, color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
+        panel.axhline(smooth, color=style.EXACT, lw=0.8)
+        panel.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}/\kappa^{2D}$")
+    for panel, letter in zip(axes, "ab", strict=True):
+        style.letter(panel, letter)
+    names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_bond"}
+    keys = {words: colours[quantity] for words, quantity in names.items()}
+    axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)
+    axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.3 * np.ptp(axes[0].get_ylim()))
+    return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error"]]
+
+
 def _constancy(data: xr.Dataset) -> str:
     """The most significant changes of κ_r with pressure and with the Hurst exponent, in words."""
     if data.member.size < 2:
         return ""
     lines = []
     for along, text, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst", "$H$", "$p^*$")):
-        found = departure(data, "kappa_r", along)
+        found = aggregate.departure(data, "kappa_r", along)
         first, second = (place[along] for place in found.places)
         (at,) = (value for name, value in found.places[0].items() if name != along)
         lines.append(rf"{text} from {first:g} to {second:g} at {other} = {at:g}: $\kappa_r$ changes")

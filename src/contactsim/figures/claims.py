@@ -41,6 +41,8 @@ SYMBOLS = {
     "mean_pressure": "p",
     "mean_gap": "the mean gap",
     "contact_ratio": "c/R",
+    "contact_radius": "c",
+    "contact_radius_exact": "the exact c",
     "half_width": "c",
     "half_width_exact": "the exact c",
     "hurst": "H",

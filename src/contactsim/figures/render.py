@@ -19,20 +19,21 @@ LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
 
 
-def render(plan: Mapping, data_path: str, costs_path: str | None, targets: Mapping[str, str]) -> None:
+def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Mapping[str, str]) -> None:
     """Draw one figure into its files.
 
-    plan: `Plan.figure_settings`; data_path: the dataset; costs_path: a study's costs, None where the module of the
-    figure writes a `footer` of its own; targets: png, pdf and csv.
+    plan: `Plan.figure_settings`; data: paths of the datasets; costs: of the studies' costs, none where the module of
+    the figure writes a `footer` of its own; targets: png, pdf and csv.
     """
-    data, settings = dataset.read(data_path), plan["settings"]
+    settings, shown_data = plan["settings"], [dataset.read(path) for path in data]
     module = import_module(f"contactsim.figures.{plan['chapter']}")
     draw = getattr(module, plan["name"])
     for dim, (least, largest) in settings["select"].items():
-        data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
-    footer = module.footer(data) if costs_path is None else footer_text(data, pd.read_csv(costs_path))
-    figure, panels = framed(settings, footer)
-    shown = draw(data, panels if len(panels) > 1 else panels[0], **settings["reference"])
+        part = {dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}
+        shown_data = [one.sel(part) if dim in one.dims else one for one in shown_data]
+    priced = [footer_text(one, pd.read_csv(path)) for one, path in zip(shown_data, costs, strict=bool(costs))]
+    figure, panels = framed(settings, " — ".join(priced) if priced else module.footer(*shown_data))
+    shown = draw(*shown_data, panels if len(panels) > 1 else panels[0], **settings["reference"])
     save(figure, shown, targets)
 
 
@@ -62,7 +63,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     lost, total = aggregate.left_out(data)
     members = data.member.size
     parts = [
-        f"{settings['tier']} tier",
+        f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",
         style.points_text(settings, int(data.points)),
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",

@@ -147,17 +147,19 @@ def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
             state, count, finite = iterate(solver, problem, state, solver.budget - spent)
             spent += count
             pressure = problem.admissible(state.pressure)
-            certificate = problem.certify(pressure)
+            certificate, gap = problem.certify(pressure)
             if not finite:
                 status = Status.NON_FINITE
             elif certificate.met(problem.tolerance):
                 status = Status.CONVERGED
     if certificate is None:
-        certificate = problem.certify(pressure)
+        certificate, gap = problem.certify(pressure)
     record = Record(spent, problem.tally.transforms, certificate)
+    pressure *= scale.pressure
+    gap *= scale.step
     return Result(
-        pressure=pressure * scale.pressure,
-        gap=certificate.gap * scale.step,
+        pressure=pressure,
+        gap=gap,
         approach=certificate.approach * scale.step - scale.highest + scale.sunk,
         status=status,
         record=record,

@@ -207,7 +207,7 @@ def work(low, high, nx, contact, words, change, spread, sums):
 
 @compiled
 def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta, level, overlap, direction, sums):
-    """Step: p += theta × change, gap += theta × spread; drop points that carry nothing and gape, add those that overlap.
+    """Step: p += theta × change, gap += theta × spread; drop points that carry nothing, add those that overlap.
 
     level: the gap on the contact after the step; overlap: how far below it a point is added. sums: gap on the new
     contact, its points, points added, direction on the new contact; largest overlap, largest gap where pressure is.
