@@ -12,12 +12,13 @@ from contactsim import loading
 from contactsim.elasticity import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.explain import explain
+from contactsim.figures.sketch import save_sketch
 from contactsim.laws import HardWall
 from contactsim.march import simulate
 from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
-from contactsim.surface import Cylinder, Flat, Sinusoid
+from contactsim.surface import Cylinder, Flat, Sinusoid, Sphere
 
 WALL = (HardWall(),)
 
@@ -129,3 +130,13 @@ def test_an_explanation_says_what_is_on_what_is_not_and_who_may_solve_it():
 def test_a_smooth_scene_asks_for_no_random_numbers():
     first, second = (Cylinder(4.0, 1.0).heights(64) for _ in range(2))
     assert np.array_equal(first, second)
+
+
+def test_a_surface_is_explained_by_all_its_points_and_drawn_through_its_middle(tmp_path):
+    ball = Sphere(64.0, 100.0)
+    subject = Scene(Body(Flat.facing(ball), HalfSpace(1.0)), Body(ball), (HardWall(),), loading.press([1e-3]))
+    told = explain(subject, 32, "conjugate_gradients")
+    assert told.unknowns == 32 * 32
+    assert told.megabytes == pytest.approx(32 * 32 * 8 * solver("conjugate_gradients").fields / 1e6)
+    save_sketch(subject, 32, tmp_path / "sketch.png")
+    assert (tmp_path / "sketch.png").read_bytes().startswith(b"\x89PNG")

@@ -5,6 +5,7 @@ Everything said here is read off the scene and the solvers' own declarations, so
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -61,6 +62,7 @@ class Explanation:
 def explain(scene: Scene, points: int, method: str) -> Explanation:
     """Explain a scene on a grid of `points` with the solver named `method`."""
     chosen = solver(method)
+    size = math.prod(scene.upper.surface.shape(points))
     return Explanation(
         bodies=(_body(scene, "upper"), _body(scene, "lower")),
         effects={_name(effect): _effect(effect) for effect in scene.effects},
@@ -70,10 +72,10 @@ def explain(scene: Scene, points: int, method: str) -> Explanation:
             for field in ("displacement", "traction")
         ),
         left_out=_left_out(scene),
-        unknowns=points * len(scene.components),
+        unknowns=size * len(scene.components),
         steps=len(scene.path.steps),
         transforms=chosen.transforms(points),
-        megabytes=chosen.fields * len(scene.components) * points * 8 / 1e6,
+        megabytes=chosen.fields * len(scene.components) * size * 8 / 1e6,
         solvers={name: _why_not(scene, name) for name in SOLVERS},
         chosen=method,
     )

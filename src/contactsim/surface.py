@@ -37,6 +37,10 @@ class Surface(Protocol):
     points: int | None
     modes: int | None
 
+    def shape(self, points: int) -> tuple[int, ...]:
+        """Shape of the heights on `points` along x."""
+        ...
+
     def check(self, points: int) -> None:
         """Refuse a number of points along x that cannot sample it; cheap."""
         ...
@@ -81,6 +85,10 @@ class _Smooth:
     def lengths(self) -> tuple[float, ...]:
         """Period in each direction, nm."""
         return (self.length,) * self.dimensions
+
+    def shape(self, points: int) -> tuple[int, ...]:
+        """Shape of the heights on `points` along x."""
+        return (points,) * len(self.lengths)
 
     def check(self, points: int) -> None:
         """Refuse fewer than two points along x, and those that miss the shortest wave."""
@@ -289,6 +297,10 @@ class Sampled:
     def lengths(self) -> tuple[float, ...]:
         """Period: number of points times spacing, nm."""
         return tuple(np.atleast_1d(self.profile.spacing) * self.profile.heights.shape)
+
+    def shape(self, points: int) -> tuple[int, ...]:
+        """Shape of the heights, whatever `points` says."""
+        return self.profile.heights.shape
 
     def check(self, points: int) -> None:
         """Refuse another number of points than there are: a measurement is not resampled."""

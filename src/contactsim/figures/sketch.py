@@ -24,7 +24,7 @@ def sketch(scene: Scene, points: int, axes: Axes) -> None:
     """Both bodies before they touch, heights enlarged to be seen; at most 2000 points of the profile are drawn."""
     shown = np.linspace(0, points - 1, min(points, 2000)).astype(int)
     x = shown / points * scene.length
-    lower, upper = (body.surface.heights(points)[shown] for body in (scene.lower, scene.upper))
+    lower, upper = (_section(body, points)[shown] for body in (scene.lower, scene.upper))
     span = max(np.ptp(lower), np.ptp(upper)) or 1.0
     gap = 0.35 * span
     top = lower.max() + gap + upper.max()
@@ -42,6 +42,12 @@ def sketch(scene: Scene, points: int, axes: Axes) -> None:
 def _depth(body: Body, span: float, usual: float) -> float:
     """How deep a body is drawn below its lowest point: a layer to scale where that can be seen."""
     return float(np.clip(getattr(body.elasticity, "thickness", usual * span), 0.4 * span, 1.6 * span))
+
+
+def _section(body: Body, points: int) -> np.ndarray:
+    """Heights along x, shape (points,), of a surface through its middle."""
+    heights = body.surface.heights(points)
+    return heights if heights.ndim == 1 else heights[len(heights) // 2]
 
 
 def _body(axes: Axes, body: Body, x: np.ndarray, surface: np.ndarray, far: float, side: str) -> float:
