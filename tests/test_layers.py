@@ -15,8 +15,8 @@ solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet sol
 solvers.kernels solvers.conjugate_gradients
 observables analytic provenance dataset config build study march aggregate costs joblog takes claims api hazards
 stability plan compare explain cost precision
-figures figures.style figures.ch3 figures.ch5 figures.stability figures.render figures.claims figures.accuracy
-figures.sketch cli
+figures figures.style figures.maps figures.ch3 figures.ch5 figures.stability figures.render figures.claims
+figures.accuracy figures.sketch cli
 """.split()
 """Modules in import order: each may import those before it."""
 

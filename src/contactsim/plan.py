@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contactsim import stability
+from contactsim.build import scene_of
 from contactsim.claims import Claim, selection
 from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
+from contactsim.traits import Trait
 
 CONFIG_KEYS = {
     "seed": Key(whole(0), "a whole number, 0 or more"),
@@ -35,6 +37,8 @@ CHAPTER_KEYS = {
 
 LEAST_WIDTH = 2.8
 """Inches that a panel needs for its labels and legend."""
+FIELDS = "fields"
+"""First argument of a figure's function that draws the fields of one load of a surface."""
 
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter"),
@@ -213,15 +217,32 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
-    numbers = dict.fromkeys(known[name], Key(number, "a value of the thesis, a number"))
+    if known[name].args[0].arg == FIELDS:
+        _check_map(settings, studies[settings["study"]], file, prefix)
+    keywords = [argument.arg for argument in known[name].kwonlyargs]
+    numbers = dict.fromkeys(keywords, Key(number, "a value of the thesis, a number"))
     read(settings["reference"], numbers, file, f"{prefix}.reference")
     compare = settings.pop("compare")
     return Figure(name, file.stem, settings, compare)
 
 
-def _functions(module: str) -> dict[str, list[str]]:
-    """The public functions of a module, with their keywords; read, not imported, since matplotlib takes a second."""
+def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
+    """Refuse a map of what has no fields, of a line, and of more than one load of one member."""
+    first, load = study.runs()[0], study.settings["load"]
+    if FIELDS not in study.settings["keep"] or Trait.SURFACE not in scene_of(first.settings).traits:
+        raise SceneError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
+    places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
+    places = [place | {load["name"]: value} for place in places for value in load["values"]]
+    for dim, (least, largest) in settings["select"].items():
+        places = [place for place in places if least * (1 - 1e-9) <= place[dim] <= largest * (1 + 1e-9)]
+    if len(places) != 1:
+        allowed = f"what leaves one load of one member to draw; this leaves {len(places)}"
+        raise SceneError(f"{prefix}.select", settings["select"], allowed, file)
+
+
+def _functions(module: str) -> dict[str, ast.arguments]:
+    """The public functions of a module, with their arguments; read, not imported, since matplotlib takes a second."""
     path = module_path(module)
     tree = ast.parse(path.read_text(encoding="utf-8")) if path else ast.Module([], [])
     public = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
-    return {node.name: [argument.arg for argument in node.args.kwonlyargs] for node in public}
+    return {node.name: node.args for node in public}

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 
 from contactsim import aggregate, analytic
 from contactsim.figures import style
+from contactsim.figures.maps import of_dataset, panels
 from contactsim.grid import Array
 
 FREE_OF_NEIGHBOURS = 0.25
@@ -199,6 +200,14 @@ def fig_3_5(
     axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)
     axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.3 * np.ptp(axes[0].get_ylim()))
     return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error"]]
+
+
+def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Contact, pressure and gap of one rough surface at one load."""
+    places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
+    words = [f"{style.PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
+    axes[0].text(1, -0.03, ", ".join(words), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")
+    return panels(of_dataset(fields), axes).assign(**places)
 
 
 def _constancy(data: xr.Dataset) -> str:

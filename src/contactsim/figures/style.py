@@ -26,6 +26,8 @@ SYMBOLS = {
     "relative_contact_area": r"$a_{\mathrm{rel}}$",
 }
 """Symbols of quantities."""
+PLACES = {"hurst": "$H$", "reduced_pressure": "$p^*$", "mean_pressure": "$p$ (GPa)", "contact_ratio": "$c/R$"}
+"""Symbols of dimensions."""
 SOLVERS = {"active_set": "active set", "polonsky_keer": "Polonsky–Keer", "tamaas": "tamaas", "verlet": "Verlet"}
 """Names of solvers, as in the literature."""
 
