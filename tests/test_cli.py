@@ -7,6 +7,7 @@ import contactsim
 from conftest import ROOT
 from contactsim import cli, dataset, loading
 from contactsim.elasticity import HalfSpace
+from contactsim.figures import maps
 from contactsim.laws import HardWall
 from contactsim.scene import Body, Scene
 from contactsim.surface import Flat, Sinusoid
@@ -43,6 +44,16 @@ def test_a_scene_file_is_run_into_a_dataset_equal_to_that_from_python(scene_file
         scene.heights(256), spacing=1000 / 256, contact_modulus=70.0, mean_pressure=0.1, tolerance=1e-4
     )
     assert one.relative_contact_area == data.relative_contact_area[1]
+
+
+def test_a_run_keeps_what_its_scene_file_says_and_its_fields_can_be_mapped(scene_file):
+    scene_file.write_text(SCENE.replace("5.0}", "5.0, dimensions: 2}").replace("256", "32") + "keep: [fields]\n")
+    cli.main(["run", str(scene_file)])
+    stored = dataset.read(scene_file.with_suffix(".nc"))
+    assert {"heights", "pressure", "gap"} <= set(stored)
+    assert not {"contact_bits", "contact_pressure", "profile_real"} & set(stored)
+    image = maps.draw(stored.isel(step=-1)).axes[0].images[0]
+    assert image.get_array().mean() == stored.relative_contact_area[-1]
 
 
 def test_a_scene_file_is_explained_and_drawn(scene_file, tmp_path, capsys):

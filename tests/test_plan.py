@@ -127,9 +127,10 @@ def test_standard_has_at_least_the_points_of_the_thesis_on_lines_and_no_tier_is_
 def test_every_tier_has_the_loads_that_a_figure_selects_and_a_fit_needs(tiers):
     for plan in tiers.values():
         for figure in plan.figures.values():
-            load = plan.studies[figure.settings["study"]].settings["load"]
-            least, largest = figure.settings["select"].get(load["name"], (0.0, float("inf")))
-            assert sum(least <= value <= largest for value in load["values"]) >= 3
+            study = plan.studies[figure.settings["study"]].settings
+            least, largest = figure.settings["select"].get(study["load"]["name"], (0.0, float("inf")))
+            shown = sum(least <= value <= largest for value in study["load"]["values"])
+            assert shown == 1 if "fields" in study["keep"] else shown >= 3
 
 
 def test_every_figure_has_a_function_that_takes_data_axes_and_the_values_of_the_thesis(tiers):
@@ -309,6 +310,42 @@ def test_a_bad_config_is_refused_with_file_key_value_and_what_is_allowed(folder,
     assert (error.key, error.value) == (key, value)
     assert allowed in error.allowed
     assert str(error).startswith(f"{error.file}: {key}: got ")
+
+
+MAP = {
+    "waves": SMOOTH
+    | {
+        "surface": {"kind": "sinusoid", "length": 64.0, "amplitude": 1.0, "dimensions": 2},
+        "load": {"mean_pressure": [0.01, 0.02]},
+        "members": 1,
+        "keep": ["fields"],
+    }
+}
+ONE = {"study": "waves", "size": [9.0, 3.0], "panels": 3, "select": {"mean_pressure": [0.02, 0.02]}}
+
+
+@pytest.mark.parametrize(
+    ("study", "figure", "key", "value", "allowed"),
+    [
+        ({"keep": ["contact"]}, {}, "study", "waves", "keeps `fields`"),
+        ({"surface": {"kind": "sinusoid", "length": 64.0, "amplitude": 1.0}}, {}, "study", "waves", "not lines"),
+        ({}, {"select": {}}, "select", {}, "one load of one member to draw; this leaves 2"),
+        ({}, {"select": {"mean_pressure": [0.1, 1.0]}}, "select", {"mean_pressure": [0.1, 1.0]}, "this leaves 0"),
+        ({"members": 2}, {}, "select", ONE["select"], "this leaves 2"),
+    ],
+)
+def test_a_map_of_what_cannot_be_drawn_as_one_is_refused_before_anything_is_solved(
+    folder, study, figure, key, value, allowed
+):
+    files = FILES | {"ch3.yaml": {"studies": MAP, "figures": {"maps": FIGURE | ONE}}, "tiers.yaml": {"plain": {}}}
+    assert Plan.read(folder(files=files)).figures["maps"].settings["select"] == ONE["select"]
+    changes = {f"studies/waves/{name}": entry for name, entry in study.items()}
+    changes |= {f"figures/maps/{name}": entry for name, entry in figure.items()}
+    written = folder({"ch3.yaml": changes}, files)
+    error = refusal(written)
+    assert (error.key, error.value) == (f"figures.maps.{key}", value)
+    assert allowed in error.allowed
+    assert error.file == written / "ch3.yaml"
 
 
 def test_a_figure_that_selects_along_what_its_study_does_not_have_is_refused(folder):

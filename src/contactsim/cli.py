@@ -89,8 +89,14 @@ def run_scene(options: argparse.Namespace) -> None:
     if Path(target).is_dir():
         raise SceneError("--output", target, "the name of a file; this is a folder")
     scene, settings, points = first_scene(study)
-    method = solver(**settings["solver"])
-    data = simulate(scene, points=points, tolerance=settings["tolerance"], method=method, threads=options.threads)
+    data = simulate(
+        scene,
+        points=points,
+        tolerance=settings["tolerance"],
+        method=solver(**settings["solver"]),
+        threads=options.threads,
+        keep=settings["keep"],
+    )
     run = study.runs()[0]
     stamped = dataset.stamped(data.drop_vars("seconds"), study.settings["title"], run.settings, run.source)
     dataset.write(stamped, target)

@@ -125,10 +125,10 @@ def _require_converged(status: Status) -> None:
 
 
 def panels(solved: Solved, axes: list[Axes]) -> pd.DataFrame:
-    """Draw the three maps, and return what they show in numbers, one row a map, in the units given.
+    """Draw the three maps on axes of a figure with constrained layout; returns what they show, one row a map.
 
-    mean, least, largest: of all points; shown_least, shown_largest: ends of the colours; pixel_points: points along
-    the side of a pixel.
+    mean, least, largest: of all points, in the units given; shown_least, shown_largest: ends of the colours;
+    pixel_points: points along the side of a pixel.
     """
     figure = axes[0].figure
     kept = figure.get_layout_engine().get() | {"wspace": 0.04}
