@@ -1,6 +1,11 @@
 """What is read off a solution: functions on arrays.
 
-Contact area follows one of three named criteria; the hard wall has `touching`, points with positive pressure.
+Contact area follows one of three named criteria; the hard wall has `touching`, points with positive pressure. Counting
+them puts each edge half a step beyond the last of them, but on average it lies only 0.31 steps beyond, so the count is
+too large, at first order. `relative_contact_area_subgrid` places the edge by the gap, which at the smooth edge of a
+contact without adhesion opens as distance^(3/2): gap^(2/3) at the first two open points leads straight back to it.
+Next to an edge the solution on a grid is not the continuous one but, the pressures being those of points and the
+response that of the half-space, universal: by where the edge lies between two points. So is the small correction.
 """
 
 from __future__ import annotations
@@ -19,6 +24,45 @@ KEPT = ("contact", "pressure", "profile", "fields")
 def touching(pressure: Array) -> Array:
     """Points in contact at a hard wall: positive pressure, bool of the same shape (Chapter 3)."""
     return pressure > 0
+
+
+EDGES = (-0.19, 0.81)
+"""Between which steps beyond the last point in contact a straight edge along the grid lies."""
+EDGE_FIT = (1.333, -0.522)
+"""Straight back to v steps, the edge of Westergaard's wave lies at 1.333 v - 0.522 v², to 0.01 (4096 points)."""
+
+
+def relative_contact_area_subgrid(pressure: Array, gap: Array) -> float:
+    """Relative contact area at a hard wall with its edges placed between points.
+
+    pressure, gap: (n,) or (ny, nx) of a converged solution, periodic, in any units; calibrated on a half-space. An edge
+    with one open point beyond it counts at the mean of `EDGES`. Over a surface, each edge is placed along both axes,
+    weighted by the squares of the slope of pressure², the direction of its normal. Errors, where several points are in
+    contact across a patch: 0.01 steps an edge of a line; of the radius of a sphere 0.003 steps at 26 points, of second
+    order, where counting is 0.13 steps out. A solution's tolerance of 1e-3 grid steps adds up to 0.04 steps, one of
+    1e-4 0.01.
+    """
+    contact, opening, square = touching(pressure), np.maximum(gap, 0.0) ** (2 / 3), pressure**2
+    steep = np.array([_steepness(square, contact, axis) for axis in range(pressure.ndim)]) ** 2
+    total = steep.sum(0)
+    weight = np.divide(steep, total, out=np.full(steep.shape, 1 / pressure.ndim), where=total > 0)
+    area = float(contact.sum())
+    for axis in range(pressure.ndim):
+        for side in (-1, 1):
+            edge = contact & ~np.roll(contact, side, axis)
+            first, second = (np.roll(opening, steps * side, axis)[edge] for steps in (1, 2))
+            known = (second > first) & ~np.roll(contact, 2 * side, axis)[edge]
+            back = 1 - np.divide(first, second - first, out=np.zeros_like(first), where=known)
+            beyond = np.where(known, EDGE_FIT[0] * back + EDGE_FIT[1] * back**2, np.mean(EDGES))
+            area += np.sum(weight[axis][edge] * (np.clip(beyond, *EDGES) - 0.5))
+    return float(area / pressure.size)
+
+
+def _steepness(values: Array, contact: Array, axis: int) -> Array:
+    """The larger of the differences to both neighbours along an axis, of those in contact."""
+    pairs = contact & np.roll(contact, -1, axis)
+    right = np.where(pairs, np.abs(np.roll(values, -1, axis) - values), 0.0)
+    return np.maximum(right, np.roll(right, 1, axis))
 
 
 def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, gap: Array) -> dict[str, float]:
