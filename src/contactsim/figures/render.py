@@ -64,7 +64,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     members = data.member.size
     parts = [
         f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",
-        style.points_text(settings, int(data.points)),
+        style.points_text(settings, *data.points.values.ravel()),
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
