@@ -282,6 +282,27 @@ BAD = {
         "kappa_r",
         "a list of columns",
     ),
+    "surfaces of no study": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "rogh"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "rogh",
+        "one of smooth",
+    ),
+    "surfaces of itself": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "rough"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "rough",
+        "one of smooth",
+    ),
+    "surfaces of another kind": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "smooth"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "smooth",
+        "the same `surface`, self_affine",
+    ),
     "no panels": ({"ch3.yaml": {"figures/fig_3_1/panels": 0}}, "ch3.yaml", "figures.fig_3_1.panels", 0, "axes"),
 }
 for size in ([4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -3.0], [0.0, 3.0]):
