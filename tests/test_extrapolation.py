@@ -23,7 +23,7 @@ def test_a_sequence_of_known_order_gives_its_limit(order, size):
     assert float(found.order) == pytest.approx(order, rel=1e-12)
     assert float(found.limit) == pytest.approx(1.75, rel=1e-12)
     last = size * (1 - 2.0**order)
-    assert float(found.spread) == pytest.approx(abs(-size - last), abs=1e-12)  # what is left, against one more change
+    assert float(found.spread) == pytest.approx(-size - last, abs=1e-12)  # what is left, against one more change
 
 
 def test_of_first_order_the_limit_lies_one_change_further_and_nothing_is_spread():

@@ -160,15 +160,18 @@ def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:
 def ratio_limits(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
     """The mean of a quantity over that in another, independent ensemble, on three grids and extrapolated.
 
-    `points` of both count the same points per wavelength. Returns `ratio` along `points`, and `limit`, `order` and
-    `spread` of `contactsim.extrapolation`, each with its standard error.
+    `points` of both count the same points per wavelength. Returns `ratio` along `points` and, with both means
+    extrapolated, `limit` and its `spread`: less that of first order; each with its standard error.
     """
 
     def ratios(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
         return (above / below).to_dataset(name="ratio")
 
     def limits(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
-        return extrapolation.extrapolated(above / below)
+        top, bottom = extrapolation.extrapolated(above), extrapolation.extrapolated(below)
+        limit = top.limit / bottom.limit
+        first = (top.limit - top.spread) / (bottom.limit - bottom.spread)
+        return xr.Dataset({"limit": limit, "spread": limit - first})
 
     ensembles = [on_all_grids(data, name) for data in (one, two)]
     return xr.merge([extrapolation.jackknifed(measure, *ensembles) for measure in (ratios, limits)])

@@ -135,7 +135,7 @@ SUFFIXES = {
     "_limit": ": mean over members, extrapolated to the limit on finer grids",
     "_order_standard_error": ": standard error over members of the order of convergence",
     "_order": ": order of convergence of the mean with the grid, as observed",
-    "_spread": ": distance of the limit from that of first order",
+    "_spread": ": the limit on finer grids less that of first order",
     "_change_standard_error": ": standard error of the change, member by member",
     "_change": ": change from a reference, as a part of it",
     "_mean": ": mean over members",

@@ -6,7 +6,7 @@ Eng. 116, 405 (1994), doi:10.1115/1.2910291). Changes that turn round or do not 
 
 Three grids cannot show that one power rules. An area of contact counted in points errs along the rim of the patches,
 which is of first order once the patches are resolved (Yastrebov, Anciaux, Molinari, Tribol. Int. 114, 161 (2017),
-doi:10.1016/j.triboint.2017.04.023), so an order observed below 1 may still rise: the spread of the limit is its
+doi:10.1016/j.triboint.2017.04.023), so another order observed may still change: the spread of the limit is its
 distance from that of first order. It is no bound; the standard error over members comes on top.
 """
 
@@ -32,8 +32,8 @@ def is_doubled(points: xr.DataArray) -> bool:
 def extrapolated(values: xr.DataArray) -> xr.Dataset:
     """Limit of values along `points`, of which there are three, each twice the one before, the coarsest first.
 
-    `limit`, in the unit of the values; `order` observed; `spread`: distance from the limit of first order. NaN where
-    the changes turn round or do not shrink; values that no longer change are their own limit.
+    `limit`, in the unit of the values; `order` observed; `spread`: the limit less that of first order. NaN where the
+    changes turn round or do not shrink; values that no longer change are their own limit.
     """
     if not is_doubled(values.points):
         raise SceneError("points", values.points.values.tolist(), f"{GRIDS} grids, each twice as fine as the last")
@@ -42,7 +42,7 @@ def extrapolated(values: xr.DataArray) -> xr.Dataset:
     shrinks = (before * last >= 0) & (abs(before) > abs(last))
     ratio = (before / last).where(shrinks & (last != 0))
     left = xr.where(last == 0, 0.0, last / (ratio - 1))
-    return xr.Dataset({"limit": fine + left, "order": np.log2(ratio), "spread": abs(left - last)})
+    return xr.Dataset({"limit": fine + left, "order": np.log2(ratio), "spread": left - last})
 
 
 def jackknifed(measure: Callable[..., xr.Dataset], *ensembles: xr.DataArray) -> xr.Dataset:

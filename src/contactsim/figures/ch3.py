@@ -192,7 +192,8 @@ def _grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[s
         if name in thesis:
             panel.axhline(thesis[name], color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
         low, high = panel.get_ylim()
-        panel.set_ylim(top=high + 0.35 * (high - low))
+        below = 0.35 if panel is axes[-1] else 0.0  # room for the legend
+        panel.set_ylim(low - below * (high - low), high + 0.4 * (high - low))
         panel.text(0.97, 0.97, resolution.in_words(shown, name, middle), **CORNER, transform=panel.transAxes)
         style.letter(panel, letter)
     keys = style.key({}, {f"thesis, {value:g}": (0, (6, 3)) for value in sorted(set(thesis.values()))[:1]})
@@ -241,8 +242,7 @@ def fig_3_5(
     keys = {words: colours[quantity] for words, quantity in names.items()}
     axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)
     axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.3 * np.ptp(axes[0].get_ylim()))
-    kinds = ["value", "error", "spread", "order", "order_standard_error"]
-    return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", *kinds]]
+    return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error", "spread"]]
 
 
 def _constancy(data: xr.Dataset) -> str:

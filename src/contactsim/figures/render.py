@@ -44,7 +44,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float
     The text below adds to the height.
     """
     width, height = settings["size"]
-    caption = textwrap.wrap(settings["caption"], int(width * 19.5))
+    caption = textwrap.wrap(settings["caption"], int(width * 18.5))
     made = textwrap.wrap(footer, int(width * 22))
     below = (len(caption) + len(made) + 1.2) * LINE_INCHES
     figure = Figure(figsize=(width, height + below), layout="constrained")

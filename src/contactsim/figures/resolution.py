@@ -107,7 +107,7 @@ def load_key(loads: list[float]) -> list[Line2D]:
 
 
 def in_words(shown: pd.DataFrame, quantity: str, grid: str) -> str:
-    """How far a quantity on one grid lies above the finest of all members, the finest of any, and the limit."""
+    """How far a quantity on one grid lies above the finest of all members, the finest of any, and the limit; orders."""
     mine = shown[shown.quantity == quantity].set_index(["hurst", "reduced_pressure", "grid"])
     here = mine.xs(grid, level="grid")
     counts = sorted({_count(name) for name in mine.index.get_level_values("grid")} - {np.inf})
@@ -116,19 +116,21 @@ def in_words(shown: pd.DataFrame, quantity: str, grid: str) -> str:
     lines = [f"on {grid}, above that"]
     for words, apart in (
         (f"on {settled}", here.above_common),
-        (f"on {counts[-1]:g} points", here.above_finest),
+        (f"on {_grid(counts[-1])}", here.above_finest if _grid(counts[-1]) != settled else pd.Series([])),
         ("in the limit", limits),
     ):
         known = apart.dropna()
         if len(known):
             lines.append(f"{words}: {known.min():+.3f} to {known.max():+.3f}")
+    if mine.order.notna().any():
+        lines.append(f"order observed: {mine.order.min():.1f} to {mine.order.max():.1f}")
     return "\n".join(lines)
 
 
 def ratios(lines: xr.Dataset, surfaces: xr.Dataset) -> pd.DataFrame:
     """Lines over surfaces at equal points per shortest wavelength, and in the limit, one row each.
 
-    value and its standard `error`; in the limit also spread and order of `contactsim.extrapolation`.
+    value and its standard `error`; in the limit also the `spread` of `contactsim.aggregate.ratio_limits`.
     """
     rows = []
     for name in QUANTITIES:
