@@ -117,7 +117,7 @@ def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(mad
     axes = list(Figure().subplots(1, 3))
     shown = ch3.fig_3_4(rough["rough_surface"], axes, kappa=2.2, kappa_r=1.88)
     assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
-    axes = list(Figure().subplots(1, 2))
+    axes = list(Figure().subplots(1, 3))
     ratios = ch3.fig_3_5(*rough.values(), axes, ratio=0.92).query(
         "grid == 'equal' and quantity == 'kappa' and hurst == 0.5"
     )
@@ -125,7 +125,7 @@ def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(mad
     assert np.allclose(ratios.value * shown.query("hurst == 0.5").kappa_mean.values, line)
 
 
-ROUGH = ("rough_line", "rough_line_coarse", "rough_surface")
+ROUGH = ("rough_line", "rough_line_coarse", "rough_surface", "line_resolution", "surface_resolution")
 
 
 def test_the_last_of_smooth_figures_counts_its_cells(made):

@@ -108,8 +108,9 @@ def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_
     assert quick.studies.keys() == standard.studies.keys()
     for name, study in quick.studies.items():
         asked = standard.studies[name].settings
-        assert study.settings["vary"] == asked["vary"]
+        assert study.settings["vary"] | {"points": None} == asked["vary"] | {"points": None}
         least = 2 if study.settings["surface"].get("dimensions") == 2 else 3
+        least = 1 if study.settings["vary"].get("points") else least  # it is grids that it compares
         assert study.settings["members"] >= min(least, asked["members"])
         assert (study.settings["companion"] is None) == (asked["companion"] is None)
         assert study.settings["fit_limits"] == asked["fit_limits"]
@@ -117,11 +118,11 @@ def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_
 
 def test_standard_has_at_least_the_points_of_the_thesis_on_lines_and_no_tier_is_coarser_than_the_one_before(tiers):
     for name, study in tiers["standard"].studies.items():
-        points = [plan.studies[name].settings["points"] for plan in tiers.values()]
+        points = [max(run.settings["points"] for run in plan.studies[name].runs()) for plan in tiers.values()]
         assert points == sorted(points)
         assert points[0] < points[-1] or study.settings["thesis_points"] is None
         if study.settings["surface"]["kind"] != "sphere" and "dimensions" not in study.settings["surface"]:
-            assert study.settings["points"] >= (study.settings["thesis_points"] or 0)
+            assert points[1] >= (study.settings["thesis_points"] or 0)
 
 
 def test_every_tier_has_the_loads_that_a_figure_selects_and_a_fit_needs(tiers):
@@ -281,6 +282,27 @@ BAD = {
         "figures.fig_3_1.compare",
         "kappa_r",
         "a list of columns",
+    ),
+    "surfaces of no study": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "rogh"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "rogh",
+        "one of smooth",
+    ),
+    "surfaces of itself": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "rough"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "rough",
+        "one of smooth",
+    ),
+    "surfaces of another kind": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "smooth"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "smooth",
+        "the same `surface`, self_affine",
     ),
     "no panels": ({"ch3.yaml": {"figures/fig_3_1/panels": 0}}, "ch3.yaml", "figures.fig_3_1.panels", 0, "axes"),
 }

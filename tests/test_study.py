@@ -138,7 +138,7 @@ BAD = {
     "companion with another key": ({"companion/tolerance": 1.0}, "companion.tolerance", 1.0, "points, members"),
     "vary on an unknown section": ({"vary": {"mood.swing": [1.0]}}, "vary", "mood.swing", "surface.hurst"),
     "vary on an unknown key": ({"vary": {"surface.radius": [1.0]}}, "vary", "surface.radius", "surface.hurst"),
-    "vary on a key of no section": ({"vary": {"points": [64, 128]}}, "vary", "points", "surface.hurst"),
+    "vary on a key of no section": ({"vary": {"members": [1, 2]}}, "vary", "members", "points, "),
     "vary on a whole section": ({"vary": {"surface": [1.0]}}, "vary", "surface", "surface.hurst"),
     "vary on a number": ({"vary": {1: [2.0]}}, "vary", 1, "surface.hurst"),
     "vary on a bare value": ({"vary": {"surface.hurst": 0.5}}, "vary.surface.hurst", 0.5, "a list with at least one"),
@@ -237,7 +237,7 @@ def test_what_may_be_varied_can_also_be_aggregated(vary, tmp_path):
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     data = aggregate.aggregate(runs, read.settings, "source")
     ((name, values),) = vary.items()
-    assert sorted(data.indexes[dataset.dimension(*name.split("."))]) == sorted(values)
+    assert sorted(data.indexes[dataset.dimension(name)]) == sorted(values)
 
 
 def test_the_kinds_of_two_sections_are_varied_along_two_dimensions():
@@ -531,3 +531,63 @@ def test_a_bad_tight_companion_is_refused(tight, key, allowed):
         study({"tight": tight})
     assert caught.value.key == f"studies.rough.tight.{key}"
     assert allowed in caught.value.allowed
+
+
+# --- grids and surfaces in common ---------------------------------------------------------------------------------
+
+
+FINER = {"points": GONE, "companion": GONE, "vary": {"points": [64, 128, 256], "surface.hurst": [0.2]}}
+
+
+def test_varied_points_are_a_dimension_and_sample_the_same_surface():
+    one = study(FINER)
+    assert one.dimensions == ["points", "hurst", "member", "reduced_pressure"]
+    runs = [run for run in one.runs() if run.member == 1]
+    assert [run.coordinates["points"] for run in runs] == [run.settings["points"] for run in runs] == [64, 128, 256]
+    assert not any(run.companion for run in runs)
+    coarse, *_, fine = (profile(run) for run in runs)
+    assert np.allclose(fine[::4], coarse, rtol=0, atol=1e-14 * np.abs(fine).max() * np.log2(fine.size))
+
+
+def test_a_run_on_a_varied_grid_is_that_of_a_study_with_this_grid():
+    alone = study({"points": 64, "companion": GONE, "vary": {"surface.hurst": [0.2]}}).runs()[0]
+    assert canonical(study(FINER).runs()[0].settings) == canonical(alone.settings)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "allowed"),
+    [
+        ({"points": 128}, "points", "left out, for points are varied"),
+        ({"companion": {"points": 32, "members": 1}}, "companion", "left out, for points are varied"),
+        ({"vary": {"points": [64, 1]}}, "vary.points", "2 or more"),
+        ({"vary": {"points": [64.5]}}, "vary.points", "a whole number"),
+        ({"vary": {"points": [16]}}, "points", "two points per shortest wavelength"),
+    ],
+)
+def test_grids_that_cannot_be_varied_are_refused(changes, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        study(FINER | changes)
+    assert caught.value.key == f"studies.rough.{key}"
+    assert allowed in caught.value.allowed
+
+
+def test_a_study_may_press_the_surfaces_of_another():
+    own, same = study().runs(), Study.read("other", changed({"surfaces_of": "rough"}), "ch9.yaml", 1).runs()
+    for one, other in zip(own, same, strict=True):
+        assert one.stem != other.stem
+        assert np.array_equal(profile(one), profile(other))
+
+
+def test_grids_are_aggregated_along_points_with_their_limit(tmp_path):
+    read, runs = study(FINER), []
+    for number, run in enumerate(read.runs()):
+        path = tmp_path / f"{number}.nc"
+        march.run(run.settings, "source", path, tmp_path / f"{number}.json")
+        runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
+    data = aggregate.aggregate(runs, read.settings, "source")
+    assert data.points.values.tolist() == [64, 128, 256]
+    assert data.kappa_mean.dims == ("points", "hurst", "reduced_pressure")
+    assert data.kappa_limit.dims == ("hurst", "reduced_pressure")
+    assert data.kappa_limit.attrs["long_name"].endswith("extrapolated to the limit on finer grids")
+    two = aggregate.aggregate([run for run in runs if run["coordinates"]["points"] != 64], read.settings, "source")
+    assert "kappa_limit" not in two

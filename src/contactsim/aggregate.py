@@ -14,7 +14,7 @@ import xarray as xr
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
-from contactsim import analytic, dataset
+from contactsim import analytic, dataset, extrapolation
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.observables import proportionality
@@ -57,6 +57,8 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
         others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]
         if others:
             data = data.merge(_change(fine, _read(others), suffix))
+    if "points" in fine.dims and extrapolation.is_doubled(fine.points):
+        data = data.merge(_limits(fine))
     if settings["fit_limits"] is not None:
         data = data.merge(fits(fine, settings["fit_limits"]))
     return dataset.stamped(dataset.described(data), settings["title"], settings, source)
@@ -80,7 +82,7 @@ def left_out(data: xr.Dataset) -> tuple[int, int]:
 def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
     """Datasets of runs, each with its place among the varied keys and members, as one, with κ and κ_r."""
     places = [
-        data.drop_vars(APART, errors="ignore").expand_dims({name: [at] for name, at in place.items()})
+        data.drop_vars([*APART, *place], errors="ignore").expand_dims({name: [at] for name, at in place.items()})
         for data, place in parts
     ]
     data = xr.combine_by_coords(places, combine_attrs="drop")
@@ -136,6 +138,43 @@ def _change(fine: xr.Dataset, coarse: xr.Dataset, suffix: str) -> xr.Dataset:
             if name in fine
         }
     )
+
+
+def _limits(data: xr.Dataset) -> xr.Dataset:
+    """Means on three grids, extrapolated: NAME_limit, _order and _spread, and standard errors of the first two."""
+    found = {}
+    for name in AVERAGED:
+        if name in data:
+            ends = extrapolation.jackknifed(extrapolation.extrapolated, on_all_grids(data, name))
+            kept = ends.drop_vars("spread_standard_error")
+            found |= {f"{name}_{kind}": values for kind, values in kept.items()}
+    return xr.Dataset(found)
+
+
+def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:
+    """A quantity of the members that converged on all grids; NaN for the others."""
+    values = converged(data[name], data)
+    return values.where(values.notnull().all("points"))
+
+
+def ratio_limits(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
+    """The mean of a quantity over that in another, independent ensemble, on three grids and extrapolated.
+
+    `points` of both count the same points per wavelength. Returns `ratio` along `points` and, with both means
+    extrapolated, `limit` and its `spread`: less that of first order; each with its standard error.
+    """
+
+    def ratios(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
+        return (above / below).to_dataset(name="ratio")
+
+    def limits(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
+        top, bottom = extrapolation.extrapolated(above), extrapolation.extrapolated(below)
+        limit = top.limit / bottom.limit
+        first = (top.limit - top.spread) / (bottom.limit - bottom.spread)
+        return xr.Dataset({"limit": limit, "spread": limit - first})
+
+    ensembles = [on_all_grids(data, name) for data in (one, two)]
+    return xr.merge([extrapolation.jackknifed(measure, *ensembles) for measure in (ratios, limits)])
 
 
 @dataclass(frozen=True)
@@ -194,13 +233,25 @@ def relative_change(data: xr.Dataset, name: str, along: str, reference: object) 
     Taken member by member, so only for what leaves the profiles as they are. Variables `NAME_change` and
     `NAME_change_standard_error`, the latter NaN for one member.
     """
+    apart = difference(data, name, along, reference)
     values = converged(data[name], data)
     start = values.sel({along: reference}, drop=True)
-    difference = values - start
-    level = start.where(difference.notnull()).mean("member")
-    error = np.sqrt(_squared_error(difference)) if data.member.size > 1 else level * np.nan
-    found = {f"{name}_change": difference.mean("member") / level, f"{name}_change_standard_error": error / level}
-    return xr.Dataset(found)
+    level = start.where(values.notnull()).mean("member")
+    names = {f"{name}_difference{error}": f"{name}_change{error}" for error in ("", "_standard_error")}
+    return (apart / level).rename(names)
+
+
+def difference(data: xr.Dataset, name: str, along: str, reference: object) -> xr.Dataset:
+    """Difference of a quantity from its value at a reference of `along`, and its standard error.
+
+    Taken member by member, over those known at both. Variables `NAME_difference` and `NAME_difference_standard_error`,
+    the latter NaN for one member.
+    """
+    values = converged(data[name], data)
+    apart = values - values.sel({along: reference}, drop=True)
+    mean = apart.mean("member")
+    error = np.sqrt(_squared_error(apart)) if data.member.size > 1 else mean * np.nan
+    return xr.Dataset({f"{name}_difference": mean, f"{name}_difference_standard_error": error})
 
 
 def _squared_error(values: xr.DataArray) -> xr.DataArray:

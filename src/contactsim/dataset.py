@@ -122,12 +122,20 @@ def described(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
-def dimension(section: str, key: str) -> str:
-    """Name of the dimension along which a key of a study is varied: the key's own, unless a result has it."""
-    return f"{section}_{key}" if key in VARIABLES or key == "kind" else key
+def dimension(key: str) -> str:
+    """Name of the dimension along which a key of a study is varied: its last part, unless a result has that name."""
+    section, _, last = key.rpartition(".")
+    return f"{section}_{last}" if section and (last in VARIABLES or last == "kind") else last
 
 
 SUFFIXES = {
+    "_difference_standard_error": ": standard error of the difference, member by member",
+    "_difference": ": mean difference from a reference, member by member",
+    "_limit_standard_error": ": standard error over members of the limit on finer grids",
+    "_limit": ": mean over members, extrapolated to the limit on finer grids",
+    "_order_standard_error": ": standard error over members of the order of convergence",
+    "_order": ": order of convergence of the mean with the grid, as observed",
+    "_spread": ": the limit on finer grids less that of first order",
     "_change_standard_error": ": standard error of the change, member by member",
     "_change": ": change from a reference, as a part of it",
     "_mean": ": mean over members",

@@ -114,6 +114,7 @@ class Plan:
                 studies[name] = Study.read(name, section, source, main["seed"])
                 chapters[name] = file.stem
             own = {name: studies[name] for name in sections["studies"]}
+            _check_surfaces(own)
             for name, section in sections["figures"].items():
                 if name in figures:
                     raise SceneError(f"figures.{name}", name, "a name that no other chapter has taken", file)
@@ -203,6 +204,20 @@ def _stability(folder: Path, over: dict, tier: str) -> dict | None:
         return None
     source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
     return stability.read_settings(overlaid(load_yaml(file), over), source)
+
+
+def _check_surfaces(studies: dict[str, Study]) -> None:
+    """A study that presses another's surfaces must describe them as the other does, which has its own."""
+    for study in studies.values():
+        name = study.settings["surfaces_of"]
+        if name is None:
+            continue
+        other, key = studies.get(name), f"studies.{study.name}.surfaces_of"
+        if other is None or other.settings["surfaces_of"] is not None:
+            known = ", ".join(one for one, its in studies.items() if its.settings["surfaces_of"] is None)
+            raise SceneError(key, name, f"one of {known}", study.file)
+        if other.settings["surface"] != study.settings["surface"] or study.settings["surface"]["kind"] != "self_affine":
+            raise SceneError(key, name, "a study with the same `surface`, self_affine", study.file)
 
 
 def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:

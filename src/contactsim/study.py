@@ -42,6 +42,7 @@ STUDY_KEYS = {
     "load": Key(mapping, f"a mapping with one of {', '.join(LOADS)} and its list of values"),
     "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
     "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
+    "surfaces_of": Key(text, "the name of a study of this chapter with the same random surfaces", None),
     "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "companion": Key(mapping, "a mapping with `points` and `members`", None),
@@ -107,11 +108,15 @@ class Study:
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
         settings["load"] = _load(settings["load"], file, f"{prefix}.load")
+        if settings["points"] is not None and "points" in settings["vary"]:
+            raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": _usual(settings["surface"])} | settings["solver"]
         for part, keys, knob in (("companion", COMPANION_KEYS, "points"), ("tight", TIGHT_KEYS, "tolerance")):
             if settings[part] is None:
                 continue
             settings[part] = read(settings[part], keys, file, f"{prefix}.{part}")
+            if knob in settings["vary"]:
+                raise SceneError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)
             if settings[part]["members"] > settings["members"]:
                 allowed = f"at most {settings['members']}, the study's members"
                 raise SceneError(f"{prefix}.{part}.members", settings[part]["members"], allowed, file)
@@ -140,7 +145,7 @@ class Study:
     @property
     def dimensions(self) -> list[str]:
         """Dimensions of the study's dataset."""
-        varied = [dataset.dimension(*name.split(".", 1)) for name in self.settings["vary"]]
+        varied = [dataset.dimension(name) for name in self.settings["vary"]]
         return [*varied, "member", self.settings["load"]["name"]]
 
     def runs(self) -> list[Run]:
@@ -177,19 +182,24 @@ class Study:
     def _run(self, varied: dict, member: int, change: dict) -> Run:
         """The run of one variant and member; change: points or tolerance of a run that measures their error."""
         parts = {name: self._part(name, self.settings[name]) for name in KINDS}
-        sections = {name: self.settings[name] for name in KINDS}
+        sections, grid = {name: self.settings[name] for name in KINDS}, {"points": self.settings["points"]}
         for name, value in varied.items():
+            if name == "points":
+                grid = read({name: value}, {name: STUDY_KEYS[name]}, self.file, f"studies.{self.name}.vary")
+                continue
             head, _, tail = str(name).partition(".")
             if tail not in parts.get(head, ()):
                 known = ", ".join(f"{part}.{key}" for part in KINDS for key in parts[part] if key != "kind")
-                raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: {known}", self.file)
+                allowed = f"a key of this study: points, {known}"
+                raise SceneError(f"studies.{self.name}.vary", name, allowed, self.file)
             sections[head] = sections[head] | {tail: value}
         parts = {name: self._part(name, section) for name, section in sections.items()}
-        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", "points", "keep")} | change
-        settings = {"study": self.name, "member": member, "seed": self.seed} | shared | parts
+        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", "keep")} | grid | change
+        drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
+        settings = drawn | shared | parts
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
-        coordinates = {dataset.dimension(*name.split(".", 1)): value for name, value in varied.items()}
+        coordinates = {dataset.dimension(name): value for name, value in varied.items()}
         variant = digest(varied, *change.values() or [None])[:8]
         return Run(self.name, variant, member, coordinates, settings, bool(change), "tolerance" in change)
 

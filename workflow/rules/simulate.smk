@@ -6,7 +6,7 @@ def run_params(wildcards):
 
 def run_label(wildcards):
     run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
-    places = [f"{name} {value}" for name, value in run.coordinates.items()]
+    places = [f"{name} {value}" for name, value in run.coordinates.items() if name != "points"]
     return " ".join(["", *places, f"on {run.settings['points']} points"])
 
 

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from contactsim import aggregate, analytic
-from contactsim.figures import style
+from contactsim.figures import resolution, style
 from contactsim.figures.maps import of_dataset, panels
 from contactsim.grid import Array
 
@@ -172,14 +172,55 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
     return style.averages(data, AVERAGES)
 
 
+def fig_3_2_grid(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
+    """Proportionality factors of lines on finer and finer grids; kappa_r: the thesis's constant."""
+    return _grids(data, finer, axes, {"kappa_r": kappa_r, "kappa_r_bond": kappa_r})
+
+
+def fig_3_4_grid(
+    data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float
+) -> pd.DataFrame:
+    """Proportionality factors of surfaces on finer and finer grids; kappa, kappa_r: the thesis's values."""
+    return _grids(data, finer, axes, {"kappa": kappa, "kappa_r": kappa_r, "kappa_r_bond": kappa_r})
+
+
+def _grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[str, float]) -> pd.DataFrame:
+    """One panel a quantity, with the thesis's value, and in words what one grid costs against finer ones."""
+    shown = resolution.table(data, finer)
+    middle = f"{float(resolution.per_wavelength(data).points[-2:][0]):g} points"
+    for panel, name, letter in zip(axes, resolution.QUANTITIES, "abc", strict=True):
+        resolution.draw(shown, name, panel)
+        if name in thesis:
+            panel.axhline(thesis[name], color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
+        low, high = panel.get_ylim()
+        below = 0.35 if panel is axes[-1] else 0.0  # room for the legend
+        panel.set_ylim(low - below * (high - low), high + 0.4 * (high - low))
+        panel.text(0.97, 0.97, resolution.in_words(shown, name, middle), **CORNER, transform=panel.transAxes)
+        style.letter(panel, letter)
+    keys = style.key({}, {f"thesis, {value:g}": (0, (6, 3)) for value in sorted(set(thesis.values()))[:1]})
+    loads = resolution.load_key(list(data.reduced_pressure.values))
+    axes[-1].legend(handles=style.hurst_key(data.hurst.values) + loads + keys, loc="lower right", ncols=2)
+    return shown
+
+
+CORNER = {"fontsize": 6.5, "ha": "right", "va": "top"}
+
+
 def fig_3_5(
-    line: xr.Dataset, coarse: xr.Dataset, surface: xr.Dataset, axes: list[Axes], *, ratio: float
+    line: xr.Dataset,
+    coarse: xr.Dataset,
+    surface: xr.Dataset,
+    lines_finer: xr.Dataset,
+    surfaces_finer: xr.Dataset,
+    axes: list[Axes],
+    *,
+    ratio: float,
 ) -> pd.DataFrame:
     """Proportionality factors of lines over those of surfaces (thesis Fig. 3.5); ratio: the thesis's, of κ_r."""
     rows = []
     smooth = analytic.CYLINDER_KAPPA_R / analytic.SPHERE_KAPPA_R
-    colours = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
-    for panel, lines, name in zip(axes, (coarse, line), ("equal", "own"), strict=True):
+    colours = resolution.QUANTITIES
+    for panel, lines, name in zip(axes[:2], (coarse, line), ("equal", "own"), strict=True):
         shared = lines.sel(reduced_pressure=surface.reduced_pressure, method="nearest")
         shared = shared.assign_coords(reduced_pressure=surface.reduced_pressure)
         for value in surface.hurst.values:
@@ -190,16 +231,19 @@ def fig_3_5(
                 look = style.hurst(value) | {"color": color, "elinewidth": 0.8, "capsize": 1.5}
                 panel.errorbar(found.reduced_pressure, found.value, bars, **look)
                 rows.append(found.to_dataframe().reset_index().assign(quantity=quantity, hurst=value, grid=name))
+    rows.append(resolution.ratios(lines_finer, surfaces_finer))
+    resolution.draw_limits(rows[-1], axes[2])
+    for panel in axes:
         panel.axhline(ratio, color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
         panel.axhline(smooth, color=style.EXACT, lw=0.8)
         panel.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}/\kappa^{2D}$")
-    for panel, letter in zip(axes, "ab", strict=True):
+    for panel, letter in zip(axes, "abc", strict=True):
         style.letter(panel, letter)
     names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_bond"}
     keys = {words: colours[quantity] for words, quantity in names.items()}
     axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)
     axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.3 * np.ptp(axes[0].get_ylim()))
-    return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error"]]
+    return pd.concat(rows)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error", "spread"]]
 
 
 def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:

@@ -44,7 +44,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float
     The text below adds to the height.
     """
     width, height = settings["size"]
-    caption = textwrap.wrap(settings["caption"], int(width * 19.5))
+    caption = textwrap.wrap(settings["caption"], int(width * 18.5))
     made = textwrap.wrap(footer, int(width * 22))
     below = (len(caption) + len(made) + 1.2) * LINE_INCHES
     figure = Figure(figsize=(width, height + below), layout="constrained")
@@ -64,7 +64,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     members = data.member.size
     parts = [
         f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",
-        style.points_text(settings, int(data.points)),
+        style.points_text(settings, *data.points.values.ravel()),
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]

@@ -160,11 +160,13 @@ def averages(data: xr.Dataset, names: Iterable[str]) -> pd.DataFrame:
     return data[[column for column in columns if column in data]].to_dataframe().reset_index()
 
 
-def points_text(settings: Mapping, points: int) -> str:
+def points_text(settings: Mapping, *points: int) -> str:
     """Grid points, with those per shortest wavelength where the surface has one, beside the thesis's own."""
     surface, thesis = settings["surface"], settings["thesis_points"]
+    grids = ", ".join(f"{count}" for count in points)
     if surface["kind"] != "self_affine":
-        return f"{points} points (thesis {thesis})" if thesis else f"{points} points"
+        return f"{grids} points (thesis {thesis})" if thesis else f"{grids} points"
     share = surface["shortest_wavelength"] / surface["length"]
     beside = f" (thesis {thesis * share:g})" if thesis else ""
-    return f"{points} points, {points * share:g} per shortest wavelength{beside}"
+    waves = ", ".join(f"{count * share:g}" for count in points)
+    return f"{grids} points, {waves} per shortest wavelength{beside}"
