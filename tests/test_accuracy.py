@@ -42,7 +42,16 @@ SECONDS = {
     "active_set": [1.0, 2.0, 4.0, 0.3, 0.4, 0.5],
     "polonsky_keer": [10.0, 20.0, 3.0, 5.0],
 }
-PLAN = {"settings": SETTINGS, "jobs": [*JOBS], "marks": MARKS, "tier": "quick", "load": "reduced_pressure"}
+PLAN = {
+    "settings": SETTINGS,
+    "jobs": [*JOBS],
+    "marks": MARKS,
+    "tier": "quick",
+    "default": "active_set",
+    "selection": {},
+    "surface": False,
+    "load": "reduced_pressure",
+}
 
 
 def render(folder, plan=PLAN, jobs=JOBS, members=3):
@@ -65,15 +74,15 @@ def render(folder, plan=PLAN, jobs=JOBS, members=3):
     return pd.read_csv(folder / "shown.csv"), pd.read_csv(folder / "equal.csv")
 
 
-def drawn(jobs=JOBS, members=3, marks=MARKS):
+def drawn(jobs=JOBS, members=3, marks=MARKS, default="active_set"):
     """The panels of a case, drawn in full, with seconds a thousandth of the work; the table."""
-    table = precision.table(SETTINGS, jobs, study(members))
+    table = precision.table(SETTINGS, jobs, study(members), default)
     table["seconds"] = table.work / 1000
     columns = len(accuracy.turned(table)) + 1
     figure, panels = framed(SETTINGS | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
     axes = np.reshape(panels, (2, columns))
     equal = precision.compared(table, "kappa_r", SETTINGS["levels"], accuracy.COSTS)
-    accuracy.draw(table, equal, jobs["active_set"], axes, "kappa_r", marks)
+    accuracy.draw(table, equal, jobs[default], axes, "kappa_r", marks)
     FigureCanvasAgg(figure).draw()
     return axes, table
 

@@ -44,7 +44,7 @@ def measured(tmp_path_factory):
 def table_of(measured, made):
     one, jobs = measured
     study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
-    return precision.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study)
+    return precision.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
 
 
 def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):

@@ -26,7 +26,13 @@ SYMBOLS = {
     "relative_contact_area": r"$a_{\mathrm{rel}}$",
 }
 """Symbols of quantities."""
-SOLVERS = {"active_set": "active set", "polonsky_keer": "Polonsky–Keer", "tamaas": "tamaas", "verlet": "Verlet"}
+SOLVERS = {
+    "active_set": "active set",
+    "conjugate_gradients": "conjugate gradients",
+    "polonsky_keer": "Polonsky–Keer",
+    "tamaas": "tamaas",
+    "verlet": "Verlet",
+}
 """Names of solvers, as in the literature."""
 
 mpl.rcParams.update(
