@@ -12,7 +12,8 @@ import contactsim
 from cases import ALL, FAST, compliance, press, rough, wave
 from contactsim import analytic
 from contactsim.errors import SceneError
-from contactsim.hazards import HAZARDS, Case, first_line, made
+from contactsim.hazards import HAZARDS, first_line
+from contactsim.hazards.cases import Case, made
 from contactsim.solvers.base import Status
 from contactsim.stability import Outcome, judge
 

@@ -19,7 +19,8 @@ from contactsim import dataset, press, scene
 from contactsim.errors import SceneError
 from contactsim.figures.render import render
 from contactsim.figures.stability import COLOURS, footer, refusals, short_reason, stability
-from contactsim.hazards import HAZARDS, Case, made
+from contactsim.hazards import HAZARDS
+from contactsim.hazards.cases import Case, made
 from contactsim.plan import Plan
 from contactsim.solvers import solver
 from contactsim.solvers.base import State
