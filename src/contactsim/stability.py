@@ -24,6 +24,7 @@ from contactsim.hazards.cases import Case, displacement, mirrored
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.solvers import SOLVERS, module_of, solver, solver_class
 from contactsim.solvers.base import Result, Solver, Status
+from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
 
@@ -184,6 +185,7 @@ def job_settings(settings: Mapping, hazard: str) -> dict:
 def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mapping], source: str) -> xr.Dataset:
     """Every solver on one hazard at every severity: outcome, transforms and reason, by (solver, severity)."""
     cases = [HAZARDS[hazard](severity) for severity in severities]
+    dimension = {1: Trait.LINE, 2: Trait.SURFACE}[cases[0].heights.ndim]
     methods = {name: solver(name, **options) for name, options in solvers.items()}
     verdicts = []
     for name, method in methods.items():
@@ -198,6 +200,7 @@ def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mappi
             "transforms": (dims, cells[1].reshape(shape)),
             "reason": (dims, np.array([verdict.reason for verdict in verdicts], object).reshape(shape)),
             "tolerance": ("severity", [case.tolerance for case in cases]),
+            "taken": ("solver", np.array([dimension in method.accepts for method in methods.values()], np.int8)),
             "harder": first_line(hazard),
         },
         coords={"hazard": hazard, "solver": list(methods), "severity": list(severities)},
