@@ -187,7 +187,7 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
         try:
             require(solver_class(kind)(), scene)
         except SceneError as error:
-            raise error.within(file, f"{prefix}.solvers.{kind}") from error
+            raise SceneError(f"{prefix}.solvers", kind, error.allowed, file) from error
     return case
 
 
