@@ -33,7 +33,7 @@ def light_surface(severity: float) -> Case:
 
 
 def surface_first_touch(severity: float) -> Case:
-    """The approach is prescribed, from one spacing down to 1e-8 beyond first touch of a rough surface.
+    """The approach is prescribed, from one spacing down to 1e-8 beyond first touch.
 
     The tolerance falls with it: an overlap within the tolerance is no touch.
     """
@@ -49,7 +49,7 @@ def nearly_full_surface(severity: float) -> Case:
 
 
 def surface_last_gap(severity: float) -> Case:
-    """The approach is prescribed, up to where a millionth of the load is missing to complete contact of a surface."""
+    """The approach is prescribed, up to a millionth of the load short of complete contact."""
     case = nearly_full_surface(severity)
     return Case(case.heights, approach=0.0, tolerance=1e-8, exact=case.exact)
 
@@ -63,9 +63,9 @@ def full_surface(severity: float) -> Case:
 
 
 def flat_punch(severity: float) -> Case:
-    """What surrounds a flat round top falls, from 1 to 1e7 spacings below it: the top's answer, by elimination, stays.
+    """What surrounds a flat round top falls, from 1 to 1e7 spacings below: its answer stays.
 
-    Its edge carries most. The tolerance falls with the depth, so that it stays the same length.
+    The edge carries most; the answer is by elimination. The tolerance falls with the depth, so that it stays the same length.
     """
     away = np.arange(SIDE) - SIDE // 2
     depth = 10 ** (7 * severity / 100)
@@ -81,17 +81,17 @@ def _post(height: float) -> Case:
 
 
 def tall_post(severity: float) -> Case:
-    """A single point sticks out of a plane in two dimensions, ten to ten million spacings high: it carries the load."""
+    """A single point sticks out of a plane, ten to ten million spacings high: it carries the load."""
     return _post(10 ** (1 + 6 * severity / 100))
 
 
 def low_post(severity: float) -> Case:
-    """A single point sticks out of a plane, from ten spacings to 1e-4, and the plane begins to carry all around it."""
+    """A single point sticks out of a plane, from ten spacings to 1e-4; the plane begins to carry."""
     return _post(10 ** (1 - severity / 20))
 
 
 def deep_hole(severity: float) -> Case:
-    """A single point of a surface that is not in contact falls, to 1e8 spacings: the contact does not notice."""
+    """A single point that is not in contact falls, to 1e8 spacings: the contact does not notice."""
     pressed = made(level(_rough(), 0.1), tolerance=1e-6)
     heights = pressed.heights.copy()
     heights.flat[np.argmin(_rough())] -= 10 ** (1 + 7 * severity / 100)
@@ -99,7 +99,7 @@ def deep_hole(severity: float) -> Case:
 
 
 def chequerboard(severity: float) -> Case:
-    """Noise up to the Nyquist wavenumbers takes over the pressure, which at last alternates in both directions."""
+    """Noise up to the Nyquist wavenumbers takes over; at last the pressure alternates both ways."""
     if severity >= 100:
         return made((-1.0) ** np.add.outer(np.arange(SIDE), np.arange(SIDE)))
     share = severity / 100
@@ -108,7 +108,7 @@ def chequerboard(severity: float) -> Case:
 
 
 def grazing_surface(severity: float) -> Case:
-    """Ever more points of a surface, up to all but a tenth, neither carry nor gape: the contact set is undecided."""
+    """Ever more points, up to all but a tenth, neither carry nor gape: the contact is undecided."""
     field = level(_rough() / 10, 0.1)
     return made(np.where(field < np.quantile(field, 0.9 * (1 - severity / 100)), field, np.maximum(field, 0.0)))
 
@@ -163,18 +163,18 @@ def awkward_grids(severity: float) -> Case:
 
 
 def incompressible_surface_layer(severity: float) -> Case:
-    """In a layer a tenth as thick as a surface's roll-off wavelength, ν rises from 0.3 to exactly 0.5."""
+    """In a layer a tenth of the roll-off wavelength thick, ν rises from 0.3 to exactly 0.5."""
     ratio = 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
     return made(level(_rough(), 0.1), thickness=SIDE / 40, poisson_ratio=ratio)
 
 
 def thin_incompressible_surface_layer(severity: float) -> Case:
-    """A layer of ν = 0.5 under a surface gets thinner, from the roll-off wavelength to 1e-3 of it."""
+    """A layer of ν = 0.5 gets thinner, from the roll-off wavelength to 1e-3 of it."""
     return made(level(_rough(), 0.1), thickness=SIDE / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
 
 
 def pushed_surface_layer(severity: float) -> Case:
-    """The approach of a surface to a layer of ν = 0.3 is prescribed, up to a million times that of complete contact."""
+    """The approach to a layer of ν = 0.3 is prescribed, to a million times complete contact's."""
     case = Case(_rough(), thickness=SIDE / 4, poisson_ratio=0.3)
     flat = complete(case.heights, case.compliance)  # of mean zero, as the heights
     full = -flat.min()
