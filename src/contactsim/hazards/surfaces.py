@@ -65,7 +65,7 @@ def full_surface(severity: float) -> Case:
 def flat_punch(severity: float) -> Case:
     """What surrounds a flat round top falls, from 1 to 1e7 spacings below: its answer stays.
 
-    The edge carries most; the answer is by elimination. The tolerance falls with the depth, so that it stays the same length.
+    The edge carries most; the answer is by elimination. The tolerance falls with the depth: it stays the same length.
     """
     away = np.arange(SIDE) - SIDE // 2
     depth = 10 ** (7 * severity / 100)
