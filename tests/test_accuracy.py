@@ -42,7 +42,16 @@ SECONDS = {
     "active_set": [1.0, 2.0, 4.0, 0.3, 0.4, 0.5],
     "polonsky_keer": [10.0, 20.0, 3.0, 5.0],
 }
-PLAN = {"settings": SETTINGS, "jobs": [*JOBS], "marks": MARKS, "tier": "quick", "load": "reduced_pressure"}
+PLAN = {
+    "settings": SETTINGS,
+    "jobs": [*JOBS],
+    "marks": MARKS,
+    "tier": "quick",
+    "default": "active_set",
+    "selection": {},
+    "surface": False,
+    "load": "reduced_pressure",
+}
 
 
 def render(folder, plan=PLAN, jobs=JOBS, members=3):
@@ -65,15 +74,15 @@ def render(folder, plan=PLAN, jobs=JOBS, members=3):
     return pd.read_csv(folder / "shown.csv"), pd.read_csv(folder / "equal.csv")
 
 
-def drawn(jobs=JOBS, members=3, marks=MARKS):
+def drawn(jobs=JOBS, members=3, marks=MARKS, default="active_set"):
     """The panels of a case, drawn in full, with seconds a thousandth of the work; the table."""
-    table = precision.table(SETTINGS, jobs, study(members))
+    table = precision.table(SETTINGS, jobs, study(members), default)
     table["seconds"] = table.work / 1000
     columns = len(accuracy.turned(table)) + 1
     figure, panels = framed(SETTINGS | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
     axes = np.reshape(panels, (2, columns))
     equal = precision.compared(table, "kappa_r", SETTINGS["levels"], accuracy.COSTS)
-    accuracy.draw(table, equal, jobs["active_set"], axes, "kappa_r", marks)
+    accuracy.draw(table, equal, jobs[default], axes, "kappa_r", marks)
     FigureCanvasAgg(figure).draw()
     return axes, table
 
@@ -224,12 +233,31 @@ def test_the_table_of_costs_fits_its_cells_and_lies_under_nothing():
     assert legend.get_window_extent(renderer).y0 > axes[0, 0].get_window_extent(renderer).y1
 
 
+def test_on_a_surface_its_own_solver_is_the_measure_and_points_are_those_of_a_side():
+    jobs = {name: data.assign(points_y=data.points) for name, data in JOBS.items()}
+    jobs["conjugate_gradients"] = jobs.pop("active_set")
+    axes, table = drawn(jobs, default="conjugate_gradients")
+    assert axes[0, 0].get_title() == "grid points a side"
+    assert axes[0, -1].get_xlabel() == "grid points a side"
+    assert "over that of conjugate gradients" in axes[1, -1].texts[0].get_text()
+    assert np.allclose(rings(axes[0, 0])[0], table[table.own].iloc[1][["kappa_r", "work"]].astype(float))
+    text = accuracy.footer_text(table, PLAN | {"surface": True})
+    assert "reference 1024 × 1024 points at tolerance 1e-06" in text
+    assert "curve of conjugate gradients" in text
+
+
 def test_solvers_have_the_names_of_the_literature():
     axes, _ = drawn()
     heads = [cell.get_text().get_text() for (row, _), cell in axes[1, -1].tables[0].get_celld().items() if row == 0]
     assert "Polonsky–\nKeer" in heads
     names = [text.get_text() for text in axes[0, 0].figure.legends[0].get_texts()]
     assert names == ["least cost", "active set", "Polonsky–Keer", "used by a tier or the thesis"]
+
+
+def test_entries_of_a_column_are_chosen_by_their_value():
+    numbers = pd.Series([0.1, 0.2, 0.1 + 1e-9])
+    assert accuracy.among(numbers, [0.1, 5.0]).tolist() == [True, False, True]
+    assert accuracy.among(pd.Series(["fixed", "gaussian"]), ["fixed"]).tolist() == [True, False]
 
 
 @pytest.mark.parametrize(

@@ -27,6 +27,7 @@ CASE = {
     },
     "repeats": 2,
 }
+VARY = "quick.case.vary.surface.hurst"
 PLAN = Plan.read(ROOT / "config", "quick")
 
 
@@ -44,7 +45,7 @@ def measured(tmp_path_factory):
 def table_of(measured, made):
     one, jobs = measured
     study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
-    return precision.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study)
+    return precision.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
 
 
 def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
@@ -82,6 +83,35 @@ def test_a_tighter_tolerance_is_nearer_and_dearer(measured, made):
     knob = table[(table.knob == "tolerance") & (table.solver == "active_set")]
     assert knob.relative_contact_area.iloc[1] < knob.relative_contact_area.iloc[0]
     assert knob.work.iloc[1] > knob.work.iloc[0]
+
+
+def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_points(tmp_path):
+    tests = {"points": [16], "tolerance": [1.0]}
+    changes = {"study": "smooth_surface", "solvers": {"conjugate_gradients": tests, "polonsky_keer": tests}}
+    settings = {"settled": {"points": 32, "tolerance": 1e-4}, "reference": {"points": 64, "tolerance": 1e-6}}
+    one = case(tmp_path, **changes, **settings)
+    jobs = {job: one.measure(job)[0] for job in one.jobs()}
+    assert one.job_settings(cost.REFERENCE)["runs"][0]["solver"]["kind"] == "conjugate_gradients"
+    assert jobs["polonsky_keer"].points_y.values.tolist() == [16, 32]
+    data = jobs["polonsky_keer"].isel(setting=0)
+    alone = xr.Dataset({"status": (("member", "contact_ratio"), data.status.values)}).assign_coords(
+        member=[0], contact_ratio=data.contact_ratio
+    )
+    table = precision.table(one.settings, jobs, alone, one.default).query("knob == 'points'").set_index("solver")
+    assert table.work["polonsky_keer"] == data.transforms.sum() * 16**2
+    assert table.own.to_dict() == {"conjugate_gradients": True, "polonsky_keer": False}
+    assert table.kappa_r["polonsky_keer"] == pytest.approx(table.kappa_r["conjugate_gradients"], rel=1e-3)
+
+
+def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
+    settings = {"study": "rough_line", "load": [1e-3], "quantities": ["kappa_r"], "vary": {"surface.hurst": [0.8]}}
+    one = case(tmp_path, **settings)
+    (run,) = one._study(one.turned("active_set")[0], "active_set").runs()
+    whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst": 0.8})
+    assert run.coordinates == {"hurst": 0.8}
+    assert run.settings["surface"] == whole.settings["surface"]
+    assert {run.settings[key] for key in ("seed", "study")} == {whole.settings[key] for key in ("seed", "study")}
+    assert one.selection == {"hurst": [0.8]}
 
 
 def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
@@ -130,6 +160,11 @@ def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
         ({"settled": {"points": 16384, "tolerance": 1e-4}}, "quick.case.settled.points", "fewer than"),
         ({"load": [0.11]}, "quick.case.load", "0.15"),
         ({"quantities": ["kappa"]}, "quick.case.quantities", "kappa_r"),
+        ({"vary": {"surface.hurst": [0.8]}}, "quick.case.vary.surface.hurst", "none"),
+        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst": [0.3]}}, VARY, "0.2, 0.5, 0.8"),
+        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst": []}}, VARY, "0.2, 0.5, 0.8"),
+        ({"solvers": CASE["solvers"] | {"conjugate_gradients": {"points": [64]}}}, "quick.case.solvers", "LINE"),
+        ({"study": "smooth_surface"}, "quick.case.solvers", "conjugate_gradients, the study's own"),
         ({"repeats": 0}, "quick.case.repeats", "1 or more"),
         ({"thesis_members": 0}, "quick.case.thesis_members", "1 or more"),
         ({"speed": 1}, "quick.case.speed", "no such key"),
@@ -147,7 +182,10 @@ def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_th
     for tier in ("quick", "standard", "full"):
         plan = Plan.read(ROOT / "config", tier)
         cases = cost.read_cases(ROOT / "config", plan)
-        assert list(cases) == ["cylinder", "rough_line"]
+        assert list(cases) == ["cylinder", "rough_line", "layer", "sphere", "rough_surface"]
+        own = [case.default for case in cases.values()]
+        assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2
+        assert cases["layer"].selection == {"thickness": [640.0]}
         marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
         points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
         members = {"quick": 3, "standard": 10, "full": 10, "thesis": 10}

@@ -19,7 +19,7 @@ from contactsim.elasticity import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.figures.sketch import sketch
-from contactsim.hazards import Case, layer_response
+from contactsim.hazards.cases import Case, layer_response
 from contactsim.laws import HardWall
 from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import solver, solver_class

@@ -9,12 +9,15 @@ from hypothesis import strategies as st
 from scipy.optimize import nnls
 
 import contactsim
-from cases import ALL, FAST, compliance, press, rough, wave
+from cases import ALL, FAST, ON_SURFACES, compliance, press, rough, wave
 from contactsim import analytic
 from contactsim.errors import SceneError
-from contactsim.hazards import HAZARDS, Case, first_line, made
+from contactsim.hazards import HAZARDS, first_line
+from contactsim.hazards.cases import Case, alone, complete, made, mirrored, on_top
+from contactsim.solvers import solver_class
 from contactsim.solvers.base import Status
 from contactsim.stability import Outcome, judge
+from contactsim.traits import Trait
 
 
 def assert_right(result, tolerance=1e-3):
@@ -36,23 +39,38 @@ def test_few_points_carry_a_light_load(name):
         assert result.contact[np.argmax(heights)]
 
 
-@pytest.mark.parametrize("name", ALL)
+ON_LINES_ONLY = {name for name in HAZARDS if HAZARDS[name](0).heights.ndim == 1}
+TAKEN = [(hazard, name) for hazard in HAZARDS for name in (ALL if hazard in ON_LINES_ONLY else ON_SURFACES)]
+TIGHT = ("flat", "tight_tolerance", "tight_surface_tolerance")
+"""Below what rounding allows at last."""
+
+
+@pytest.mark.parametrize(("hazard", "name"), TAKEN)
 @pytest.mark.parametrize("severity", [0, 25, 50, 75, 100])
-@pytest.mark.parametrize("hazard", HAZARDS)
-def test_no_hazard_is_answered_wrongly(name, severity, hazard):
+def test_no_hazard_is_answered_wrongly(hazard, name, severity):
+    if name == "polonsky_keer" and hazard not in ON_LINES_ONLY and severity > 50:
+        pytest.skip("where it only spends its budget, at length: the map shows it")
     case = HAZARDS[hazard](severity)
     verdict = judge(case, name)
     assert verdict.outcome not in (Outcome.WRONG, Outcome.NON_FINITE), verdict.reason
     if case.refuse:
         assert (verdict.outcome, verdict.reason[:13]) == (Outcome.REFUSED, "mean_pressure")
-    elif case.approach is not None and name != "active_set":
+    elif case.approach is not None and Trait.APPROACH not in solver_class(name).accepts:
         assert verdict.outcome is Outcome.REFUSED
         assert "APPROACH" in verdict.reason
-    elif hazard in ("flat", "tight_tolerance"):  # below what rounding allows, and said so
+    elif hazard in TIGHT:  # and said so
         assert verdict.outcome in (Outcome.RIGHT, Outcome.FAILED)
     else:
         known = case.exact is not None or case.area is not None
         assert verdict.outcome is (Outcome.RIGHT if known else Outcome.CERTIFIED)
+
+
+@pytest.mark.parametrize("hazard", HAZARDS)
+def test_a_solver_of_the_other_dimension_is_refused(hazard):
+    name, trait = ("conjugate_gradients", "LINE") if hazard in ON_LINES_ONLY else ("active_set", "SURFACE")
+    verdict = judge(HAZARDS[hazard](50), name)
+    assert verdict.outcome is Outcome.REFUSED
+    assert f"accepts {trait}" in verdict.reason or hazard == "tension"
 
 
 @pytest.mark.parametrize(("hazard", "severity"), [("few_points", 25), ("few_points", 35), ("low_spike", 25)])
@@ -87,8 +105,7 @@ def test_a_hazard_gives_the_same_case_every_time_symmetric_where_it_says_so(haza
     assert np.array_equal(case.heights, again.heights)
     assert (case.mean_pressure is None) != (case.approach is None)
     if case.mirror is not None:
-        mirrored = np.roll(case.heights[::-1], 2 * case.mirror + 1)
-        assert np.allclose(case.heights, mirrored, rtol=0, atol=1e-12)
+        assert np.allclose(case.heights, mirrored(case.heights, case.mirror), rtol=0, atol=1e-12)
 
 
 def test_a_made_case_has_its_answer_by_a_sum_over_the_dense_compliance():
@@ -98,6 +115,39 @@ def test_a_made_case_has_its_answer_by_a_sum_over_the_dense_compliance():
     assert np.allclose(case.exact, np.maximum(field, 0))
     assert np.allclose(gap, np.maximum(-field, 0), atol=1e-13)
     assert case.mean_pressure == pytest.approx(case.exact.mean())
+
+
+@pytest.mark.parametrize("spacing", [1.0, (1.0, 2.5)])
+def test_a_made_surface_has_its_answer_by_a_sum_over_waves(spacing):
+    field = np.random.default_rng(2).normal(size=(6, 7))
+    case = made(field, spacing=spacing)
+    dy, dx = np.broadcast_to(spacing, 2)
+    rows, columns = np.indices(field.shape)
+    gap = -case.heights
+    for ky in range(6):
+        for kx in range(1 if ky == 0 else 0, 7):
+            q = 2 * np.pi * np.hypot(min(ky, 6 - ky) / (6 * dy), min(kx, 7 - kx) / (7 * dx))
+            wave = np.exp(2j * np.pi * (ky * rows / 6 + kx * columns / 7))
+            gap = gap + 2 / q * (wave * (case.exact * wave.conj()).mean()).real
+    assert np.allclose(case.exact, np.maximum(field, 0))
+    assert np.allclose(gap, np.maximum(-field, 0), atol=1e-13)
+
+
+def test_the_answer_of_equal_tops_is_that_of_one_that_is_alone_and_uniform_in_its_displacement():
+    heights = np.zeros((9, 8))
+    heights[4, 3] = 5.0
+    assert np.allclose(on_top(heights, 1e-2), alone(heights, 1e-2), rtol=1e-12)
+    heights[4:7, 3:5] = 5.0
+    case = Case(heights, 1e-2, exact=on_top(heights, 1e-2), tolerance=1e-9)
+    assert case.exact.mean() == pytest.approx(1e-2)
+    assert np.array_equal(case.exact > 0, heights > 0)
+    assert judge(case, "conjugate_gradients").outcome is Outcome.RIGHT
+    assert on_top(heights, 1e3) is None  # then what is around touches too
+
+
+def test_complete_contact_is_that_of_the_analytic_formula():
+    heights = rough(64)
+    assert np.allclose(complete(heights, Case(heights).compliance), analytic.complete_contact(heights, 64.0, 1.0))
 
 
 @pytest.mark.parametrize("name", ["active_set", "verlet"])

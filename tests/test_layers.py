@@ -14,7 +14,7 @@ errors traits grid roughness scans measured topography surface elasticity laws l
 solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.conjugate_gradients
 observables analytic provenance dataset config build study march extrapolation aggregate costs joblog takes findings
-claims api hazards stability plan compare explain cost precision
+claims api hazards.cases hazards.lines hazards.surfaces hazards stability plan compare explain cost precision
 figures figures.style figures.maps figures.resolution figures.ch3 figures.ch5 figures.stability figures.render
 figures.claims figures.accuracy figures.sketch cli
 """.split()

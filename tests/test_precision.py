@@ -14,12 +14,12 @@ GRIDS = [("points", 16, 1e-3), ("points", 32, 1e-3)]
 
 
 def table_of(**jobs):
-    return precision.table(SETTINGS, {"reference": REFERENCE} | jobs, study())
+    return precision.table(SETTINGS, {"reference": REFERENCE} | jobs, study(), "active_set")
 
 
 def rows(errors, costs, **columns):
     """A table of one solver's settings, all converged."""
-    plain = {"solver": "active_set", "knob": "points", "unconverged": 0.0}
+    plain = {"solver": "active_set", "knob": "points", "unconverged": 0.0, "own": True}
     return pd.DataFrame(
         {"points": 2 ** np.arange(4, 4 + len(errors)), "error": errors, "work": costs} | plain | columns
     )
@@ -36,6 +36,15 @@ def test_the_error_is_the_root_mean_square_over_loads_and_the_work_transforms_ti
     assert table.work[:2].tolist() == [2 * 10 * 16, 2 * 30 * 32]
 
 
+def test_the_work_on_a_surface_counts_all_of_its_points():
+    grids = job(GRIDS, [2.1, 2.1], [10, 30]).assign(points_y=("setting", [8, 32]))
+    jobs = {"reference": REFERENCE, "conjugate_gradients": grids}
+    table = precision.table(SETTINGS, jobs, study().assign(points_y=16), "conjugate_gradients")
+    assert table.work.tolist() == [2 * 10 * 16 * 8, 2 * 30 * 32 * 32, 8 * 64 * 16, 12 * 64 * 16]
+    assert table.own.all()
+    assert set(table.solver) == {"conjugate_gradients"}
+
+
 @pytest.mark.parametrize("missing", [[np.nan, 2.0], [np.nan, np.nan], [np.inf, 2.0]])
 def test_a_setting_without_a_value_at_one_load_has_no_finite_error(missing):
     table = table_of(active_set=job(GRIDS, [missing, [2.1, 2.1]]))
@@ -45,7 +54,7 @@ def test_a_setting_without_a_value_at_one_load_has_no_finite_error(missing):
 
 def test_a_reference_without_a_value_leaves_no_error():
     data = {"reference": REFERENCE.assign(kappa_r=REFERENCE.kappa_r * np.nan), "active_set": job(GRIDS, [2.1, 2.1])}
-    assert np.isinf(precision.table(SETTINGS, data, study()).kappa_r[:2]).all()
+    assert np.isinf(precision.table(SETTINGS, data, study(), "active_set").kappa_r[:2]).all()
 
 
 def test_the_share_of_unconverged_solutions_is_told():
@@ -67,12 +76,15 @@ def test_the_work_of_an_ensemble_is_its_members_and_its_error_falls_as_their_roo
 def test_an_ensemble_with_unconverged_solutions_says_so():
     data = study()
     data["status"][0, 0] = Status.BUDGET.value[0]
-    table = precision.table(SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, data)
+    table = precision.table(
+        SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, data, "active_set"
+    )
     assert (table[table.knob == "members"].unconverged == 1 / 6).all()
 
 
 def test_one_member_is_no_ensemble():
-    table = precision.table(SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, study(members=1))
+    jobs = {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}
+    table = precision.table(SETTINGS, jobs, study(members=1), "active_set")
     assert set(table.knob) == {"points"}
 
 
@@ -109,7 +121,7 @@ def test_failures_are_not_on_the_front(bad):
 def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
     points = np.array([100.0, 1000.0])
     table = pd.concat(
-        rows(1 / points, factor * points, solver=kind, unconverged=bad)
+        rows(1 / points, factor * points, solver=kind, unconverged=bad, own=kind == "active_set")
         for kind, factor, bad in (("active_set", 1.0, 0), ("slow", 30.0, 0), ("failed", 0.1, 1))
     )
     found = precision.compared(table, "error", {"points": [0.005, 1e-9]}, ["work"]).set_index(["solver", "error"])

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import nnls
 
 import contactsim
-from cases import ALL, FAST, compliance, press, rough, wave
+from cases import ALL, FAST, ON_SURFACES, compliance, press, rough, wave
 from contactsim import analytic, loading
 from contactsim.elasticity import HalfSpace
 from contactsim.errors import SceneError
@@ -21,7 +21,7 @@ from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import SOLVERS, solver
 from contactsim.solvers.active_set import ActiveSet, BlockStiffness, Continuation
 from contactsim.solvers.base import Status, require, solve
-from contactsim.surface import Flat
+from contactsim.surface import Flat, SelfAffine, generator
 from contactsim.traits import Trait
 
 
@@ -177,6 +177,18 @@ def test_each_solver_accepts_every_trait_it_claims_and_refuses_the_rest(name):
         else:
             with pytest.raises(SceneError, match=trait.name):
                 require(method, scene)
+
+
+@pytest.mark.parametrize("thickness", [None, 3.0])
+@pytest.mark.parametrize("pressure", [1e-4, 0.03, 0.5])
+def test_polonsky_keer_finds_the_same_contact_of_a_surface(pressure, thickness):
+    heights = SelfAffine(48, 0.5, 16.0, 6.0, 1.0, dimensions=2, rng=generator(3, 0.5)).heights(48)[:40]
+    layer = {} if thickness is None else {"thickness": thickness, "poisson_ratio": 0.3}
+    given = {"spacing": (1.0, 1.5), "contact_modulus": 1.0, "mean_pressure": pressure, "tolerance": 1e-6} | layer
+    found, other = (contactsim.press(heights, solver=name, **given) for name in ON_SURFACES)
+    assert found.status is Status.CONVERGED
+    assert np.array_equal(found.contact, other.contact)
+    assert np.allclose(found.pressure, other.pressure, rtol=0, atol=1e-5 * other.pressure.max())
 
 
 def test_an_unknown_solver_is_refused_with_those_that_exist():

@@ -13,19 +13,21 @@ import yaml
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
-from cases import ALL
+from cases import ALL, ON_SURFACES
 from conftest import ROOT
 from contactsim import dataset, press, scene
 from contactsim.errors import SceneError
 from contactsim.figures.render import render
-from contactsim.figures.stability import COLOURS, footer, refusals, short_reason, stability
-from contactsim.hazards import HAZARDS, Case, made
+from contactsim.figures.stability import COLOURS, footer, refusals, short_reason, stability, taken
+from contactsim.hazards import HAZARDS
+from contactsim.hazards.cases import Case, made
 from contactsim.plan import Plan
 from contactsim.solvers import solver
 from contactsim.solvers.base import State
 from contactsim.stability import Outcome, faults, gather, judge, read_settings, survey
 
 CASE = made(np.cos(2 * np.pi * np.arange(64) / 64) - 0.3)
+SURFACE = made(np.add.outer(np.cos(2 * np.pi * np.arange(10) / 10), np.cos(2 * np.pi * np.arange(16) / 16)) - 0.3)
 SETTINGS = yaml.safe_load((ROOT / "config/stability.yaml").read_text(encoding="utf-8"))
 
 
@@ -68,6 +70,15 @@ def solved(case):
         (replace(CASE, mean_pressure=None, approach=0.0), "verlet", Outcome.REFUSED, "APPROACH"),
         (CASE, solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "budget"),
         (CASE, Stuck(1.0), Outcome.FAILED, "budget"),
+        (CASE, "conjugate_gradients", Outcome.REFUSED, "LINE"),
+        (SURFACE, "conjugate_gradients", Outcome.RIGHT, ""),
+        (SURFACE, "polonsky_keer", Outcome.RIGHT, ""),
+        (SURFACE, "active_set", Outcome.REFUSED, "SURFACE"),
+        (replace(SURFACE, exact=None), "conjugate_gradients", Outcome.CERTIFIED, ""),
+        (replace(SURFACE, exact=SURFACE.exact[:, ::-1]), "conjugate_gradients", Outcome.WRONG, "pressure off"),
+        (replace(SURFACE, mirror=(0, 0)), "conjugate_gradients", Outcome.RIGHT, ""),
+        (replace(SURFACE, mirror=(0, 1)), "conjugate_gradients", Outcome.WRONG, "symmetric"),
+        (replace(SURFACE, mirror=(1, 0)), "conjugate_gradients", Outcome.WRONG, "symmetric"),
         (CASE, Stuck(np.nan), Outcome.NON_FINITE, "not finite"),
         (CASE, Stuck(np.inf), Outcome.NON_FINITE, "not finite"),
         (replace(CASE, refuse=True), "active_set", Outcome.WRONG, "should have refused"),
@@ -178,7 +189,7 @@ def test_a_missing_setting_is_refused():
 def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
     settings = Plan.read(ROOT / "config").stability
     assert settings["hazards"] == list(HAZARDS)
-    assert list(settings["solvers"]) == list(ALL)
+    assert set(settings["solvers"]) == {*ALL, *ON_SURFACES}
     assert settings["solvers"]["verlet"]["budget"] == solver("verlet").budget
 
 
@@ -227,7 +238,7 @@ def drawn(tmp_path_factory):
 
 def test_the_dataset_says_what_came_of_every_cell(drawn):
     data = dataset.read(drawn / "stability.nc")
-    assert dict(data.sizes) == {"hazard": 3, "solver": 3, "severity": 3}
+    assert dict(data.sizes) == {"hazard": 3, "solver": 4, "severity": 3}
     assert data.hazard.values.tolist() == ["tension", "nearly_full_rough", "low_spike"]
     assert (data.outcome.sel(hazard="tension") == Outcome.REFUSED.value[0]).all()
     assert "nothing can pull" in str(data.reason.sel(hazard="tension")[0, 0].values)
@@ -235,6 +246,10 @@ def test_the_dataset_says_what_came_of_every_cell(drawn):
     assert failed.outcome == Outcome.FAILED.value[0]
     assert failed.transforms > 10_000
     assert "budget" in str(failed.reason.values)
+    assert data.taken.sel(hazard="low_spike").values.tolist() == [1, 1, 1, 0]
+    surfaces_only = data.sel(solver="conjugate_gradients")
+    assert (surfaces_only.outcome == Outcome.REFUSED.value[0]).all()
+    data = data.isel(solver=slice(3))
     spike = data.outcome.sel(hazard="low_spike")
     assert (spike.sel(severity=0) == Outcome.RIGHT.value[0]).all()
     assert (spike.sel(severity=100) == Outcome.CERTIFIED.value[0]).all()
@@ -266,8 +281,8 @@ def test_the_map_is_drawn_and_gives_its_numbers(drawn):
     assert (drawn / "stability.png").read_bytes().startswith(b"\x89PNG")
     assert (drawn / "stability.pdf").read_bytes().startswith(b"%PDF")
     rows = pd.read_csv(drawn / "stability.csv")
-    assert len(rows) == 27
-    assert rows.outcome.value_counts()["refused"] == 9
+    assert len(rows) == 36
+    assert rows.outcome.value_counts()["refused"] == 18
     assert not rows.outcome.isin(["wrong", "non_finite"]).any()
 
 
@@ -277,8 +292,9 @@ def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(dra
     assert footer(data).endswith("1 wrong, 2 not finite")
     axes = Figure().subplots()
     stability(data, [axes])
-    for mesh, (_, one) in zip(axes.collections, data.groupby("hazard", squeeze=False), strict=True):
-        wanted = [to_rgba(list(COLOURS.values())[value]) for value in one.outcome.values.ravel()]
+    for mesh, hazard in zip(axes.collections, data.hazard.values, strict=True):
+        outcomes = taken(data.sel(hazard=hazard)).outcome.values
+        wanted = [to_rgba(list(COLOURS.values())[value]) for value in outcomes.ravel()]
         assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
 
 
@@ -287,13 +303,22 @@ def test_the_map_says_why_a_case_was_refused_and_fits_its_numbers_into_their_cel
     axes = Figure(figsize=(13, 8)).subplots()
     stability(data, [axes])
     texts = [text.get_text() for text in axes.texts]
-    assert texts.count("without adhesion nothing can pull") == data.solver.size
+    assert texts.count("without adhesion nothing can pull") == 3  # solvers that take lines
     assert min(text.get_fontsize() for text in axes.texts) >= 5
     assert {"active set", "Polonsky–Keer", "Verlet"} == {text.get_text() for text in axes.get_yticklabels()}
 
 
+def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    assert "refused and left out, as their solver takes no lines or no surfaces: 9 ·" in footer(data)
+    one = data.sel(hazard="low_spike")
+    assert taken(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
+    alone = one.isel(solver=[3])
+    assert taken(alone).solver.values.tolist() == ["conjugate_gradients"]
+
+
 def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):
-    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough")
+    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough").isel(solver=slice(3))
     refused = Outcome.REFUSED.value[0]
     one["outcome"].values[:2] = [[refused, refused, 0], [refused, 0, refused]]
     one["reason"].values[:2] = [["a: b", "c: b", ""], ["b", "", "c"]]

@@ -1,6 +1,7 @@
 """What accuracy costs: the cases, the settings at which each is solved, and the jobs that solve them.
 
-A case is a scene of a study. Its points and its tolerance are turned one at a time, with each solver that may take it.
+A case is a scene of a study, of all or some of its varied values. Its points and its tolerance are turned one at a
+time, with each solver that may take it; the study's own is the measure of the others, and solves the references.
 The reference of the points is a finer grid, that of the tolerance the same grid solved far more tightly; neither is on
 a curve. Seconds are kept apart from what is reproducible. `contactsim.precision` makes errors and costs of it.
 """
@@ -13,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from contactsim import dataset
 from contactsim.aggregate import AVERAGED, combined
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
@@ -20,9 +22,11 @@ from contactsim.errors import SceneError
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
-from contactsim.solvers import SOLVERS, installed, module_of, solver
+from contactsim.solvers import SOLVERS, installed, module_of, solver, solver_class
+from contactsim.solvers.base import require
 from contactsim.study import Study
 from contactsim.takes import quantities
+from contactsim.traits import Trait
 
 SETTING_KEYS = {
     "points": Key(whole(2), "a whole number of grid points"),
@@ -37,6 +41,7 @@ CASE_KEYS = {
     "caption": Key(text, "text"),
     "size": Key(size, "width and height in inches"),
     "study": Key(text, "the name of a study"),
+    "vary": Key(mapping, "a mapping from keys that the study varies to lists of some of their values", {}),
     "load": Key(listed(number), "a list of the study's loads"),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "quantities": Key(listed(choice(AVERAGED)), f"a list from {', '.join(AVERAGED)}"),
@@ -49,7 +54,6 @@ CASE_KEYS = {
 }
 LEVEL_KEYS = {knob: Key(listed(positive), "a list of relative errors", []) for knob in KNOB_KEYS}
 REFERENCE = "reference"
-DEFAULT = "active_set"
 LONG = 5.0
 """Seconds above which a setting is not timed again."""
 
@@ -65,11 +69,21 @@ class Setting:
 
 @dataclass(frozen=True)
 class Case:
-    """A scene to price: its name, settings as read, and the study that it belongs to."""
+    """A scene to price: its name, settings as read, and the study that it belongs to, of the values to price alone."""
 
     name: str
     settings: dict
     study: Study
+
+    @property
+    def default(self) -> str:
+        """The study's own solver, the measure of others."""
+        return self.study.settings["solver"]["kind"]
+
+    @property
+    def selection(self) -> dict[str, list]:
+        """What is priced of the study's dataset: values by dimension, those left out whole."""
+        return {dataset.dimension(*name.split(".", 1)): values for name, values in self.settings["vary"].items()}
 
     def jobs(self) -> list[str]:
         """The jobs of a case: its reference and its solvers, as far as they are installed."""
@@ -86,6 +100,10 @@ class Case:
             Setting("tolerance", settled["points"], tolerance) for tolerance in knobs["tolerance"]
         ]
 
+    def solved_by(self, job: str) -> str:
+        """The solver of a job."""
+        return self.default if job == REFERENCE else job
+
     def job_settings(self, job: str) -> dict:
         """Everything that a job's result depends on but the code."""
         kept = ("load", "members", "quantities", "settled", "reference", "repeats")
@@ -95,7 +113,7 @@ class Case:
 
     def _study(self, setting: Setting, job: str) -> Study:
         load = {"name": self.study.settings["load"]["name"], "values": sorted(self.settings["load"])}
-        kind = DEFAULT if job == REFERENCE else job
+        kind = self.solved_by(job)
         changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": kind}, "load": load}
         apart = {"members": self.settings["members"], "companion": None, "tight": None, "fit_limits": None}
         return replace(self.study, settings=self.study.settings | changed | apart)
@@ -114,7 +132,7 @@ class Case:
                     for data, run in parts
                 ]
             )
-            kept = data[[*self.settings["quantities"], "transforms", "status"]]
+            kept = data[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(data))]]
             found.append(kept.assign(points=setting.points, tolerance=setting.tolerance, knob=setting.knob))
             seconds.append(min(times))
         return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
@@ -154,15 +172,35 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
         if not any(settings["solvers"][kind].values()):
             raise SceneError(f"{prefix}.solvers.{kind}", knobs, "points, or tolerance, or both", file)
         _below_reference(settings["solvers"][kind], settings["reference"], file, f"{prefix}.solvers.{kind}")
-    if DEFAULT not in settings["solvers"]:
-        raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), f"{DEFAULT}, the measure of others", file)
     settled = {key: [value] for key, value in settings["settled"].items()}
     _below_reference(settled, settings["reference"], file, f"{prefix}.settled")
     study = plan.studies[settings["study"]]
     for key, known in (("load", study.settings["load"]["values"]), ("quantities", quantities(study))):
         for value in set(settings[key]) - set(known):
             raise SceneError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
-    return Case(name, settings, study)
+    case = Case(name, settings, _narrowed(study, settings["vary"], file, f"{prefix}.vary"))
+    if case.default not in settings["solvers"]:
+        allowed = f"{case.default}, the study's own, among them: the measure of others"
+        raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
+    scene = scene_of(case.study.runs()[0].settings)
+    for kind in settings["solvers"]:
+        try:
+            require(solver_class(kind)(), scene)
+        except SceneError as error:
+            raise SceneError(f"{prefix}.solvers", kind, error.allowed, file) from error
+    return case
+
+
+def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
+    """The study of some of its varied values."""
+    for key, values in vary.items():
+        known = study.settings["vary"].get(key)
+        if known is None:
+            allowed = f"a key that the study varies: {', '.join(study.settings['vary']) or 'none'}"
+            raise SceneError(f"{prefix}.{key}", values, allowed, file)
+        if not isinstance(values, list) or not values or any(value not in known for value in values):
+            raise SceneError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, known))}", file)
+    return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
 def _below_reference(turned: dict, reference: dict, file: Path, prefix: str) -> None:
@@ -189,6 +227,9 @@ def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
         "digests": [job_plan(case, job) for job in case.jobs()],
         "marks": marks | {"thesis": {knob: value for knob, value in thesis.items() if value}},
         "tier": plan.tier,
+        "default": case.default,
+        "selection": case.selection,
+        "surface": Trait.SURFACE in scene_of(case.study.runs()[0].settings).traits,
         "load": case.study.settings["load"]["name"],
         "source": source_digest("contactsim.figures.accuracy"),
         "study": digest(plan.study_settings(case.study.name)),
@@ -197,5 +238,5 @@ def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
 
 def job_plan(case: Case, job: str) -> dict:
     """What a job depends on: its settings and its code."""
-    kind = DEFAULT if job == REFERENCE else job
-    return {"job": case.job_settings(job), "source": source_digest("contactsim.cost", module_of(kind))}
+    source = source_digest("contactsim.cost", module_of(case.solved_by(job)))
+    return {"job": case.job_settings(job), "source": source}

@@ -100,6 +100,7 @@ VARIABLES = {
     "outcome": ("1", "what came of a case"),
     "reason": ("1", "reason of a refusal or failure"),
     "tolerance": ("1", "tolerance, in grid steps"),
+    "taken": ("1", "whether the solver takes scenes of the hazard's dimension"),
     "harder": ("1", "what gets harder with the severity"),
     "profile_real": ("nm", "real part of the profile's Fourier coefficients"),
     "profile_imag": ("nm", "imaginary part of the profile's Fourier coefficients"),

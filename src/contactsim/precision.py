@@ -14,19 +14,19 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.aggregate import load_name
-from contactsim.cost import DEFAULT, REFERENCE
+from contactsim.cost import REFERENCE
 from contactsim.solvers.base import Status
 
 ROUNDING = 1e-10
 """Errors below it are rounding: both solutions have the same contact."""
 
 
-def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset) -> pd.DataFrame:
+def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, default: str) -> pd.DataFrame:
     """One row a setting: solver, knob, points, tolerance, members, error of each quantity, work, share unconverged.
 
-    jobs: datasets by solver, with the reference's; study: the study's dataset, for the size of the ensemble. Errors are
-    relative, root mean square over variants, members and loads, infinite where one of them has no value, as without
-    contact; work is transforms times points.
+    jobs: datasets by solver, with the reference's; study: the study's dataset, as far as it is priced, for the size of
+    the ensemble; default: its own solver. Errors are relative, root mean square over variants, members and
+    loads, infinite where one of them has no value, as without contact; work is transforms times all points of the grid.
     """
     rows = []
     references = {str(one.knob.item()): one for one in _each(jobs[REFERENCE])}
@@ -36,26 +36,32 @@ def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset) -
             rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", "points", "tolerance")})
             for name in case_settings["quantities"]:
                 rows[-1][name] = _root_mean_square(one[name] / reference[name] - 1)
-            rows[-1]["work"] = float(one.transforms.sum() * one.points)
+            rows[-1]["work"] = float(one.transforms.sum() * _size(one))
             rows[-1]["unconverged"] = _unconverged(one)
     columns = ["solver", "knob", "points", "tolerance", "members", *case_settings["quantities"], "work", "unconverged"]
-    return pd.DataFrame(rows + list(_ensembles(case_settings, study)), columns=columns)
+    table = pd.DataFrame(rows + list(_ensembles(case_settings, study, default)), columns=columns)
+    return table.assign(own=table.solver == default)
 
 
 def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:
     return (data.isel(setting=place) for place in range(data.setting.size))
 
 
-def _ensembles(case_settings: dict, study: xr.Dataset) -> Iterable[dict]:
+def _size(data: xr.Dataset) -> float:
+    """All points of the grid."""
+    return float(data.points) * float(data.get("points_y", 1))
+
+
+def _ensembles(case_settings: dict, study: xr.Dataset, default: str) -> Iterable[dict]:
     """The standard error of ensembles of two members up to all, from the study's own scatter."""
     most = study.member.size
     chosen = study.sel({load_name(study): case_settings["load"]}, method="nearest")
     for members in range(2, most + 1) if most > 1 else ():
-        row = {"solver": DEFAULT, "knob": "members", "points": int(study.points), "members": members}
+        row = {"solver": default, "knob": "members", "points": int(study.points), "members": members}
         for name in case_settings["quantities"]:
             share = chosen[f"{name}_standard_error"] / chosen[f"{name}_mean"] * np.sqrt(most / members)
             row[name] = _root_mean_square(share)
-        work = float(chosen.transforms.mean("member").sum() * members * study.points)
+        work = float(chosen.transforms.mean("member").sum() * members * _size(study))
         yield row | {"work": work, "unconverged": _unconverged(chosen)}
 
 
@@ -103,7 +109,7 @@ def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> floa
 def compared(
     table: pd.DataFrame, quantity: str, levels: Mapping[str, Iterable[float]], costs: Iterable[str]
 ) -> pd.DataFrame:
-    """At equal error, how many times more each solver costs than the default one: one row a knob, level and solver.
+    """At equal error, how many times more each solver costs than the study's own: one row a knob, level and solver.
 
     levels: errors by knob; a ratio is NaN where a solver was not measured at that error.
     """
@@ -111,7 +117,7 @@ def compared(
     good = met(table, quantity)
     good = good[good.knob.isin(levels)]
     for (knob, kind), curve in good.groupby(["knob", "solver"], sort=False):
-        own = good[(good.knob == knob) & (good.solver == DEFAULT)]
+        own = good[(good.knob == knob) & good.own]
         for level in levels[knob]:
             ratios = {
                 cost: cost_at(curve, quantity, level, cost) / cost_at(own, quantity, level, cost) for cost in costs

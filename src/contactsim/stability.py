@@ -19,10 +19,12 @@ from contactsim import dataset
 from contactsim.api import press
 from contactsim.config import Key, choice, keys_of, listed, mapping, number, read, size, text
 from contactsim.errors import SceneError
-from contactsim.hazards import HAZARDS, Case, displacement, first_line
+from contactsim.hazards import HAZARDS, first_line
+from contactsim.hazards.cases import Case, displacement, mirrored
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.solvers import SOLVERS, module_of, solver, solver_class
 from contactsim.solvers.base import Result, Solver, Status
+from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
 
@@ -79,7 +81,7 @@ def judge(case: Case, method: str | Solver) -> Verdict:
 def faults(case: Case, result: Result) -> str:
     """What is wrong with a converged result; empty if nothing is."""
     allowed, pressure = _allowed(case, result), result.pressure
-    sunk = case.compliance[0] * result.mean_pressure
+    sunk = case.compliance.flat[0] * result.mean_pressure
     gap = displacement(pressure, case.compliance) - case.heights
     level = gap[result.contact].mean() if sunk else result.approach
     gap -= level
@@ -100,7 +102,7 @@ def faults(case: Case, result: Result) -> str:
         return f"pressure off the exact one by {_rms(pressure - case.exact):.3g} rms, allowed {precision:.3g}"
     if case.area is not None and abs(result.relative_contact_area - case.area) > 1.5 / pressure.size:
         return f"contact area {result.relative_contact_area:.6g}, exact {case.area:.6g}"
-    if case.mirror is not None and _rms(pressure - np.roll(pressure[::-1], 2 * case.mirror + 1)) > 2 * precision:
+    if case.mirror is not None and _rms(pressure - mirrored(pressure, case.mirror)) > 2 * precision:
         return "not mirror symmetric"
     return ""
 
@@ -108,9 +110,10 @@ def faults(case: Case, result: Result) -> str:
 def _allowed(case: Case, result: Result) -> float:
     """How far a gap may be off: twice the tolerance, and the rounding of heights and of the displacement."""
     highest = np.abs(case.heights).max() or 1.0
-    step = _rms(np.diff(case.heights, append=case.heights[0]) / highest) * highest
-    step = step or (case.mean_pressure or 1.0) * case.spacing / case.contact_modulus
-    reach = result.mean_pressure * case.heights.size * case.spacing / case.contact_modulus
+    scaled = case.heights / highest
+    step = highest * _rms(np.stack([np.roll(scaled, -1, axis) - scaled for axis in range(scaled.ndim)]))
+    step = step or (case.mean_pressure or 1.0) * case.spacings[-1] / case.contact_modulus
+    reach = result.mean_pressure * (np.array(case.heights.shape) * case.spacings).max() / case.contact_modulus
     return 2 * case.tolerance * step + 1e-14 * (highest + reach)
 
 
@@ -124,7 +127,7 @@ def _precision(case: Case, load: float, allowed: float) -> float:
     """
     if case.mean_pressure is None:
         return 1e-3 * load
-    bound = float(np.sqrt(2 * allowed * load / case.compliance[1:].min())) + 1e-12 * load
+    bound = float(np.sqrt(2 * allowed * load / case.compliance.flat[1:].min())) + 1e-12 * load
     return bound if case.exact is None else min(bound, 1e-2 * _rms(case.exact))
 
 
@@ -182,6 +185,7 @@ def job_settings(settings: Mapping, hazard: str) -> dict:
 def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mapping], source: str) -> xr.Dataset:
     """Every solver on one hazard at every severity: outcome, transforms and reason, by (solver, severity)."""
     cases = [HAZARDS[hazard](severity) for severity in severities]
+    dimension = {1: Trait.LINE, 2: Trait.SURFACE}[cases[0].heights.ndim]
     methods = {name: solver(name, **options) for name, options in solvers.items()}
     verdicts = []
     for name, method in methods.items():
@@ -196,6 +200,7 @@ def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mappi
             "transforms": (dims, cells[1].reshape(shape)),
             "reason": (dims, np.array([verdict.reason for verdict in verdicts], object).reshape(shape)),
             "tolerance": ("severity", [case.tolerance for case in cases]),
+            "taken": ("solver", np.array([dimension in method.accepts for method in methods.values()], np.int8)),
             "harder": first_line(hazard),
         },
         coords={"hazard": hazard, "solver": list(methods), "severity": list(severities)},

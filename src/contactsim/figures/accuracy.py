@@ -20,6 +20,7 @@ from contactsim.precision import ROUNDING
 
 LOOKS = {
     "active_set": ("o", style.WHOLE),
+    "conjugate_gradients": ("o", style.WHOLE),
     "polonsky_keer": ("s", style.CONTACT),
     "tamaas": ("D", style.PAIRS),
     "verlet": ("^", "#8c6d31"),
@@ -39,17 +40,27 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     settings, jobs = plan["settings"], plan["jobs"]
     data = {job: dataset.read(path) for job, path in zip(jobs, files["data"], strict=True)}
     times = {job: json.loads(Path(path).read_text()) for job, path in zip(jobs, files["costs"], strict=True)}
-    table = precision.table(settings, data, dataset.read(files["study"]))
+    study = dataset.read(files["study"]).sel(plan["selection"])
+    table = precision.table(settings, data, study, plan["default"])
     alone = pd.read_csv(files["study_costs"]).query("not companion")
-    chosen = alone[np.isclose(alone[plan["load"]].to_numpy()[:, None], settings["load"], rtol=1e-6).any(axis=1)]
+    chosen = alone
+    for name, values in (plan["selection"] | {plan["load"]: settings["load"]}).items():
+        chosen = chosen[among(chosen[name], values)]
     table["seconds"] = seconds(table, times, chosen.seconds.sum() / max(alone.member.nunique(), 1))
     quantity, columns = settings["quantities"][0], len(turned(table)) + 1
     layout = {"rows": 2, "widths": [1.0] * (columns - 1) + [1.4]}
     figure, panels = framed(settings | {"panels": columns}, footer_text(table, plan), **layout)
     equal = precision.compared(table, quantity, settings["levels"], COSTS)
-    draw(table, equal, data[cost.DEFAULT], np.reshape(panels, (2, columns)), quantity, plan["marks"])
+    draw(table, equal, data[plan["default"]], np.reshape(panels, (2, columns)), quantity, plan["marks"])
     save(figure, table, targets)
     move(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
+
+
+def among(column: pd.Series, values: list) -> np.ndarray:
+    """Which entries of a column are among the values; numbers to as many digits as text keeps."""
+    if pd.api.types.is_numeric_dtype(column):
+        return np.isclose(column.to_numpy()[:, None], values, rtol=1e-6, atol=0).any(axis=1)
+    return column.isin(values).to_numpy()
 
 
 def seconds(table: pd.DataFrame, times: Mapping[str, list[float]], member: float) -> pd.Series:
@@ -71,11 +82,12 @@ def footer_text(table: pd.DataFrame, plan: Mapping) -> str:
     points, tolerance = (settings["settled"][key] for key in cost.SETTING_KEYS)
     finest, tightest = (settings["reference"][key] for key in cost.SETTING_KEYS)
     repeats = settings["repeats"]
+    grid, coarse = (f"{size} × {size} points" if plan["surface"] else f"{size} points" for size in (finest, points))
     parts = [
         f"{plan['tier']} tier",
         f"{len(table)} settings, " + (f"best of up to {repeats} timings" if repeats > 1 else "each timed once"),
-        f"points turned at tolerance {tolerance:g}, reference {finest} points at tolerance {tightest:g}",
-        f"tolerance turned at {points} points, reference tolerance {tightest:g}",
+        f"points turned at tolerance {tolerance:g}, reference {grid} at tolerance {tightest:g}",
+        f"tolerance turned at {coarse}, reference tolerance {tightest:g}",
     ]
     ensembles = table[table.knob == "members"]
     parts += [f"members turned at {points} points of the study" for points in ensembles.points.unique()]
@@ -88,8 +100,13 @@ def footer_text(table: pd.DataFrame, plan: Mapping) -> str:
         for value, names in named(plan["marks"], knob).items()
         if marked(table, quantity, knob, value).empty
     ]
-    parts += [f"not on the curve of the active set, so without a ring: {'; '.join(beyond)}"] * bool(beyond)
+    parts += [f"not on the curve of {own_solver(table)}, so without a ring: {'; '.join(beyond)}"] * bool(beyond)
     return " · ".join(parts)
+
+
+def own_solver(table: pd.DataFrame) -> str:
+    """Name of the study's own solver."""
+    return style.SOLVERS[table.solver[table.own].iloc[0]]
 
 
 def named(marks: Mapping[str, Mapping[str, float]], knob: str) -> dict[float, str]:
@@ -105,9 +122,9 @@ def named(marks: Mapping[str, Mapping[str, float]], knob: str) -> dict[float, st
 
 
 def marked(table: pd.DataFrame, quantity: str, knob: str, value: float) -> pd.DataFrame:
-    """The setting of the default solver that has this value of a knob, if it is on the curve."""
+    """The setting of the study's own solver that has this value of a knob, if it is on the curve."""
     good = precision.met(table, quantity)
-    return good[(good.knob == knob) & (good.solver == cost.DEFAULT) & np.isclose(good[knob], value, rtol=1e-9)]
+    return good[(good.knob == knob) & good.own & np.isclose(good[knob], value, rtol=1e-9)]
 
 
 def draw(
@@ -120,13 +137,14 @@ def draw(
 ) -> None:
     """All panels of one case.
 
-    table: `precision.table` with a column of seconds; equal: `precision.compared`; values: the default solver's
-    dataset; axes (2, knobs turned + 1); quantity: whose error is drawn; marks: by name, its value of each knob.
+    table: `precision.table` with a column of seconds; equal: `precision.compared`; values: the dataset of the study's
+    own solver; axes (2, knobs turned + 1); quantity: whose error is drawn; marks: by name, its value of each knob.
     """
+    titles = KNOBS | ({"points": "grid points a side"} if "points_y" in values else {})
     for row, (measure, label) in enumerate(COSTS.items()):
         for panel, knob in zip(axes[row], turned(table), strict=False):
             _panel(panel, table[table.knob == knob], quantity, measure, named(marks, knob))
-            panel.set_title(KNOBS[knob] if row == 0 else "", fontsize=9)
+            panel.set_title(titles[knob] if row == 0 else "", fontsize=9)
             panel.set_xlabel(f"relative error of {style.SYMBOLS[quantity]}" if row else "")
         axes[row, 0].set_ylabel(label)
     _grid_dependence(axes[0, -1], values)
@@ -204,7 +222,7 @@ def _grid_dependence(axes: Axes, values: xr.Dataset) -> None:
         for value in part.hurst.values if "hurst" in part.dims else (None,):
             look = style.hurst(0.2 if value is None else value)
             axes.plot(part.points, mean if value is None else mean.sel(hurst=value), color=color, **look)
-    axes.set(xlabel="grid points", ylabel=style.SYMBOLS["kappa_r"])
+    axes.set(xlabel="grid points a side" if "points_y" in values else "grid points", ylabel=style.SYMBOLS["kappa_r"])
     axes.set_xscale("log", base=2)
     colours = {"Eq. 3.8": style.CONTACT, "pairs in contact": style.PAIRS}
     keys = style.hurst_key(part.hurst.values) if "hurst" in part.dims else []
@@ -212,14 +230,17 @@ def _grid_dependence(axes: Axes, values: xr.Dataset) -> None:
 
 
 def _words(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> None:
-    """Observed orders, and a table of cost at equal error over that of the default solver."""
+    """Observed orders, and a table of cost at equal error over that of the study's own solver."""
     axes.axis("off")
-    grids = table[(table.knob == "points") & (table.solver == cost.DEFAULT)]
+    grids = table[(table.knob == "points") & table.own]
     orders = [f"{style.SYMBOLS[name]} {precision.order(grids, name):.2f}" for name in style.SYMBOLS if name in table]
-    text = f"Observed order in grid points: {', '.join(orders)}\n\nCost at equal error over that of the active set,"
+    text = (
+        f"Observed order in grid points: {', '.join(orders)}\n\nCost at equal error over that of {own_solver(table)},"
+    )
     axes.text(0, 1, f"{text}\nin transforms × points (in seconds)", fontsize=7, va="top", linespacing=1.3)
-    others = [kind for kind in style.SOLVERS if kind in set(equal.solver) - {cost.DEFAULT}]
-    lines = list(_lines(equal[equal.solver != cost.DEFAULT], others))
+    own = set(table.solver[table.own])
+    others = [kind for kind in style.SOLVERS if kind in set(equal.solver) - own]
+    lines = list(_lines(equal[~equal.solver.isin(own)], others))
     if lines:
         header = ["", "error", *(style.SOLVERS[kind].replace("–", "–\n") for kind in others)]
         widths = [0.24, 0.13, *[0.63 / len(others)] * len(others)]
@@ -242,7 +263,7 @@ def _lines(equal: pd.DataFrame, others: Iterable[str]) -> Iterable[list[str]]:
 
 
 def times(ratios: pd.Series) -> str:
-    """Times the default solver's cost, in transforms and in seconds; a dash where it was not measured."""
+    """Times the cost of the study's own solver, in transforms and in seconds; a dash where it was not measured."""
     return "–" if ratios.isna().any() else f"{_two_digits(ratios.work)} ({_two_digits(ratios.seconds)})"
 
 

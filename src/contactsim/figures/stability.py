@@ -27,15 +27,21 @@ COLOURS = {
 """Told apart without seeing red and green, and in grey (Okabe and Ito's)."""
 FONT = 5.2
 """Points of the text in cells, which fits 21 columns."""
+HEAD = 1.25
+"""Rows that a block takes beside its solvers'."""
 
 
 def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Cells hazard × solver × severity by outcome, with the cost as a number in each."""
-    hazards = data.hazard.values
-    half = -(-hazards.size // len(axes))
-    for place, panel in enumerate(axes):
-        _blocks(data.isel(hazard=slice(place * half, (place + 1) * half)), panel, half)
-    counts = {outcome: int((data.outcome == outcome.value[0]).sum()) for outcome in Outcome}
+    parts = [taken(data.sel(hazard=hazard)) for hazard in data.hazard.values]
+    tops = np.cumsum([0.0, *(part.solver.size + HEAD for part in parts)])
+    places = np.searchsorted(tops[-1] * np.arange(1, len(axes)) / len(axes), (tops[:-1] + tops[1:]) / 2)
+    panels = [[part for part, at in zip(parts, places, strict=True) if at == place] for place in range(len(axes))]
+    room = max(sum(part.solver.size + HEAD for part in own) for own in panels)
+    for own, panel in zip(panels, axes, strict=True):
+        _blocks(own, panel, room)
+    cells = np.concatenate([part.outcome.values.ravel() for part in parts])
+    counts = {outcome: int((cells == outcome.value[0]).sum()) for outcome in Outcome}
     keys = [
         Patch(facecolor=COLOURS[outcome], edgecolor="#999999", lw=0.4, label=f"{outcome.value[1]}: {counts[outcome]}")
         for outcome in Outcome
@@ -46,14 +52,20 @@ def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     return rows.assign(outcome=rows.outcome.map(names))
 
 
-def _blocks(data: xr.Dataset, axes: Axes, blocks: int) -> None:
-    """One block a hazard: its name and what gets harder, then a row a solver; room for so many blocks."""
-    solvers, columns = data.solver.size, data.severity.size
-    height = solvers + 1.25
+def taken(one: xr.Dataset) -> xr.Dataset:
+    """One hazard without the solvers that take no lines, or no surfaces, at all; whole if that would leave none."""
+    takes = one.taken.values > 0
+    return one.isel(solver=takes) if takes.any() else one
+
+
+def _blocks(parts: list[xr.Dataset], axes: Axes, room: float) -> None:
+    """One block a hazard: its name and what gets harder, then a row a solver; room: height of the panel in rows."""
+    columns = parts[0].severity.size
     colours = ListedColormap([COLOURS[outcome] for outcome in Outcome])
-    ticks = []
-    for place, hazard in enumerate(data.hazard.values):
-        one, top = data.sel(hazard=hazard), place * height + 1.1
+    ticks, bottom = [], 0.0
+    for one in parts:
+        hazard, solvers, top = str(one.hazard.values), one.solver.size, bottom + HEAD - 0.15
+        bottom += solvers + HEAD
         axes.pcolormesh(
             np.arange(columns + 1),
             top + np.arange(solvers + 1),
@@ -75,11 +87,11 @@ def _blocks(data: xr.Dataset, axes: Axes, blocks: int) -> None:
             for (start, stop), reason in refused.items():
                 under = {"facecolor": COLOURS[Outcome.REFUSED], "linewidth": 0, "pad": 0.5}
                 axes.text((start + stop) / 2, top + row + 0.53, reason, bbox=under, **look)
-        ticks += [(top + row + 0.5, style.SOLVERS.get(name, name)) for row, name in enumerate(data.solver.values)]
-    axes.set(xlim=(0, columns), ylim=(blocks * height, 0), xlabel="severity")
+        ticks += [(top + row + 0.5, style.SOLVERS.get(name, name)) for row, name in enumerate(one.solver.values)]
+    axes.set(xlim=(0, columns), ylim=(room, 0), xlabel="severity")
     axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=6)
     shown = np.unique(np.linspace(0, columns - 1, min(columns, 11)).round().astype(int))
-    axes.set_xticks(shown + 0.5, [f"{value:g}" for value in data.severity.values[shown]], fontsize=7)
+    axes.set_xticks(shown + 0.5, [f"{value:g}" for value in parts[0].severity.values[shown]], fontsize=7)
     axes.tick_params(length=0, top=False, right=False)
     axes.spines[:].set_visible(False)
 
@@ -112,7 +124,9 @@ def _short(cost: float) -> str:
 
 
 def footer(data: xr.Dataset) -> str:
-    """Tier, cells, and what must not occur."""
+    """Tier, cells, those not drawn, and what must not occur."""
     settings = dataset.settings_of(data)
     bad = [int((data.outcome == outcome.value[0]).sum()) for outcome in (Outcome.WRONG, Outcome.NON_FINITE)]
-    return f"{settings['tier']} tier · {data.outcome.size} cells · {bad[0]} wrong, {bad[1]} not finite"
+    left_out = int((data.taken == 0).sum()) * data.severity.size
+    beside = f" · refused and left out, as their solver takes no lines or no surfaces: {left_out}" * bool(left_out)
+    return f"{settings['tier']} tier · {data.outcome.size} cells{beside} · {bad[0]} wrong, {bad[1]} not finite"

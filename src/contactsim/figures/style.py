@@ -28,7 +28,13 @@ SYMBOLS = {
 """Symbols of quantities."""
 PLACES = {"hurst": "$H$", "reduced_pressure": "$p^*$", "mean_pressure": "$p$ (GPa)", "contact_ratio": "$c/R$"}
 """Symbols of dimensions."""
-SOLVERS = {"active_set": "active set", "polonsky_keer": "Polonsky–Keer", "tamaas": "tamaas", "verlet": "Verlet"}
+SOLVERS = {
+    "active_set": "active set",
+    "conjugate_gradients": "conjugate gradients",
+    "polonsky_keer": "Polonsky–Keer",
+    "tamaas": "tamaas",
+    "verlet": "Verlet",
+}
 """Names of solvers, as in the literature."""
 
 mpl.rcParams.update(

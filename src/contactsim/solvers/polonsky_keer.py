@@ -19,7 +19,7 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class PolonskyKeerState(State):
-    """Pressure (n,), last direction (n,), the last squared gap, and whether the set of points has grown."""
+    """Pressure and last direction, (n,) or (ny, nx), the last squared gap, and whether the set of points has grown."""
 
     direction: Array
     square: float
@@ -33,7 +33,7 @@ class PolonskyKeer:
     batch: int = 25
     budget: int = 400
     fields = 18
-    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
+    accepts = frozenset({Trait.LINE, Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
 
     def transforms(self, points: int) -> float:
         """Real transforms of an iteration on a grid of that size."""
@@ -69,7 +69,7 @@ class PolonskyKeer:
         direction = np.where(active, gap + factor * state.direction, 0.0)
         moved = problem.compliance(direction)
         moved -= moved[active].mean()
-        curvature = float(moved @ direction)
+        curvature = float(np.vdot(moved, direction))
         length = float(gap[active] @ direction[active]) / curvature if curvature > 0 else 0.0
         pressure = np.maximum(pressure - length * direction, 0.0)
         overlapping = (pressure == 0) & (gap < 0)

@@ -1,96 +1,22 @@
-"""Cases that get harder: from severity 0 to 100, and what is right at each.
-
-A hazard is a function of its severity that returns a case: a profile, a load and, where it is known, the right answer.
-Right answers come from no solver. Most are made: choose a pressure p ≥ 0 and a gap g ≥ 0 that is zero wherever p is
-not; the heights S p - g then have exactly that answer, and no other, because S is positive definite at a given load.
-"""
+"""Cases of lines that get harder: from severity 0 to 100, and what is right at each."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from contactsim import analytic
 from contactsim.grid import Array
+from contactsim.hazards.cases import Case, alone, level, made
 from contactsim.surface import SelfAffine, generator
 
 POINTS = 1024
 
 
-@dataclass(frozen=True)
-class Case:
-    """A scene to press: heights (n,) and spacing, contact modulus, tolerance in grid steps, and the load.
-
-    Exactly one of mean_pressure and approach is given. exact: the pressure (n,), None where it is unknown; area: the
-    exact relative contact area, of a profile so smooth that the grid moves it by at most half a point at each edge;
-    refuse: whether this must be refused; mirror: the point about which the scene is symmetric, where there is one;
-    thickness and poisson_ratio: of a layer, None on a half-space.
-    """
-
-    heights: Array
-    mean_pressure: float | None = None
-    approach: float | None = None
-    spacing: float = 1.0
-    contact_modulus: float = 1.0
-    tolerance: float = 1e-4
-    exact: Array | None = None
-    area: float | None = None
-    refuse: bool = False
-    mirror: int | None = None
-    thickness: float | None = None
-    poisson_ratio: float | None = None
-
-    @property
-    def compliance(self) -> Array:
-        """Displacement over pressure of each real Fourier mode (n//2 + 1,); by numpy and other formulas than ours."""
-        q = 2 * np.pi * np.fft.rfftfreq(self.heights.size, self.spacing)
-        if self.thickness is None:
-            return np.divide(2 / self.contact_modulus, q, out=np.zeros_like(q), where=q > 0)
-        return layer_response(q * self.thickness, self.poisson_ratio) * (self.thickness / self.contact_modulus)
-
-
-def layer_response(x: Array, poisson_ratio: float) -> Array:
-    """Compliance over h/E* of a bonded layer at x = |q|h (Johnson 1985), (sinh 2x - 2x)/2x as an integral.
-
-    That is ∫₀¹ (cosh 2xt - 1) dt, by 60 points of Gauss; from x = 30 on it is the half-space's 2/x to 20 digits.
-    """
-    k, deep = 3 - 4 * poisson_ratio, np.minimum(x, 30.0)
-    points, weights = np.polynomial.legendre.leggauss(60)
-    bulk = 2 * np.sinh(np.outer(deep, (points + 1) / 2)) ** 2 @ (weights / 2)
-    layer = 4 * (k * bulk + (2 - 4 * poisson_ratio)) / (k * np.cosh(2 * deep) + (1 + k**2) / 2 + 2 * deep**2)
-    return np.where(x < 30, layer, 2 / np.maximum(x, 30.0))
-
-
-def displacement(pressure: Array, compliance: Array) -> Array:
-    """Displacement S p (n,) less its mean under pressure (n,); by numpy's transforms alone."""
-    return np.fft.irfft(np.fft.rfft(pressure - pressure.mean()) * compliance, pressure.size)
-
-
-def made(field: Array, scale: float = 1.0, unit: float = 1.0, tolerance: float = 1e-8, **layer: float) -> Case:
-    """The case whose pressure is the positive part of a field (n,), and whose gap is the negative part.
-
-    scale: factor on heights and pressure; unit: of length, with a modulus that keeps the load of a length; layer:
-    its thickness, in spacings, and Poisson's ratio.
-    """
-    if layer:
-        layer |= {"thickness": unit * layer["thickness"]}
-    pressure = np.maximum(field, 0.0)
-    exact = scale / unit * pressure
-    case = Case(field, exact.mean(), spacing=unit, contact_modulus=1 / unit, tolerance=tolerance, exact=exact, **layer)
-    heights = displacement(exact, case.compliance) - unit * scale * np.maximum(-field, 0.0)
-    return replace(case, heights=heights)
-
-
 def _rough(points: int = POINTS) -> Array:
     """A self-affine profile of rms gradient 1 whose shortest wavelength is eight points."""
     return SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(5, 0.8)).heights(points)
-
-
-def _level(field: Array, share: float) -> Array:
-    """The field less the value that a share of its points exceeds."""
-    return field - np.quantile(field, 1 - share)
 
 
 def _wave(points: int, ratio: float) -> Case:
@@ -100,21 +26,10 @@ def _wave(points: int, ratio: float) -> Case:
     return Case(heights, load, tolerance=1e-6, area=float(analytic.sinusoid_area(ratio)), mirror=0)
 
 
-def _alone(heights: Array, load: float | None = None, depth: float = 0.0) -> Array | None:
-    """The pressure if the highest point carries the load, or is pushed in by the depth, alone; None if it does not."""
-    top = int(np.argmax(heights))
-    pressure = np.zeros_like(heights)
-    pressure[top] = 1.0
-    half_space = Case(heights).compliance
-    pressure[top] = depth / displacement(pressure, half_space)[top] if load is None else load * heights.size
-    gap = displacement(pressure, half_space) - heights
-    return pressure if (gap >= gap[top]).all() else None
-
-
 def few_points(severity: float) -> Case:
     """The load on a rough line falls from p* = 1e-2 to 1e-7, until one point carries all of it."""
     heights, load = _rough(), 10 ** (-2 - severity / 20)
-    return Case(heights, load, exact=_alone(heights, load))
+    return Case(heights, load, exact=alone(heights, load))
 
 
 def light_wave(severity: float) -> Case:
@@ -152,12 +67,12 @@ def tall_spike(severity: float) -> Case:
     """A single point sticks out of a plane, ten to ten million spacings high: it carries the load."""
     heights = np.zeros(257)
     heights[100] = 10 ** (1 + 6 * severity / 100)
-    return Case(heights, 1e-3, exact=_alone(heights, 1e-3), mirror=100)
+    return Case(heights, 1e-3, exact=alone(heights, 1e-3), mirror=100)
 
 
 def _dug(severity: float, share: float) -> Case:
     """A rough line with a groove in its widest gap over that share of all points, 1e1 to 1e8 spacings deep."""
-    pressed = made(_level(_rough(), 0.1), tolerance=1e-6)
+    pressed = made(level(_rough(), 0.1), tolerance=1e-6)
     far = np.argmin(_rough()) + np.arange(round(share * POINTS))
     heights = pressed.heights.copy()
     heights[far % POINTS] -= 10 ** (1 + 7 * severity / 100)
@@ -178,7 +93,7 @@ def low_spike(severity: float) -> Case:
     """A single point sticks out of a plane, from ten spacings to 1e-4, and the plane around it begins to carry."""
     heights = np.zeros(257)
     heights[100] = 10 ** (1 - severity / 20)
-    return Case(heights, 1e-3, exact=_alone(heights, 1e-3), mirror=100)
+    return Case(heights, 1e-3, exact=alone(heights, 1e-3), mirror=100)
 
 
 def flat(severity: float) -> Case:
@@ -194,18 +109,18 @@ def white_noise(severity: float) -> Case:
         return made((-1.0) ** np.arange(POINTS))
     share = severity / 100
     field = (1 - share) * _rough() / 10 + share * np.random.default_rng(1).normal(size=POINTS)
-    return made(_level(field, 0.3))
+    return made(level(field, 0.3))
 
 
 def grazing(severity: float) -> Case:
     """Ever more points, up to all but a tenth, neither carry nor gape: the contact set is undecided there."""
-    field = _level(_rough() / 10, 0.1)
+    field = level(_rough() / 10, 0.1)
     return made(np.where(field < np.quantile(field, 0.9 * (1 - severity / 100)), field, np.maximum(field, 0.0)))
 
 
 def steep_slopes(severity: float) -> Case:
     """Slopes from 1e-3 to 1e3: answers are those of slope 1 in proportion (small slopes are assumed in the model)."""
-    return made(_level(_rough(), 0.1), scale=10 ** (-3 + 6 * severity / 100))
+    return made(level(_rough(), 0.1), scale=10 ** (-3 + 6 * severity / 100))
 
 
 def awkward_sizes(severity: float) -> Case:
@@ -217,12 +132,12 @@ def awkward_sizes(severity: float) -> Case:
 
 def units(severity: float) -> Case:
     """Lengths in units from 1e-12 to 1e12, and moduli the other way round."""
-    return made(_level(_rough(), 0.1), unit=10 ** (-12 + 24 * severity / 100))
+    return made(level(_rough(), 0.1), unit=10 ** (-12 + 24 * severity / 100))
 
 
 def far_datum(severity: float) -> Case:
     """The profile's zero moves away from it, by 1 to 1e8 spacings: rounding, and nothing else, changes."""
-    case = made(_level(_rough(), 0.1), tolerance=1e-4)
+    case = made(level(_rough(), 0.1), tolerance=1e-4)
     return Case(case.heights + 10 ** (8 * severity / 100), case.mean_pressure, exact=case.exact)
 
 
@@ -233,7 +148,7 @@ def first_touch(severity: float) -> Case:
     """
     heights, depth = _rough(), 10 ** (-8 * severity / 100)
     heights -= heights.max()
-    return Case(heights, approach=depth, tolerance=1e-4 * depth, exact=_alone(heights, depth=depth))
+    return Case(heights, approach=depth, tolerance=1e-4 * depth, exact=alone(heights, depth=depth))
 
 
 def last_gap(severity: float) -> Case:
@@ -244,23 +159,23 @@ def last_gap(severity: float) -> Case:
 
 def thin_layer(severity: float) -> Case:
     """A layer of ν = 0.3 gets thinner, from the roll-off wavelength to 1e-4 of it: points yield each on their own."""
-    return made(_level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-severity / 25), poisson_ratio=0.3)
+    return made(level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-severity / 25), poisson_ratio=0.3)
 
 
 def incompressible_layer(severity: float) -> Case:
     """In a layer a tenth as thick as the roll-off wavelength, ν rises from 0.3 to exactly 0.5: the volume is fixed."""
     ratio = 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
-    return made(_level(_rough(), 0.1), thickness=POINTS / 40, poisson_ratio=ratio)
+    return made(level(_rough(), 0.1), thickness=POINTS / 40, poisson_ratio=ratio)
 
 
 def thin_incompressible_layer(severity: float) -> Case:
     """A layer of ν = 0.5 gets thinner, from the roll-off wavelength to 1e-3 of it: long waves meet no compliance."""
-    return made(_level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
+    return made(level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
 
 
 def thick_layer(severity: float) -> Case:
     """A layer of ν = 0.3 gets thicker, from the roll-off wavelength to 1e12 spacings: at last it is a half-space."""
-    return made(_level(_rough(), 0.1), thickness=POINTS / 4 * (4e12 / POINTS) ** (severity / 100), poisson_ratio=0.3)
+    return made(level(_rough(), 0.1), thickness=POINTS / 4 * (4e12 / POINTS) ** (severity / 100), poisson_ratio=0.3)
 
 
 def pushed_layer(severity: float) -> Case:
@@ -285,43 +200,4 @@ def tension(severity: float) -> Case:
 
 def tight_tolerance(severity: float) -> Case:
     """The tolerance falls from 1e-2 to 1e-18 grid steps, below what rounding allows."""
-    return made(_level(_rough(256), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
-
-
-HAZARDS: dict[str, Callable[[float], Case]] = {
-    hazard.__name__: hazard
-    for hazard in (
-        few_points,
-        light_wave,
-        first_touch,
-        nearly_full_wave,
-        nearly_full_rough,
-        last_gap,
-        full_contact,
-        equal_heights,
-        tall_spike,
-        deep_pit,
-        deep_groove,
-        low_spike,
-        flat,
-        white_noise,
-        grazing,
-        steep_slopes,
-        awkward_sizes,
-        units,
-        far_datum,
-        thin_layer,
-        incompressible_layer,
-        thin_incompressible_layer,
-        thick_layer,
-        pushed_layer,
-        zero_load,
-        tension,
-        tight_tolerance,
-    )
-}
-
-
-def first_line(hazard: str) -> str:
-    """What gets harder, in a sentence: the first line of the hazard's docstring."""
-    return HAZARDS[hazard].__doc__.splitlines()[0]
+    return made(level(_rough(256), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
