@@ -35,6 +35,14 @@ class Table:
             logger.info("%s: %s", " ".join(name), " ".join(f"{key} {value}" for key, value in found.items()))
         return self._known[name]
 
+    def forget(self, part: str) -> None:
+        """Drop the rows of a part, the first column."""
+        self._known = {name: row for name, row in self._known.items() if name[0] != part}
+        with self.path.open("w", newline="") as lines:
+            writer = csv.DictWriter(lines, self._columns)
+            writer.writeheader()
+            writer.writerows(self._known.values())
+
 
 def on_one_thread() -> None:
     """Start anew with one thread for all libraries, unless it is so; and log to the terminal."""
