@@ -20,7 +20,6 @@ SOLVERS = {
 }
 FIGURE = {
     "size": [9.0, 3.8],
-    "panels": 2,
     "title": "Surface contacts: what a solution costs",
     "caption": f"CPU time of one load, to 1e-6 grid steps, over that of one real transform of the heights by scipy, "
     f"against reduced pressure; arrowheads: not solved in {CAP} s.",
@@ -67,8 +66,8 @@ def found(area: float, certificate: float, transforms: float, seconds: float, pe
 def draw(rows: pd.DataFrame, path: Path) -> None:
     """A panel for each size."""
     footer = "surfaces of rough_surface in config/ch3.yaml · one thread · what finished is certified by recomputation"
-    figure, panels = framed(FIGURE, footer)
-    for axes, letter, (points, group) in zip(panels, "ab", rows.groupby("points"), strict=True):
+    figure, panels = framed(FIGURE | {"panels": rows.points.nunique()}, footer)
+    for axes, letter, (points, group) in zip(panels, "abcd", rows.groupby("points"), strict=False):
         loads(axes, group)
         axes.set(xlabel="reduced pressure $p^*$", ylabel="CPU time, transforms", title=f"{points} × {points} points")
         style.letter(axes, letter)

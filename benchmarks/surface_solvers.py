@@ -1,6 +1,6 @@
 """What surface contacts cost: the default solver in pairs with aspher's nested solver and with tamaas.
 
-    python benchmarks/surface_solvers.py          # --quick: coarse grids, and nothing here changes
+    python benchmarks/surface_solvers.py          # --quick: a coarse grid, and nothing here changes
 
 Install the peers first (README.md beside this file). Surfaces are those of `rough_surface` in config/ch3.yaml, single
 loads, to 1e-6 grid steps. First aspher's quickest settings that are certified are sought, then pairs are timed. Each
@@ -63,7 +63,7 @@ def measured(plan: Plan, table: Table, sizes: tuple[int, ...], rounds: int) -> N
 def main() -> None:
     """Measure what is missing, then make the table and the picture."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--quick", action="store_true", help="coarse grids and one round, in a temporary folder")
+    parser.add_argument("--quick", action="store_true", help="a coarse grid and one round, in a temporary folder")
     parser.add_argument("--again", action="store_true", help="time all pairs anew, with the settings found before")
     parser.add_argument("--redraw", action="store_true", help="measure nothing: table and picture from the CSV")
     options = parser.parse_args()
@@ -74,7 +74,7 @@ def main() -> None:
     if options.again:
         table.forget("pair")
     if not options.redraw:
-        measured(plan, table, (256, 512) if options.quick else (1024, 2048), 1 if options.quick else 3)
+        measured(plan, table, (512,) if options.quick else (1024, 2048), 1 if options.quick else 3)
     surface_report.write(table.path, folder / "surface_solvers.png", folder / "README.md")
     logger.info("written to %s", folder)
 
