@@ -69,12 +69,13 @@ def draw(rows: pd.DataFrame, path: Path) -> None:
     figure, panels = framed(FIGURE | {"panels": rows.points.nunique()}, footer)
     for axes, letter, (points, group) in zip(panels, "abcd", rows.groupby("points"), strict=False):
         loads(axes, group)
-        axes.set(xlabel="reduced pressure $p^*$", ylabel="CPU time, transforms", title=f"{points} × {points} points")
+        axes.set(xlabel="reduced pressure $p^*$", ylabel="CPU time, in transforms of the heights")
+        axes.set_title(f"{points} × {points} points", fontsize=9)
         style.letter(axes, letter)
     bottom, top = (pick(axes.get_ylim()[k] for axes in panels) for k, pick in ((0, min), (1, max)))
     for axes in panels:
         axes.set_ylim(bottom, top * 6)  # room for the legend
-    colours = dict(SOLVERS.values())
+    colours = dict(SOLVERS[name] for name in ("ours", *sorted(set(rows.solver))))
     panels[0].legend(
         loc="upper left", ncols=2, handles=style.key(colours, {}) + style.hurst_key(sorted(set(rows.hurst)))
     )
