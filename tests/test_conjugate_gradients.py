@@ -277,5 +277,5 @@ def test_tamaas_finds_the_same_solution_of_a_surface_whatever_its_shape():
 
 def test_tamaas_is_refused_where_its_wavenumbers_are_wrong():
     pytest.importorskip("tamaas")
-    with pytest.raises(SceneError, match="points: got .* an even number of rows"):
+    with pytest.raises(SceneError, match="an even number of rows"):
         contactsim.press(rough(64)[:45], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, solver="tamaas")

@@ -20,7 +20,7 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class TamaasState(State):
-    """Pressure (n,) or (ny, nx); tamaas's own solver; a counter of its iterations; the relative error asked for next."""
+    """Pressure (n,) or (ny, nx); tamaas's solver; a counter of its iterations; the relative error asked for next."""
 
     method: object = field(repr=False)
     counter: object = field(repr=False)
