@@ -11,17 +11,15 @@ measured, and what stands there is not measured again: remove the file to start 
 from __future__ import annotations
 
 import argparse
-import csv
 import itertools
 import logging
-import os
-import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import measure
 import report
+from records import Table, on_one_thread
 
 from contactsim.plan import Plan
 from contactsim.solvers import installed
@@ -34,29 +32,6 @@ SIZES = (2**14, 2**15, 2**16, 2**17, 2**18)
 COMPARED = (1e-3, 1e-2, 1e-1)
 
 logger = logging.getLogger("line_solvers")
-
-
-class Table:
-    """Rows of a CSV file, each written when it is found; a row found before is not looked for again."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        if not path.exists():
-            path.write_text(",".join(CASE + FOUND + RATIOS) + "\n")
-        with path.open(newline="") as lines:
-            self._known = {tuple(row[name] for name in CASE): row for row in csv.DictReader(lines)}
-
-    def row(self, case: dict, find: Callable[[dict], dict]) -> dict:
-        """The row of a case, as text."""
-        name = tuple(str(case.get(key, "")) for key in CASE)
-        if name not in self._known:
-            found = find(case)
-            found = {key: f"{value:.6g}" if isinstance(value, float) else str(value) for key, value in found.items()}
-            self._known[name] = dict(zip(CASE, name, strict=True)) | found
-            with self.path.open("a", newline="") as lines:
-                csv.DictWriter(lines, CASE + FOUND + RATIOS).writerow(self._known[name])
-            logger.info("%s: %s", " ".join(name), " ".join(f"{key} {value}" for key, value in found.items()))
-        return self._known[name]
 
 
 def sweeps(plan: Plan, table: Table, sizes: tuple[int, ...], members: int, rounds: int) -> None:
@@ -94,12 +69,10 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="coarse grids and one round, in a temporary folder")
     parser.add_argument("--redraw", action="store_true", help="measure nothing: table and picture from the CSV")
     options = parser.parse_args()
-    if os.environ.get("OMP_NUM_THREADS") != "1":  # read when numpy is loaded, hence the new start
-        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | {"OMP_NUM_THREADS": "1"})
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    on_one_thread()
     plan = Plan.read(HERE.parent / "config", "standard")
     folder = Path(tempfile.mkdtemp()) if options.quick else HERE
-    table = Table(folder / "line_solvers.csv")
+    table = Table(folder / "line_solvers.csv", CASE, FOUND + RATIOS)
     if not options.redraw:
         sizes, members, rounds = (SIZES[:2], 1, 1) if options.quick else (SIZES, 3, 3)
         sweeps(plan, table, sizes, members, rounds)

@@ -41,9 +41,9 @@ class ByGrid(Tally):
         self.counts[size] += count
 
 
-def posed(plan: Plan, case: dict, loads: list[float]) -> tuple[Scene, Array]:
-    """The scene of a member of `rough_line` at reduced pressures `loads`, and its heights (nm)."""
-    study = plan.studies["rough_line"]
+def posed(plan: Plan, case: dict, loads: list[float], study: str = "rough_line") -> tuple[Scene, Array]:
+    """The scene of a member of a study at reduced pressures `loads`, and its heights (nm)."""
+    study = plan.studies[study]
     wanted = {"hurst": case["hurst"]}
     run = next(run for run in study.runs() if (run.coordinates, run.member) == (wanted, case["member"]))
     scene = scene_of(run.settings | {"points": case["points"], "load": {"name": "reduced_pressure", "values": loads}})

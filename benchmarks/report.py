@@ -39,11 +39,15 @@ BEGIN, END = "<!-- tables: written by line_solvers.py -->", "<!-- end of tables 
 def write(csv: Path, png: Path, readme: Path) -> None:
     """Put the tables between the marks of the README, and draw the picture."""
     rows = pd.read_csv(csv)
-    tables = f"{sweep_table(rows)}\n\n{compare_table(rows)}"
-    text = readme.read_text(encoding="utf-8") if readme.exists() else ""
-    head, _, rest = text.partition(BEGIN)
-    readme.write_text(f"{head}{BEGIN}\n\n{tables}\n\n{END}{rest.partition(END)[2]}", encoding="utf-8")
+    insert(readme, BEGIN, f"{sweep_table(rows)}\n\n{compare_table(rows)}", END)
     draw(rows, png)
+
+
+def insert(readme: Path, begin: str, tables: str, end: str) -> None:
+    """Put tables between two marks of a README."""
+    text = readme.read_text(encoding="utf-8") if readme.exists() else ""
+    head, _, rest = text.partition(begin)
+    readme.write_text(f"{head}{begin}\n\n{tables}\n\n{end}{rest.partition(end)[2]}", encoding="utf-8")
 
 
 def markdown(header: list[str], lines: list[list[str]]) -> str:

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 
+import contactsim
 from cases import press as press_line
 from contactsim import analytic, loading
 from contactsim.elasticity import HalfSpace, Layer
@@ -257,3 +258,24 @@ def test_bad_options_are_refused(options):
 def test_work_hardly_grows_with_the_grid():
     counts = [press(rough(points), 0.01).record.transforms for points in (128, 256, 512)]
     assert max(counts) < 70
+
+
+# ---- another code
+
+
+def test_tamaas_finds_the_same_solution_of_a_surface_whatever_its_shape():
+    pytest.importorskip("tamaas")
+    for spacing, cut in ((UNIT, np.s_[:, :]), ((0.5, 1.0), np.s_[:48, :]), ((1.3, 0.7), np.s_[:, :45])):
+        for load in (1e-3, 0.3):
+            given = {"spacing": spacing, "contact_modulus": 2.0, "mean_pressure": load, "tolerance": 1e-8}
+            ours, theirs = (contactsim.press(rough(64)[cut], solver=name, **given) for name in (None, "tamaas"))
+            assert theirs.status is Status.CONVERGED
+            assert (theirs.contact == ours.contact).all()
+            assert theirs.approach == pytest.approx(ours.approach, rel=1e-6)
+            assert theirs.record.transforms > 20
+
+
+def test_tamaas_is_refused_where_its_wavenumbers_are_wrong():
+    pytest.importorskip("tamaas")
+    with pytest.raises(SceneError, match="an even number of rows"):
+        contactsim.press(rough(64)[:45], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, solver="tamaas")

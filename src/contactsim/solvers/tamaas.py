@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.scene import WallProblem
 from contactsim.solvers.base import State
@@ -19,7 +20,7 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class TamaasState(State):
-    """Pressure (n,); tamaas's own solver and model; a counter of its iterations; the relative error asked for next."""
+    """Pressure (n,) or (ny, nx); tamaas's solver; a counter of its iterations; the relative error asked for next."""
 
     method: object = field(repr=False)
     counter: object = field(repr=False)
@@ -37,14 +38,20 @@ class Tamaas:
     iterations: int = 20000
     budget: int = 14
     fields = 16
-    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
+    accepts = frozenset({Trait.LINE, Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
 
     def transforms(self, points: int) -> float:
         """Real transforms of an iteration on a grid of that size."""
         return 4.0
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> TamaasState:
-        """A model without units: spacing 1, E* = 1."""
+        """A model without units: spacing 1 along x, E* = 1.
+
+        Refused on an odd number of rows, of which tamaas 2.9 takes one of the two shortest waves for a shorter one.
+        """
+        shape, grid = problem.heights.shape, problem.compliance.grid
+        if len(shape) == 2 and shape[0] % 2:
+            raise SceneError("points", shape, "an even number of rows with tamaas, whose wavenumbers are wrong else")
         import tamaas
 
         class Counter(tamaas.Functional):  # a term that is zero: called once an iteration
@@ -59,8 +66,9 @@ class Tamaas:
                 self.iterations += 1
 
         tamaas.set_log_level(tamaas.LogLevel.error)
-        size = problem.heights.size
-        model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_1d, [float(size)], [size])
+        kind = {1: tamaas.model_type.basic_1d, 2: tamaas.model_type.basic_2d}[len(shape)]
+        periods = [length / grid.spacing[-1] for length in grid.lengths]
+        model = tamaas.ModelFactory.createModel(kind, periods, list(shape))
         model.E, model.nu = 1.0, 0.0
         if guess is not None:
             model.traction[...] = problem.admissible(guess)
@@ -75,5 +83,5 @@ class Tamaas:
         state.method.tolerance = state.error
         state.method.solve(problem.load)
         problem.tally.add(4 * (state.counter.iterations - before) + 2, problem.heights.size)
-        pressure = np.array(state.method.model.traction).ravel()
+        pressure = np.array(state.method.model.traction).reshape(problem.heights.shape)
         return TamaasState(pressure, True, state.method, state.counter, state.error / 10)

@@ -1,0 +1,96 @@
+"""aspher's nested solver on a problem of ours: another code to measure against, used by no other part of contactsim.
+
+Conjugate gradients of Polonsky and Keer in C++, preconditioned by |q| with a transform and started from a cascade of
+grids (V. A. Yastrebov, aspher 0.1.3, on PyPI). Its compliance on a periodic half-space is ours, its tolerance part of
+the range of heights.
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from dataclasses import dataclass
+
+from contactsim.grid import Array
+from contactsim.scene import WallProblem
+
+RUNGS = tuple(10 ** (-power / 2) for power in range(8, 29))
+"""Tolerances tried: 1e-4 to 1e-14, two a decade."""
+COARSEST = 64
+"""Points along a side of aspher's coarsest grid, its default."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """aspher's settings that cost and accuracy hang on; the others are its defaults."""
+
+    tolerance: float
+    precision: str
+    coarse_tolerance: float
+
+    def __str__(self) -> str:
+        return f"{self.tolerance:.1e} {self.precision} {self.coarse_tolerance:g}"
+
+    @classmethod
+    def read(cls, text: str) -> Settings:
+        """The settings that were written so."""
+        tolerance, precision, coarse = text.split()
+        return cls(float(tolerance), precision, float(coarse))
+
+
+def pressed(problem: WallProblem, settings: Settings) -> tuple[Array, float]:
+    """Pressure (ny, nx), and the transforms made: two a product and two a preconditioning, one of which an iteration.
+
+    Without units, as the problem is: spacing 1, E* = 1.
+    """
+    import aspher
+
+    points = len(problem.heights)
+    result = aspher.solve_nested(
+        grid_size=points,
+        gap=-problem.heights,
+        p_nominal=problem.load,
+        domain_size=float(points),
+        E_star=1.0,
+        backend="periodic",
+        coarsest=COARSEST,
+        tol=settings.tolerance,
+        coarse_tol=settings.coarse_tolerance,
+        precision=settings.precision,
+        light_result=True,
+    )
+    spent = 0.0
+    for stage in result.stage_stats:
+        side = int(stage["name"].partition(":")[2])
+        spent += 2 * (stage["matvec_count"] + stage["iterations"]) * (side / points) ** 2
+    return result.pressure, spent
+
+
+def quickest(problem: WallProblem, rung: int) -> tuple[Settings, int]:
+    """The settings with the least CPU time, each at the loosest tolerance that is certified; and its place in RUNGS.
+
+    rung: where to begin. Raises ValueError if nothing is certified.
+    """
+    found = {}
+    for precision, coarse in itertools.product(("double", "float_then_double"), (1e-3, 1e-2)):
+        spent: dict[int, float] = {}
+        while 0 <= rung < len(RUNGS) and rung not in spent:
+            spent[rung] = seconds(problem, Settings(RUNGS[rung], precision, coarse))
+            rung += 1 if spent[rung] == float("inf") else -1
+        certified = [place for place, time in spent.items() if time < float("inf")]
+        if certified:
+            rung = min(certified)
+            found[spent[rung]] = Settings(RUNGS[rung], precision, coarse), rung
+        rung = min(max(rung, 0), len(RUNGS) - 1)
+    if not found:
+        raise ValueError("nothing that aspher returned is certified")
+    return found[min(found)]
+
+
+def seconds(problem: WallProblem, settings: Settings) -> float:
+    """CPU seconds of a solution; infinite if it is not certified."""
+    begin = time.process_time()
+    pressure, _ = pressed(problem, settings)
+    spent = time.process_time() - begin
+    certificate, _ = problem.certify(problem.admissible(pressure))
+    return spent if certificate.met(problem.tolerance) else float("inf")

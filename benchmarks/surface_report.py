@@ -1,0 +1,96 @@
+"""The table of surfaces in the README and its picture, from the CSV."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.markers import CARETUPBASE
+from measure import CAP
+from report import insert, markdown
+
+from contactsim.figures import style
+from contactsim.figures.render import framed
+
+SOLVERS = {
+    "ours": ("conjugate gradients, ours", style.WHOLE),
+    "aspher": ("aspher, nested", style.CONTACT),
+    "tamaas": ("Polonsky–Keer, tamaas", style.PAIRS),
+}
+FIGURE = {
+    "size": [9.0, 3.8],
+    "title": "Surface contacts: what a solution costs",
+    "caption": f"CPU time of one load, to 1e-6 grid steps, over that of one real transform of the heights by scipy, "
+    f"against reduced pressure; arrowheads: not solved in {CAP} s.",
+}
+BEGIN, END = "<!-- tables: written by surface_solvers.py -->", "<!-- end of tables of surfaces -->"
+COLUMNS = ("H", "points", "p*", "solver", "relative area", "certificate", "transforms", "CPU s", "÷ one transform")
+COLUMNS += ("÷ ours", "contact differs at", "of these undecided")
+
+
+def write(csv: Path, png: Path, readme: Path) -> None:
+    """Put the table between the marks of the README, and draw the picture."""
+    rows = pd.read_csv(csv)
+    rows = rows[rows.part == "pair"].sort_values(["points", "hurst", "reduced_pressure", "solver"])
+    insert(readme, BEGIN, table(rows), END)
+    draw(rows, png)
+
+
+def table(rows: pd.DataFrame) -> str:
+    """A line for ours, measured beside the first peer, and one for each peer."""
+    lines = []
+    for (points, hurst, pressure), group in rows.groupby(["points", "hurst", "reduced_pressure"]):
+        start = [f"{hurst:g}", f"{points}²", f"{pressure:g}"]
+        own = group.dropna(subset="own_seconds").head(1)
+        for row in own.itertuples():
+            cost = row.own_transforms, row.own_seconds, row.own_per_transform
+            lines.append([*start, "ours", *found(row.own_area, row.own_certificate, *cost), "", "", ""])
+        for row in group.itertuples():
+            name = row.solver if pd.isna(row.settings) else f"{row.solver}, {row.settings}"
+            if pd.isna(row.area):
+                least = row.seconds / own.own_seconds.iloc[0] if len(own) else float("nan")
+                lines.append([*start, name, row.status, "", "", f"> {row.seconds:g}", "", f"> {least:.3g}", "", ""])
+                continue
+            cells = found(row.area, row.certificate, row.transforms, row.seconds, row.per_transform)
+            sets = f"{row.differing:.0f}", f"{row.undecided:.0f}"
+            lines.append([*start, name, *cells, f"{row.ratio:.3g}", *sets])
+    return markdown(list(COLUMNS), lines)
+
+
+def found(area: float, certificate: float, transforms: float, seconds: float, per_transform: float) -> list[str]:
+    """What a solution is and costs, as cells of the table."""
+    return [f"{area:.6f}", f"{certificate:.1e}", f"{transforms:.0f}", f"{seconds:.3g}", f"{per_transform:.0f}"]
+
+
+def draw(rows: pd.DataFrame, path: Path) -> None:
+    """A panel for each size."""
+    footer = "surfaces of rough_surface in config/ch3.yaml · one thread · what finished is certified by recomputation"
+    figure, panels = framed(FIGURE | {"panels": rows.points.nunique()}, footer)
+    for axes, letter, (points, group) in zip(panels, "abcd", rows.groupby("points"), strict=False):
+        loads(axes, group)
+        axes.set(xlabel="reduced pressure $p^*$", ylabel="CPU time, in transforms of the heights")
+        axes.set_title(f"{points} × {points} points", fontsize=9)
+        style.letter(axes, letter)
+    bottom, top = (pick(axes.get_ylim()[k] for axes in panels) for k, pick in ((0, min), (1, max)))
+    for axes in panels:
+        axes.set_ylim(bottom, top * 6)  # room for the legend
+    colours = dict(SOLVERS[name] for name in ("ours", *sorted(set(rows.solver))))
+    panels[0].legend(
+        loc="upper left", ncols=2, handles=style.key(colours, {}) + style.hurst_key(sorted(set(rows.hurst)))
+    )
+    figure.savefig(path)
+
+
+def loads(axes: Axes, rows: pd.DataFrame) -> None:
+    """Cost against reduced pressure: colours are solvers, marks are Hurst exponents."""
+    for hurst, group in rows.groupby("hurst"):
+        own = group.groupby("reduced_pressure").agg({"own_per_transform": "median", "transform_seconds": "median"})
+        axes.plot(own.index, own.own_per_transform, color=SOLVERS["ours"][1], **style.hurst(hurst))
+        for name, part in group.groupby("solver"):
+            colour, solved = SOLVERS[name][1], part.area.notna()
+            axes.plot(part.reduced_pressure[solved], part.per_transform[solved], color=colour, **style.hurst(hurst))
+            cut = part[~solved]
+            least = cut.seconds / own.transform_seconds.reindex(cut.reduced_pressure).to_numpy()
+            axes.plot(cut.reduced_pressure, least, marker=CARETUPBASE, ls="", color=colour, markersize=8)
+    axes.set(xscale="log", yscale="log")
