@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import tracemalloc
 
 import numpy as np
@@ -92,6 +94,34 @@ def test_peak_memory_is_the_few_fields_that_are_explained(name):
         tracemalloc.stop()
     told = 1e6 * explain(scene(path=loading.press([0.1])), points, name).megabytes
     assert 0.9 * told < max(peaks) < told  # two more fields would be seen
+
+
+PRESS_A_SURFACE = """
+import sys
+from contactsim import loading
+from contactsim.elasticity import HalfSpace
+from contactsim.laws import HardWall
+from contactsim.march import peak_memory, simulate
+from contactsim.scene import Body, Scene
+from contactsim.surface import Flat, SelfAffine, generator
+
+for points in (64, 2048):
+    rough = SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(1, 0.8), dimensions=2)
+    path = loading.press([1e-3, 1e-2])
+    scene = Scene(Body(Flat.facing(rough), HalfSpace(1.0)), Body(rough), (HardWall(),), path)
+    before = peak_memory()
+    simulate(scene, points=points, threads=int(sys.argv[1]), keep=["contact"])
+print((peak_memory() - before) * 2**20 / points**2 / 8)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_run_of_a_surface_never_holds_more_than_the_fields_that_are_explained(threads):
+    command = [sys.executable, "-c", PRESS_A_SURFACE, str(threads)]
+    peak = float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    told = solver("conjugate_gradients").fields
+    assert 0.8 * told < peak < told  # doubles a point, of the whole process, the libraries' own memory included
 
 
 @pytest.mark.parametrize("name", ALL)

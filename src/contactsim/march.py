@@ -31,7 +31,7 @@ from contactsim.provenance import digest
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
 from contactsim.solvers import solver, usual
-from contactsim.solvers.base import Result, Solver, require, solve
+from contactsim.solvers.base import Result, Solver, require, sentence, solve
 
 logger = logging.getLogger(__name__)
 
@@ -72,14 +72,14 @@ def simulate(
             found.append(known[count])
             logger.info("step %d/%d %s taken over", count + 1, len(steps), step.text)
             continue
-        result = solve(method, *pose(scene, step, heights, tolerance, threads))
-        found.append(_point(result, heights, scene.lengths, keep))
-        spent.append(result.seconds)
+        point = _point(solve(method, *pose(scene, step, heights, tolerance, threads)), heights, scene.lengths, keep)
+        found.append(point)
+        spent.append(point.seconds)
         left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
         logger.info(
             "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
-            *(count + 1, len(steps), step.text, found[-1].numbers["non_uniformity"]),
-            *(result.record.transforms, result.seconds, left, result.status.sentence),
+            *(count + 1, len(steps), step.text, point.numbers["non_uniformity"]),
+            *(point.numbers["transforms"], point.seconds, left, sentence(point.numbers["status"])),
         )
     return _collected(scene, heights, found, keep)
 

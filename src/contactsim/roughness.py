@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from contactsim.errors import SceneError
-from contactsim.grid import Array, Grid
+from contactsim.grid import Array, Grid, blocks
 
 
 def rms_height(heights: Array, where: Array | None = None) -> float:
@@ -22,13 +22,23 @@ def rms_height(heights: Array, where: Array | None = None) -> float:
     return float(np.std(chosen)) if chosen.size else float("nan")
 
 
-def slopes(heights: Array, spacing: float | Sequence[float]) -> Iterator[tuple[int, Array]]:
-    """Each axis with the slopes from each point to its next neighbour along it, periodic, dimensionless.
+def _strips(fields: Sequence[Array]) -> Iterator[list[Array]]:
+    """The same block of rows of each field, with the row before and the one after, periodic; a line is one row."""
+    for low, high in blocks(fields[0].shape):
+        rows = np.arange(low - 1, high + 1)
+        yield [np.take(field.reshape(-1, field.shape[-1]), rows, axis=0, mode="wrap") for field in fields]
 
-    heights: (n,) or (ny, nx); spacing: one for all directions or one each, in the unit of heights.
-    """
-    for axis, step in enumerate(np.broadcast_to(spacing, heights.ndim)):
-        yield axis, (np.roll(heights, -1, axis) - heights) / step
+
+def _neighbours(strip: Array, axis: int) -> tuple[Array, Array]:
+    """Those before and after, along an axis of the surface, the points of a strip's inner rows."""
+    if axis == 0:
+        return strip[:-2], strip[2:]
+    return np.roll(strip[1:-1], 1, 1), np.roll(strip[1:-1], -1, 1)
+
+
+def _steps(spacing: float | Sequence[float], dimensions: int) -> list[tuple[int, float]]:
+    """Each axis of the surface, of which a line has the second, and the spacing along it."""
+    return list(zip(range(2 - dimensions, 2), np.broadcast_to(spacing, dimensions), strict=True))
 
 
 def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array | None = None) -> float:
@@ -38,13 +48,16 @@ def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array 
     Table 3.1 has it, and the text's κ_r; half of that sum would not. heights: (n,) or (ny, nx) and spacing (one, or one
     each direction) in one unit; where: bool of the same shape. NaN if `where` is empty.
     """
-    total = 0.0
-    for axis, right in slopes(heights, spacing):
-        np.square(right, out=right)
-        local = 0.5 * (right + np.roll(right, 1, axis))
-        chosen = local if where is None else local[where]
-        total += chosen.mean() if chosen.size else np.nan
-    return float(np.sqrt(total))
+    total, count = np.zeros(2), 0
+    for strip, *chosen in _strips([heights] if where is None else [heights, where]):
+        here = strip[1:-1]
+        pick = chosen[0][1:-1] if chosen else np.s_[:]
+        for axis, step in _steps(spacing, heights.ndim):
+            before, after = _neighbours(strip, axis)
+            local = 0.5 * (((after - here) / step) ** 2 + ((here - before) / step) ** 2)
+            total[axis] += local[pick].sum()
+        count += local[pick].size
+    return float(np.sqrt(np.sum(total / count))) if count else float("nan")
 
 
 def rms_gradient_bonds(heights: Array, spacing: float | Sequence[float], where: Array) -> float:
@@ -53,11 +66,15 @@ def rms_gradient_bonds(heights: Array, spacing: float | Sequence[float], where: 
     Over a surface the mean squares of the pairs along each axis are added. heights: (n,) or (ny, nx) and spacing (one,
     or one each direction) in one unit; where: bool of the same shape.
     """
-    total = 0.0
-    for axis, right in slopes(heights, spacing):
-        both = where & np.roll(where, -1, axis)
-        total += np.mean(right[both] ** 2) if both.any() else np.nan
-    return float(np.sqrt(total))
+    steps = _steps(spacing, heights.ndim)
+    total, count = np.zeros(len(steps)), np.zeros(len(steps), int)
+    for strip, chosen in _strips([heights, where]):
+        for place, (axis, step) in enumerate(steps):
+            both = chosen[1:-1] & _neighbours(chosen, axis)[1]
+            slopes = (_neighbours(strip, axis)[1] - strip[1:-1])[both] / step
+            total[place] += np.sum(slopes**2)
+            count[place] += slopes.size
+    return float(np.sqrt(np.sum(total / count))) if count.all() else float("nan")
 
 
 def rms_curvature(heights: Array, spacing: float | Sequence[float], where: Array | None = None) -> float:
@@ -65,12 +82,17 @@ def rms_curvature(heights: Array, spacing: float | Sequence[float], where: Array
 
     heights: (n,) or (ny, nx); spacing: one, or one each direction; NaN if `where` is empty.
     """
-    second = np.zeros(heights.shape)
-    for axis, step in enumerate(np.broadcast_to(spacing, heights.ndim)):
-        bent = np.roll(heights, -1, axis) - 2 * heights + np.roll(heights, 1, axis)
-        second += bent / (step**2 * heights.ndim)
-    chosen = second if where is None else second[where]
-    return float(np.sqrt(np.mean(chosen**2))) if chosen.size else float("nan")
+    total, count = 0.0, 0
+    for strip, *chosen in _strips([heights] if where is None else [heights, where]):
+        here = strip[1:-1]
+        second = np.zeros(here.shape)
+        for axis, step in _steps(spacing, heights.ndim):
+            before, after = _neighbours(strip, axis)
+            second += (after - 2 * here + before) / (step**2 * heights.ndim)
+        picked = second[chosen[0][1:-1]] if chosen else second
+        total += np.sum(picked**2)
+        count += picked.size
+    return float(np.sqrt(total / count)) if count else float("nan")
 
 
 def spectrum(heights: Array, length: float) -> tuple[Array, Array]:

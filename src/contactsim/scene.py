@@ -132,11 +132,16 @@ def grid_step(heights: Array) -> float:
         return 0.0
     row = np.arange(0, heights.shape[0], 1 if heights.ndim == 1 else max(heights.size // SAMPLE, 1))
     here = heights[row] / scale
-    steps = [here - np.roll(here, 1, -1)] if heights.ndim > 1 else []
-    differences = np.abs(np.stack([*steps, here - heights[row - 1] / scale]))
-    rms = float(np.sqrt(np.mean(differences**2)))
+    differences = np.empty((heights.ndim, *here.shape))
+    np.subtract(here, heights[row - 1] / scale, out=differences[-1])
+    if heights.ndim > 1:
+        np.subtract(here, np.roll(here, 1, -1), out=differences[0])
+    del here
+    np.abs(differences, out=differences)
+    rms = float(np.sqrt(np.vdot(differences, differences) / differences.size))
     felt = differences[differences > STEEPEST * rms]
-    return float(scale * min(rms, np.median(felt) / 0.6745)) if felt.size else 0.0
+    del differences
+    return float(scale * min(rms, np.median(felt, overwrite_input=True) / 0.6745)) if felt.size else 0.0
 
 
 @dataclass
@@ -166,12 +171,11 @@ class WallProblem:
         ratio = shape[-1] / self.heights.shape[-1]
         picked = self.heights[np.ix_(*places)] * ratio
         highest = picked.max()
+        picked -= highest
         grid = self.compliance.grid.coarser(shape)
         symbol = self.compliance.symbol[grid.modes_of(self.compliance.grid)] * ratio
         approach = None if self.approach is None else self.approach * ratio + highest
-        return WallProblem(
-            picked - highest, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally
-        )
+        return WallProblem(picked, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally)
 
     def admissible(self, pressure: Array) -> Array:
         """The nearest field with p ≥ 0 and exactly the load asked for, in memory of its own."""
@@ -228,7 +232,7 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
     """The compliance over spacing/E*; refused where that, heights or pressures leave the range of floating point."""
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         flexibility = grid.spacing[-1] / np.float64(scene.contact_modulus)
-        symbol = scene.compliance(grid.wavenumber) / flexibility
+        symbol = grid.of_wavenumber(lambda q: scene.compliance(q) / flexibility)
         largest = np.float64(heights.size) * max(unit / flexibility, pressure)
         extents = flexibility, largest, (heights.max() - heights.min()) / unit
     positive = np.isfinite(symbol).all() and (symbol.ravel()[1:] > 0).all()
@@ -272,5 +276,6 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
         scale = replace(scale, sunk=uniform * flexibility * pressure)
         symbol.flat[0] = 0.0
     tally = Tally(heights.size)
-    compliance = Operator(grid, symbol, tally)
-    return WallProblem((heights - highest) / unit, compliance, tolerance, load, approach, tally), scale
+    below = heights - highest
+    below /= unit
+    return WallProblem(below, Operator(grid, symbol, tally), tolerance, load, approach, tally), scale

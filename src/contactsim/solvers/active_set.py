@@ -175,7 +175,7 @@ class ActiveSet:
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
-    fields = 32
+    fields = 29
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
 
     def __post_init__(self) -> None:

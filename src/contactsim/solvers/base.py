@@ -33,6 +33,11 @@ class Status(Enum):
         return self.value[1]
 
 
+def sentence(number: int) -> str:
+    """What the number of a status means."""
+    return next(status.sentence for status in Status if status.value[0] == number)
+
+
 @dataclass(frozen=True)
 class State:
     """Where a solver is: its pressure (n,), without units, and whether it believes to be done."""
@@ -139,11 +144,15 @@ def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> 
 def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
     """Solve one load step and certify it; in physical units."""
     begin = time.process_time()
-    pressure, certificate, status, spent = np.zeros_like(problem.heights), None, Status.CONVERGED, 0
-    if not problem.untouched:
+    status, spent = Status.CONVERGED, 0
+    if problem.untouched:
+        pressure = np.zeros_like(problem.heights)
+        certificate, gap = problem.certify(pressure)
+    else:
         state = solver.start(problem)
         status = Status.BUDGET
-        while spent < solver.budget and status is Status.BUDGET:
+        while status is Status.BUDGET:
+            pressure = gap = None  # no memory is held beside the solver's
             state, count, finite = iterate(solver, problem, state, solver.budget - spent)
             spent += count
             pressure = problem.admissible(state.pressure)
@@ -152,8 +161,8 @@ def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
                 status = Status.NON_FINITE
             elif certificate.met(problem.tolerance):
                 status = Status.CONVERGED
-    if certificate is None:
-        certificate, gap = problem.certify(pressure)
+            elif spent >= solver.budget:
+                break
     record = Record(spent, problem.tally.transforms, certificate)
     pressure *= scale.pressure
     gap *= scale.step

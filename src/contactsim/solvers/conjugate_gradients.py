@@ -14,11 +14,19 @@ Inside, everything but the pressure is in single precision, on a gap counted fro
 outer loop begins with a gap in double precision, which is computed anew before the rounding of what is added to it
 matters. The start is the solution on half as many points, and so on: pressure where there is contact and, with a
 negative sign, gap where there is none are continued as one field, which puts the edge of the contact in its place.
+
+What a run holds at its peak, in bytes a point, 60 in all. Before an iteration a run needs at most 48, after it 50.
+
+    8  heights of the scene, nm                   8  pressure at which the outer step began
+    8  heights of the problem, in grid steps      8  pressure
+    4  symbol of the compliance                   4  the same in single precision 2, contact 1, its code 1
+    8  gap, direction                             4  change of the gap
+    8  change of the pressure and scratch, or in their place a gap in double precision
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import ducc0
 import numpy as np
@@ -27,11 +35,9 @@ from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
 from contactsim.scene import WallProblem
 from contactsim.solvers import kernels
-from contactsim.solvers.base import State, iterate
+from contactsim.solvers.base import State
 from contactsim.traits import Trait
 
-PADDING = 8
-"""Extra columns: transforms of rows that lie a power of two apart are several times slower."""
 NEIGHBOURS = ((0, -1), (-1, -1), (-1, 0), (-1, 1))
 """West, north-west, north and north-east: (row, column)."""
 ROUNDING = 5e-7
@@ -43,13 +49,6 @@ SHARE, CORRECTIONS = 1e-12, 30
 """Part of the load by which the shift of a step may miss it, and most corrections of the shift."""
 OPENING = 0.75
 """Pressure over gap, in E* a spacing, when both are continued as one field."""
-
-
-@dataclass(frozen=True)
-class ConjugateGradientsState(State):
-    """Pressure (ny, nx), never negative; gap (ny, nx) in single precision, from the contact's level, after a step."""
-
-    gap: Array | None = field(repr=False)
 
 
 class Preconditioner:
@@ -111,7 +110,7 @@ class ConjugateGradients:
     inner_budget: int = 200
     wavelength: float = 16.0
     budget: int = 60
-    fields = 12
+    fields = 8
     accepts = frozenset({Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
 
     def __post_init__(self) -> None:
@@ -122,29 +121,27 @@ class ConjugateGradients:
         """Real transforms of an iteration: two, and two on the cells."""
         return 2 + 2 / kernels.CELL**2
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> ConjugateGradientsState:
+    def start(self, problem: WallProblem, guess: Array | None = None) -> State:
         """From a guess; else from uniform pressure, or with an approach from the overlap of the bodies."""
         if guess is not None:
-            return ConjugateGradientsState(problem.admissible(guess), False, None)
+            return State(problem.admissible(guess), False)
         pressure = np.zeros_like(problem.heights)
         if problem.load is not None:
             pressure += problem.load
-        return ConjugateGradientsState(pressure, False, None)
+        return State(pressure, False)
 
-    def step(self, problem: WallProblem, state: ConjugateGradientsState) -> ConjugateGradientsState:
+    def step(self, problem: WallProblem, state: State) -> State:
         """Iterate from the state's pressure, whose gap is computed anew."""
-        pressure = problem.admissible(state.pressure)
-        gap = _gap(problem, pressure, pressure > 0)
-        done, level = self._relax(problem, pressure, gap)
-        gap -= np.float32(level)
-        return ConjugateGradientsState(pressure, done, gap)
+        pressure, gap = problem.admissible(state.pressure), np.empty(problem.heights.shape, np.float32)
+        return State(pressure, self.relax(problem, pressure, gap)[0])
 
-    def _relax(self, problem: WallProblem, pressure: Array, gap: Array) -> tuple[bool, float]:
-        """Iterate in place; whether the residual is within the tolerance, and the gap's level on the contact."""
+    def relax(self, problem: WallProblem, pressure: Array, gap: Array) -> tuple[bool, float]:
+        """Iterate in place, gap (ny, nx) being written; whether it is done, and the gap's level on the contact."""
         shape, free = problem.heights.shape, problem.load is not None
         rows = kernels.Rows(shape, problem.compliance.grid.threads)
         condition = Preconditioner(problem.compliance, self.wavelength)
         spread = _Spread(problem.compliance)
+        spread.anew(problem, pressure, pressure > 0, gap)
         direction = np.zeros(shape, np.float32)
         where = kernels.contact_of((pressure > 0) | (gap < -problem.tolerance / 2))
         load = problem.load * problem.heights.size if free else 0.0
@@ -161,7 +158,8 @@ class ConjugateGradients:
                 return True, level
             if worst < ROUNDING * first:
                 past = (*past[:2], past[2] - np.float32(level))
-                gap[:], level, first = _gap(problem, pressure, where[0][:, : shape[1]].view(bool)), 0.0, worst
+                spread.anew(problem, pressure, where[0][:, : shape[1]].view(bool), gap)
+                level, first = 0.0, worst
             here = np.float32(level)
             now, then, sums, *_ = condition(rows, gap, here, past, where, spread.scratch, spread.change)
             beta = max(0.0, (now - then) / energy) if energy > 0 else 0.0
@@ -197,17 +195,19 @@ class ConjugateGradients:
 
 
 class _Spread:
-    """The compliance in single precision, from `change` to `out`, both (ny, nx and padding); `scratch` is lent."""
+    """The compliance in single precision, from `change` to `out`; `scratch` is lent. All are (ny, nx and padding).
+
+    What is computed in double precision takes the place of change and scratch.
+    """
 
     def __init__(self, compliance: Operator) -> None:
-        ny, nx = compliance.grid.shape
-        self._grid, self._tally, self._columns = compliance.grid, compliance.tally, nx
+        self._grid, self._tally, self._columns = compliance.grid, compliance.tally, compliance.grid.shape[1]
         self._symbol = compliance.symbol.astype(np.float32)
-        self.change = np.zeros((ny, nx + PADDING), np.float32)
-        self.out = np.zeros((ny, nx + PADDING), np.float32)
-        wide = np.empty((ny, nx // 2 + 1 + PADDING), np.complex64)
-        self._half = wide[:, : nx // 2 + 1]
-        self.scratch = wide.view(np.float32)
+        shape = compliance.grid.wide_shape
+        self._double = np.zeros(shape)
+        self.change, self.scratch = self._double.view(np.float32).reshape(2, *shape)
+        self._half = self.scratch.view(np.complex64)[:, : self._columns // 2 + 1]
+        self.out = np.zeros(shape, np.float32)
 
     def apply(self) -> None:
         """Out = S change; the change stays."""
@@ -223,17 +223,16 @@ class _Spread:
         )
         self._tally.add(2, self._grid.size)
 
-
-def _gap(problem: WallProblem, pressure: Array, contact: Array) -> Array:
-    """The gap computed in double precision, from its level on the contact (bool), in single precision."""
-    gap = problem.compliance(pressure)
-    gap -= problem.heights
-    if problem.approach is not None:
-        level = problem.approach
-    else:
-        level = float(gap.mean(where=contact) if contact.any() else gap.min())
-    gap -= level
-    return gap.astype(np.float32)
+    def anew(self, problem: WallProblem, pressure: Array, contact: Array, out: Array) -> None:
+        """`out` = the gap computed in double precision, from its level on the contact (bool); change turns zero."""
+        gap = problem.compliance(pressure, out=self._double)
+        gap -= problem.heights
+        if problem.approach is not None:
+            level = problem.approach
+        else:
+            level = float(gap.mean(where=contact) if contact.any() else gap.min())
+        np.subtract(gap, level, out=out, casting="same_kind")
+        self.change[:] = 0
 
 
 @dataclass(frozen=True)
@@ -255,15 +254,19 @@ class NestedConjugateGradients(ConjugateGradients):
         if self.coarsest < 2:
             raise SceneError("coarsest", self.coarsest, "a whole number of points, 2 or more")
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> ConjugateGradientsState:
+    def start(self, problem: WallProblem, guess: Array | None = None) -> State:
         """From a guess, or from the solution on half as many points a side, and so on down to the coarsest level."""
         if guess is None and min(problem.heights.shape) // 2 >= self.coarsest:
             coarse = problem.coarser(self.coarse_tolerance)
             if not coarse.untouched:
-                loose = ConjugateGradients(self.coarse_budget, self.wavelength)
-                state, *_ = iterate(loose, coarse, self.start(coarse), 1)
-                gap = np.maximum(state.gap, 0)
-                signed = np.where(state.pressure > 0, state.pressure, -OPENING * gap)
+                signed = self._signed(coarse)
                 guess = np.empty_like(problem.heights)
                 kernels.Rows(guess.shape, problem.compliance.grid.threads)(kernels.refine, signed, guess)
         return super().start(problem, guess)
+
+    def _signed(self, problem: WallProblem) -> Array:
+        """A coarse level's solution: pressure where there is contact and, with a negative sign, gap elsewhere."""
+        pressure, gap = self.start(problem).pressure, np.empty(problem.heights.shape, np.float32)
+        level = ConjugateGradients(self.coarse_budget, self.wavelength).relax(problem, pressure, gap)[1]
+        gap -= np.float32(level)
+        return np.where(pressure > 0, pressure, -OPENING * np.maximum(gap, 0))

@@ -32,7 +32,7 @@ class PolonskyKeer:
 
     batch: int = 25
     budget: int = 400
-    fields = 18
+    fields = 15
     accepts = frozenset({Trait.LINE, Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
 
     def transforms(self, points: int) -> float:

@@ -41,7 +41,7 @@ class WallVerlet:
     damping: float = 1.0
     batch: int = 100
     budget: int = 2000
-    fields = 18
+    fields = 15
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
 
     def __post_init__(self) -> None:
