@@ -12,7 +12,7 @@ from contactsim.provenance import PACKAGE, imports_of, package_root
 ORDER = """
 errors traits grid roughness scans measured topography surface elasticity laws loading scene
 solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
-solvers.kernels solvers.conjugate_gradients
+solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 observables analytic provenance dataset config build study march extrapolation aggregate costs joblog takes findings
 claims api hazards.cases hazards.lines hazards.surfaces hazards stability plan compare explain cost precision
 figures figures.style figures.maps figures.resolution figures.ch3 figures.ch5 figures.stability figures.render

@@ -34,7 +34,7 @@ import numpy as np
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
 from contactsim.scene import WallProblem
-from contactsim.solvers.base import State, iterate
+from contactsim.solvers.base import State, check_cascade, iterate
 from contactsim.traits import Trait
 
 
@@ -279,10 +279,7 @@ class NestedActiveSet(ActiveSet):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not self.coarse_tolerance > 0:
-            raise SceneError("coarse_tolerance", self.coarse_tolerance, "a positive number of grid steps")
-        if self.coarsest < 2:
-            raise SceneError("coarsest", self.coarsest, "a whole number of points, 2 or more")
+        check_cascade(self.coarsest, self.coarse_tolerance)
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or from the solution on half as many points, and so on down to the coarsest level."""

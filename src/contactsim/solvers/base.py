@@ -126,6 +126,14 @@ def require(solver: Solver, scene: Scene) -> None:
         )
 
 
+def check_cascade(coarsest: int, coarse_tolerance: float) -> None:
+    """Refuse options of a cascade of coarser grids that make none."""
+    if not coarse_tolerance > 0:
+        raise SceneError("coarse_tolerance", coarse_tolerance, "a positive number of grid steps")
+    if coarsest < 2:
+        raise SceneError("coarsest", coarsest, "a whole number of points, 2 or more")
+
+
 def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> tuple[State, int, bool]:
     """Step until the solver believes to be done, the budget is spent, or a value is not finite.
 

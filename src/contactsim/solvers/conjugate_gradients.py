@@ -5,10 +5,7 @@ and Ribière's), cuts it at zero, shifts it so that the load stays, and takes th
 left, as far as no pressure turns negative. Points that carry nothing and gape are dropped at once, points that
 overlap are added. The gap is updated with the same transform that gives the step: one application of S an iteration.
 
-The residual is preconditioned by Gᵀ(1 - B)G. G is a factorised sparse approximate inverse of S on the contact: the row
-of a point solves S among it and those of four preceding neighbours that are in contact, so there are 16 rows for all
-points (SIAM J. Matrix Anal. Appl. 14, 45, doi:10.1137/0614004). It has short waves right and long ones too soft; B
-takes their excess away on cells of 4 × 4 points, through transforms of that reduced size.
+The residual is preconditioned on the contact alone (`contactsim.solvers.preconditioner`).
 
 Inside, everything but the pressure is in single precision, on a gap counted from the contact's level: each step of the
 outer loop begins with a gap in double precision, which is computed anew before the rounding of what is added to it
@@ -34,12 +31,11 @@ import numpy as np
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
 from contactsim.scene import WallProblem
-from contactsim.solvers import kernels
-from contactsim.solvers.base import State
+from contactsim.solvers import kernels, refinement
+from contactsim.solvers.base import State, check_cascade
+from contactsim.solvers.preconditioner import CELL, Preconditioner
 from contactsim.traits import Trait
 
-NEIGHBOURS = ((0, -1), (-1, -1), (-1, 0), (-1, 1))
-"""West, north-west, north and north-east: (row, column)."""
 ROUNDING = 5e-7
 """Fall of the residual after which rounding in single precision begins to show, and the gap is computed anew."""
 LONGEST = 3.0
@@ -49,55 +45,6 @@ SHARE, CORRECTIONS = 1e-12, 30
 """Part of the load by which the shift of a step may miss it, and most corrections of the shift."""
 OPENING = 0.75
 """Pressure over gap, in E* a spacing, when both are continued as one field."""
-
-
-class Preconditioner:
-    """Gᵀ(1 - B)G on a contact set that changes; arrays of shape (ny, nx or more) are lent by the caller."""
-
-    def __init__(self, compliance: Operator, wavelength: float) -> None:
-        """wavelength: in points, above which G alone would be too soft."""
-        grid = compliance.grid
-        self.tally = compliance.tally
-        self.table = stencil(compliance)
-        coarse = grid.coarser(tuple(max(-(-size // kernels.CELL), 2) for size in grid.shape))
-        self.cells = np.zeros(coarse.shape, np.float32)
-        symbol = np.abs(compliance.symbol[coarse.modes_of(grid)])
-        ratio = np.divide(wavelength / np.pi, symbol, out=np.zeros_like(symbol), where=symbol > 0)
-        excess = (1 - ratio / np.hypot(1, ratio)) / kernels.CELL**2
-        self._excess = excess.astype(np.float32)
-        self._grid = coarse
-        self._code = np.zeros(grid.shape, np.uint8)
-
-    def __call__(self, rows: kernels.Rows, gap: Array, level: float, past: tuple, where: tuple, *lent: Array) -> Array:
-        """The preconditioned residual into the second array lent; its products with residuals, now and before; its sum.
-
-        past: change of the gap in the last step, its length and the level before; where: contact and its words.
-        """
-        work, out = lent
-        self.cells[:] = 0
-        rows(kernels.factor, gap, level, *where, self.table, self._code, work, self.cells)
-        smooth = self._grid.backward(self._grid.forward(self.cells) * self._excess)
-        self.tally.add(2, self.cells.size)
-        return rows(kernels.adjoint, gap, level, *past, *where, self.table, self._code, work, smooth, out)
-
-
-def stencil(compliance: Operator, most: int = 64) -> Array:
-    """Rows of G, shape (16, 5): weights of a point and its four neighbours, by the bits of those in contact."""
-    grid = compliance.grid
-    steps = [max(size // most, 1) for size in grid.shape]
-    sizes = [min(size, most) for size in grid.shape]
-    row = np.fft.fftfreq(sizes[0], 1 / sizes[0]).astype(int) * steps[0]
-    places = np.ix_(np.where(row < 0, row + grid.shape[0], row), np.arange(sizes[1] // 2 + 1) * steps[1])
-    response = np.fft.irfft2(compliance.symbol[places], sizes)
-    offsets = np.array([(0, 0), *NEIGHBOURS])
-    apart = (offsets[:, None] - offsets) % sizes
-    matrix = response[apart[..., 0], apart[..., 1]]
-    table = np.zeros((16, 5), np.float32)
-    for bits in range(16):
-        among = [0, *(place + 1 for place in range(4) if bits >> place & 1)]
-        weights = np.linalg.lstsq(matrix[np.ix_(among, among)], np.eye(len(among))[0])[0]
-        table[bits, among] = weights / np.sqrt(max(weights[0], np.finfo(float).tiny))
-    return table
 
 
 @dataclass(frozen=True)
@@ -119,7 +66,7 @@ class ConjugateGradients:
 
     def transforms(self, points: int) -> float:
         """Real transforms of an iteration: two, and two on the cells."""
-        return 2 + 2 / kernels.CELL**2
+        return 2 + 2 / CELL**2
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> State:
         """From a guess; else from uniform pressure, or with an approach from the overlap of the bodies."""
@@ -165,16 +112,8 @@ class ConjugateGradients:
             beta = max(0.0, (now - then) / energy) if energy > 0 else 0.0
             energy = now
             shift = length * (sums + beta * along) / points if free else 0.0
-            turning = (*where, spread.change, np.float32(beta), direction, pressure, length, shift)
-            carried, carriers, *_ = rows(kernels.turn, *turning)
-            for _ in range(CORRECTIONS if free else 0):  # Newton's, which from the left do not overshoot
-                if abs(carried - load) <= max(SHARE * load, EPSILON * carriers * abs(shift)):
-                    break
-                shift += (carried - load) / carriers if carriers else -abs(shift) - load
-                carried, carriers, *_ = rows(kernels.carried, *where, pressure, direction, length, shift)
-            product, *_, taken, _ = rows(
-                kernels.trial, *where, pressure, direction, length, shift, gap, here, spread.change
-            )
+            along_it = (*where, pressure, direction, length)
+            product, taken = _tried(rows, along_it, shift, (gap, here, spread.change), beta, load if free else None)
             spread.apply()
             stiffness, risen, *_ = rows(kernels.work, *where, spread.change, spread.out)
             if not stiffness > 0:
@@ -192,6 +131,21 @@ class ConjugateGradients:
             worst = max(deepest, widest)
             level = total / points if free and points else 0.0
         return False, level
+
+
+def _tried(rows: kernels.Rows, before: tuple, shift: float, after: tuple, beta: float, load: float | None) -> tuple:
+    """Try a step along the turned direction, the shift being corrected until it keeps the load, if one is given.
+
+    before, after: what `kernels.trial` takes around the shift. The change times residual; the largest part taken away.
+    """
+    turn = np.float32(1), np.float32(beta)
+    for _ in range(1 + CORRECTIONS):  # Newton's, which from the left do not overshoot
+        carried, carriers, product, _, taken, _ = rows(kernels.trial, *before, shift, *after, *turn)
+        if load is None or abs(carried - load) <= max(SHARE * load, EPSILON * carriers * abs(shift)):
+            break
+        shift += (carried - load) / carriers if carriers else -abs(shift) - load
+        turn = np.float32(0), np.float32(1)
+    return product, taken
 
 
 class _Spread:
@@ -249,10 +203,7 @@ class NestedConjugateGradients(ConjugateGradients):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not self.coarse_tolerance > 0:
-            raise SceneError("coarse_tolerance", self.coarse_tolerance, "a positive number of grid steps")
-        if self.coarsest < 2:
-            raise SceneError("coarsest", self.coarsest, "a whole number of points, 2 or more")
+        check_cascade(self.coarsest, self.coarse_tolerance)
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> State:
         """From a guess, or from the solution on half as many points a side, and so on down to the coarsest level."""
@@ -261,7 +212,7 @@ class NestedConjugateGradients(ConjugateGradients):
             if not coarse.untouched:
                 signed = self._signed(coarse)
                 guess = np.empty_like(problem.heights)
-                kernels.Rows(guess.shape, problem.compliance.grid.threads)(kernels.refine, signed, guess)
+                kernels.Rows(guess.shape, problem.compliance.grid.threads)(refinement.refine, signed, guess)
         return super().start(problem, guess)
 
     def _signed(self, problem: WallProblem) -> Array:

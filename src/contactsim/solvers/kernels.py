@@ -1,4 +1,4 @@
-"""Loops over a surface in single precision, compiled: what conjugate gradients does between two transforms.
+"""Loops over a surface in single precision, compiled: steps of conjugate gradients, and how all such loops run.
 
 Every kernel works on the rows from `low` to `high` of arrays of shape (ny, nx or more), periodic in both directions,
 and writes its results into `sums`, first what adds up, then largest values. `Rows` calls it block by block, on several
@@ -6,10 +6,9 @@ threads if asked to; the blocks depend on the grid alone and their sums are adde
 depend on the number of threads.
 
 contact is 1 where a point may carry pressure; the residual there is level - gap. It is padded with zeros to WORD
-columns a word, and `words` is the same memory as whole words: those that are zero are passed over. What is read and
-written is that of points in contact alone, but for `advance`, which looks at all. The factor G of the preconditioner
-has four neighbours that come before a point: west, north-west, north, north-east; `code` holds which of them are in
-contact, as bits, and row `code` of `table` (16, 5) the weights of the point itself and of these four.
+columns a word, and `words` is the same memory as whole words. Loops go over runs of words that are not zero, without
+a branch at single points, which edges of the contact would make expensive, so that they are done several at a time: a
+point without contact has neither pressure nor change nor direction. Largest values are therefore kept column by column.
 """
 
 from __future__ import annotations
@@ -23,15 +22,13 @@ import numpy as np
 from contactsim.grid import Array
 
 BLOCK = 128
-"""Rows of a block: a multiple of CELL."""
-CELL = 4
-"""Points along a side of a cell on which long waves are corrected."""
+"""Rows of a block."""
 WORD = 8
 """Points whose contact is looked at in one go."""
 SUMS, MOST = 4, 2
 """Numbers of a kernel's results: sums over all points, then largest values."""
 
-compiled = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "arcp", "nsz"})
+compiled = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "arcp", "nsz", "reassoc"})
 
 
 def contact_of(where: Array) -> tuple[Array, Array]:
@@ -63,129 +60,48 @@ class Rows:
 
 
 @compiled
-def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, sums):
-    """`out` = G r; cells: sums of out over each cell; code: which neighbours are in contact."""
-    ny = contact.shape[0]
-    for i in range(low, high):
-        up = i - 1 if i > 0 else ny - 1
-        for word in range(words.shape[1]):
-            if words[i, word] == 0:
-                continue
-            for j in range(WORD * word, min(WORD * word + WORD, nx)):
-                if not contact[i, j]:
-                    continue
-                west = j - 1 if j > 0 else nx - 1
-                east = j + 1 if j < nx - 1 else 0
-                bits = contact[i, west] | contact[up, west] << 1 | contact[up, j] << 2 | contact[up, east] << 3
-                code[i, j] = bits
-                value = table[bits, 0] * (level - gap[i, j])
-                if bits & 1:
-                    value += table[bits, 1] * (level - gap[i, west])
-                if bits & 2:
-                    value += table[bits, 2] * (level - gap[up, west])
-                if bits & 4:
-                    value += table[bits, 3] * (level - gap[up, j])
-                if bits & 8:
-                    value += table[bits, 4] * (level - gap[up, east])
-                out[i, j] = value
-                cells[i // CELL, j // CELL] += value
+def run(words, row, word):
+    """The next run of words that are not zero: the first and the one after its last, both their number if none."""
+    count = words.shape[1]
+    while word < count and words[row, word] == 0:
+        word += 1
+    first = word
+    while word < count and words[row, word] != 0:
+        word += 1
+    return first, word
 
 
 @compiled
-def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, table, code, field, smooth, out, sums):
-    """`out` = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
-    ny = contact.shape[0]
-    now = 0.0
-    then = 0.0
-    total = 0.0
-    for i in range(low, high):
-        down = i + 1 if i < ny - 1 else 0
-        here = i // CELL
-        below = down // CELL
-        for word in range(words.shape[1]):
-            if words[i, word] == 0:
-                continue
-            for j in range(WORD * word, min(WORD * word + WORD, nx)):
-                if not contact[i, j]:
-                    continue
-                west = j - 1 if j > 0 else nx - 1
-                east = j + 1 if j < nx - 1 else 0
-                value = table[code[i, j], 0] * (field[i, j] - smooth[here, j // CELL])
-                if contact[i, east]:
-                    value += table[code[i, east], 1] * (field[i, east] - smooth[here, east // CELL])
-                if contact[down, east]:
-                    value += table[code[down, east], 2] * (field[down, east] - smooth[below, east // CELL])
-                if contact[down, j]:
-                    value += table[code[down, j], 3] * (field[down, j] - smooth[below, j // CELL])
-                if contact[down, west]:
-                    value += table[code[down, west], 4] * (field[down, west] - smooth[below, west // CELL])
-                out[i, j] = value
-                now += value * (level - gap[i, j])
-                then += value * (before - (gap[i, j] - theta * spread[i, j]))
-                total += value
-    sums[0] = now
-    sums[1] = then
-    sums[2] = total
+def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap, level, change, fresh, beta, sums):
+    """`direction` = fresh × change + beta × direction; change = max(p + length × direction - shift, 0) - p.
 
-
-@compiled
-def turn(low, high, nx, contact, words, corrected, beta, direction, pressure, length, shift, sums):
-    """`direction` = corrected + beta × direction; sums: load of max(p + length × direction - shift, 0), its points."""
+    sums: load of p + change, the number of points that carry it, change·r; largest part of a pressure taken away.
+    """
     load = 0.0
     count = 0
-    for i in range(low, high):
-        for word in range(words.shape[1]):
-            if words[i, word] == 0:
-                continue
-            for j in range(WORD * word, min(WORD * word + WORD, nx)):
-                if contact[i, j]:
-                    direction[i, j] = corrected[i, j] + beta * direction[i, j]
-                    value = pressure[i, j] + length * direction[i, j] - shift
-                    if value > 0:
-                        load += value
-                        count += 1
-    sums[0] = load
-    sums[1] = count
-
-
-@compiled
-def carried(low, high, nx, contact, words, pressure, direction, length, shift, sums):
-    """sums: load of max(p + length × direction - shift, 0), and the number of points that carry it."""
-    load = 0.0
-    count = 0
-    for i in range(low, high):
-        for word in range(words.shape[1]):
-            if words[i, word] == 0:
-                continue
-            for j in range(WORD * word, min(WORD * word + WORD, nx)):
-                if contact[i, j]:
-                    value = pressure[i, j] + length * direction[i, j] - shift
-                    if value > 0:
-                        load += value
-                        count += 1
-    sums[0] = load
-    sums[1] = count
-
-
-@compiled
-def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap, level, change, sums):
-    """`change` = max(p + length × direction - shift, 0) - p; sums: change·r; largest part of a pressure taken away."""
     along = 0.0
-    taken = 0.0
+    taken = np.zeros(nx)
     for i in range(low, high):
-        for word in range(words.shape[1]):
-            if words[i, word] == 0:
-                continue
-            for j in range(WORD * word, min(WORD * word + WORD, nx)):
-                if contact[i, j]:
-                    value = pressure[i, j] + length * direction[i, j] - shift
-                    value = max(value, 0.0)
-                    change[i, j] = value - pressure[i, j]
-                    if value < pressure[i, j] * (1 - taken):
-                        taken = 1 - value / pressure[i, j]
-                    along += change[i, j] * (level - gap[i, j])
-    sums[0] = along
-    sums[4] = taken
+        first, last = run(words, i, 0)
+        while first < last:
+            begin, end = WORD * first, min(WORD * last, nx)
+            touches, old, turned = contact[i, begin:end], pressure[i, begin:end], direction[i, begin:end]
+            moved, opening, most = change[i, begin:end], gap[i, begin:end], taken[begin:end]
+            for j in range(end - begin):
+                turned[j] = fresh * moved[j] + beta * turned[j]
+                value = old[j] + length * turned[j] - shift
+                value = value if (value > 0) & (touches[j] != 0) else 0.0
+                load += value
+                count += value > 0
+                moved[j] = value - old[j]
+                along += moved[j] * (level - opening[j])
+                part = 1 - value / old[j] if old[j] > 0 else 0.0
+                most[j] = part if part > most[j] else most[j]
+            first, last = run(words, i, last)
+    sums[0] = load
+    sums[1] = count
+    sums[2] = along
+    sums[4] = taken.max()
 
 
 @compiled
@@ -194,13 +110,14 @@ def work(low, high, nx, contact, words, change, spread, sums):
     product = 0.0
     total = 0.0
     for i in range(low, high):
-        for word in range(words.shape[1]):
-            if words[i, word] == 0:
-                continue
-            for j in range(WORD * word, min(WORD * word + WORD, nx)):
-                if contact[i, j]:
-                    product += change[i, j] * spread[i, j]
-                    total += spread[i, j]
+        first, last = run(words, i, 0)
+        while first < last:
+            begin, end = WORD * first, min(WORD * last, nx)
+            touches, moved, risen = contact[i, begin:end], change[i, begin:end], spread[i, begin:end]
+            for j in range(end - begin):
+                product += moved[j] * risen[j]
+                total += risen[j] if touches[j] != 0 else np.float32(0)
+            first, last = run(words, i, last)
     sums[0] = product
     sums[1] = total
 
@@ -215,109 +132,58 @@ def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta,
     total = 0.0
     count = 0
     added = 0
-    deepest = 0.0
-    widest = 0.0
     along = 0.0
+    none = np.float32(0)
     limit = level - overlap
+    deepest = np.zeros(nx, np.float32)
+    widest = np.zeros(nx, np.float32)
     for i in range(low, high):
-        for word in range(words.shape[1]):
-            first = WORD * word
-            last = min(first + WORD, nx)
-            if words[i, word] == 0:
-                near = False
-                for j in range(first, last):
-                    value = gap[i, j] + theta * spread[i, j]
-                    gap[i, j] = value
-                    near |= value < limit
-                if not near:
-                    continue
-                for j in range(first, last):
-                    if gap[i, j] < limit:
-                        contact[i, j] = 1
-                        added += 1
-                        total += gap[i, j]
-                        count += 1
-                        deepest = max(deepest, level - gap[i, j])
-                continue
-            for j in range(first, last):
-                value = gap[i, j] + theta * spread[i, j]
-                gap[i, j] = value
-                if contact[i, j]:
-                    carries = pressure[i, j] + theta * change[i, j]
-                    if carries < 1e-6 * pressure[i, j]:  # cut to zero, but for the rounding of the change
-                        carries = 0.0
-                    pressure[i, j] = carries
-                    if carries == 0.0 and value > level:
-                        contact[i, j] = 0
-                        direction[i, j] = 0
-                        change[i, j] = 0
-                        continue
-                    if carries > 0:
-                        widest = max(widest, value - level)
-                    along += direction[i, j]
-                elif value < limit:
-                    contact[i, j] = 1
-                    added += 1
-                else:
-                    continue
-                total += value
-                count += 1
-                deepest = max(deepest, level - value)
+        last = 0
+        while last < words.shape[1]:
+            begin = WORD * last
+            first, last = run(words, i, last)
+            end = min(WORD * first, nx)
+            touches, opening, risen = contact[i, begin:end], gap[i, begin:end], spread[i, begin:end]
+            below = 0
+            for j in range(end - begin):
+                opening[j] += theta * risen[j]
+                below += opening[j] < limit
+            for j in range(end - begin if below else 0):
+                if opening[j] < limit:
+                    touches[j] = 1
+                    total += opening[j]
+                    deepest[begin + j] = max(deepest[begin + j], level - opening[j])
+            count += below
+            added += below
+
+            begin, end = end, min(WORD * last, nx)
+            touches, opening, risen = contact[i, begin:end], gap[i, begin:end], spread[i, begin:end]
+            old, moved, turned = pressure[i, begin:end], change[i, begin:end], direction[i, begin:end]
+            deep, wide = deepest[begin:end], widest[begin:end]
+            for j in range(end - begin):
+                value = opening[j] + theta * risen[j]
+                opening[j] = value
+                carries = old[j] + theta * moved[j]
+                carries = 0.0 if carries < 1e-6 * old[j] else carries  # cut to zero, but for the rounding of the change
+                old[j] = carries
+                before = touches[j] != 0
+                stays = before & ((carries != 0) | (value <= level))
+                joins = (not before) & (value < limit)
+                inside = stays | joins
+                touches[j] = inside
+                turned[j] = turned[j] if stays else none
+                moved[j] = moved[j] if stays else none
+                total += value if inside else none
+                count += inside
+                added += joins
+                along += turned[j]
+                over = level - value if inside else none
+                deep[j] = over if over > deep[j] else deep[j]
+                apart = value - level if carries > 0 else none
+                wide[j] = apart if apart > wide[j] else wide[j]
     sums[0] = total
     sums[1] = count
     sums[2] = added
     sums[3] = along
-    sums[4] = deepest
-    sums[5] = widest
-
-
-@compiled
-def between(before, left, right, after, part):
-    """A signed field `part` of the way from left to right: cubic among one sign, else linear in the signed square."""
-    if part == 0.0:
-        return left
-    if (before > 0) == (left > 0) == (right > 0) == (after > 0):
-        a = -part * (part - 1) * (part - 2) / 6
-        b = (part + 1) * (part - 1) * (part - 2) / 2
-        c = -(part + 1) * part * (part - 2) / 2
-        d = (part + 1) * part * (part - 1) / 6
-        return a * before + b * left + c * right + d * after
-    square = (1 - part) * left * abs(left) + part * right * abs(right)
-    return np.sqrt(square) if square > 0 else -np.sqrt(-square)
-
-
-@compiled
-def along_x(signed, row, line):
-    """One row of a signed field, periodic, on the points of a longer line."""
-    mx, nx = signed.shape[1], line.size
-    for j in range(nx):
-        at = j * mx // nx
-        west = at - 1 if at > 0 else mx - 1
-        east = at + 1 if at < mx - 1 else 0
-        far = east + 1 if east < mx - 1 else 0
-        part = (j * mx - at * nx) / nx
-        line[j] = between(signed[row, west], signed[row, at], signed[row, east], signed[row, far], part)
-
-
-@compiled
-def refine(low, high, nx, signed, out, sums):
-    """A signed field (my, mx) on the points of a finer grid out (ny, nx), first along x, then along y; clipped at 0."""
-    ny = out.shape[0]
-    my = signed.shape[0]
-    lines = np.empty((4, nx))
-    held = np.full(4, -1)
-    for i in range(low, high):
-        first = i * my // ny
-        for k in range(4):
-            row = (first - 1 + k) % my
-            slot = (first + 3 + k) % 4
-            if held[slot] != row:
-                along_x(signed, row, lines[slot])
-                held[slot] = row
-        before = (first + 3) % 4
-        left = first % 4
-        right = (first + 1) % 4
-        after = (first + 2) % 4
-        part = (i * my - first * ny) / ny
-        for j in range(nx):
-            out[i, j] = max(between(lines[before, j], lines[left, j], lines[right, j], lines[after, j], part), 0.0)
+    sums[4] = deepest.max()
+    sums[5] = widest.max()
