@@ -25,9 +25,10 @@ import numpy as np
 from contactsim.elasticity import Elasticity
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Operator, Tally
-from contactsim.laws import HardWall
+from contactsim.laws import HardWall, Law
 from contactsim.loading import LoadPath, LoadStep
 from contactsim.surface import Surface
+from contactsim.symbols import Normal, Symbol
 from contactsim.traits import Trait
 
 FLATTEST = 1e-10
@@ -54,14 +55,14 @@ class Scene:
 
     lower: Body
     upper: Body
-    effects: tuple[HardWall, ...]
+    effects: tuple[HardWall | Law, ...]
     path: LoadPath
 
     def __post_init__(self) -> None:
         if not self.elasticities:
             raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
-        if not any(Trait.WALL in effect.traits for effect in self.effects):
-            raise SceneError("effects", self.effects, "at least one that resists overlap: hard_wall")
+        if not self.effects:
+            raise SceneError("effects", self.effects, "at least one, which resists overlap")
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise SceneError("length", lengths, "the same periods for both surfaces")
@@ -75,6 +76,12 @@ class Scene:
     def components(self) -> tuple[str, ...]:
         """Displacement components that exist: those that an effect reads or exerts."""
         used = reduce(frozenset.union, (effect.reads | effect.exerts for effect in self.effects))
+        return tuple(component for component in ("n", "t") if component in used)
+
+    @cached_property
+    def exerted(self) -> tuple[str, ...]:
+        """Components in which an effect exerts traction: the unknowns; those only read are derived from them."""
+        used = reduce(frozenset.union, (effect.exerts for effect in self.effects))
         return tuple(component for component in ("n", "t") if component in used)
 
     @cached_property
@@ -102,6 +109,25 @@ class Scene:
     def compliance(self, wavenumber: Array) -> Array:
         """Sum of the bodies' compliances at each |q| (rad/nm), nm/GPa."""
         return sum(body.compliance(wavenumber) for body in self.elasticities)
+
+    def coupled_compliance(self, grid: Grid) -> Symbol:
+        """Sum of the bodies' compliances for the components that exist, each |q| of a line, nm/GPa.
+
+        The upper body is a mirror image. The shortest wave of an even grid has no sideways part.
+        """
+        lower, upper = (body.elasticity for body in (self.lower, self.upper))
+        parts = [self._response(lower, grid.wavenumber)] if lower else []
+        parts += [self._response(upper, grid.wavenumber).mirrored()] if upper else []
+        total = reduce(type(parts[0]).__add__, parts)
+        if len(self.components) > 1 and grid.size % 2 == 0:
+            total.coupling[-1] = 0.0
+        return total
+
+    def _response(self, body: Elasticity, wavenumber: Array) -> Symbol:
+        """The compliance of one body for the components that exist."""
+        if len(self.components) > 1:
+            return body.coupled_compliance(wavenumber)
+        return Normal(body.compliance(wavenumber)[None])
 
     def heights(self, points: int) -> Array:
         """Sum of both surfaces' heights, each positive towards the other, `points` along x, (n,) or (ny, nx), nm."""
