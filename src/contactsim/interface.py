@@ -32,6 +32,7 @@ from contactsim.scene import Scene
 from contactsim.symbols import Symbol
 from contactsim.traits import Trait
 
+
 @dataclass(frozen=True)
 class Tangent:
     """Derivative of the traction at each point, (exerted, read, n), GPa/nm; a linear map on coefficients."""

@@ -66,20 +66,25 @@ class HardWall:
 class CohesiveZone:
     """Mixed-mode cohesive zone (Eq. 2.17), after McGarry et al., J. Mech. Phys. Solids 63 (2014).
 
-    work_of_separation φn > 0 and tangential_work φt ≥ 0 in N/m; normal_length δn and tangential_length δt in nm.
-    Without tangential work it is frictionless: it exerts no shear, yet its normal traction reads the tangential gap.
+    work_of_separation φn > 0 in N/m; work_ratio c = φt/φn ≥ 0 (Eq. 2.16); normal_length δn, tangential_length δt in nm.
+    At c = 0 it is frictionless: it exerts no shear, yet its normal traction reads the tangential gap.
     """
 
     work_of_separation: float
-    tangential_work: float = 0.0
+    work_ratio: float = 0.0
     normal_length: float = 1.0
     tangential_length: float = 1.0
     reads = frozenset({"n", "t"})
 
     def __post_init__(self) -> None:
         _check_positive(self, "work_of_separation", "normal_length", "tangential_length")
-        if not (is_number(self.tangential_work) and self.tangential_work >= 0):
-            raise SceneError("tangential_work", self.tangential_work, "0 or a positive number in N/m")
+        if not (is_number(self.work_ratio) and self.work_ratio >= 0):
+            raise SceneError("work_ratio", self.work_ratio, "0 or a positive number")
+
+    @property
+    def tangential_work(self) -> float:
+        """Tangential work of separation φt, N/m."""
+        return self.work_ratio * self.work_of_separation
 
     @property
     def exerts(self) -> frozenset[str]:

@@ -276,6 +276,8 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     """The problem that a scene poses at one load step on the grid of `heights`, nm; and its units."""
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
+    if step.control is Trait.MEAN_PRESSURE and step.value < 0:
+        raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     overlap = step.value + highest  # beyond first touch, if it is an approach

@@ -97,8 +97,9 @@ class NewtonKrylov:
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
         displacement, shift, most = start, FIRST * problem.softening, self.flow_step * problem.reach
-        status = Status.BUDGET
-        for count in range(self.flow_budget):
+        status, worst, count = Status.BUDGET, np.inf, 0
+        while count < self.flow_budget:
+            count += 1
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)

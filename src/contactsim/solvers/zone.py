@@ -1,7 +1,7 @@
 """Preconditioner for stiffness plus the tangent of laws that act over a small part of a line.
 
-Long waves, those below a fraction of the grid, are solved for exactly on a coarser grid: with C the compliance and D the
-tangent, (K + D) w = r is w = C (r - D w), in which D is not zero on the process zone Z alone, so that
+Long waves, those below a fraction of the grid, are solved for exactly on a coarser grid: with C the compliance and D
+the tangent, (K + D) w = r is w = C (r - D w), in which D is not zero on the process zone Z alone, so that
 
     (1 + C_ZZ D_Z) w_Z = (C r)_Z,   w = C (r - D w_Z),
 
