@@ -16,7 +16,7 @@ the surface of a layer bonded to a rigid base has, as the inverse of a 2×2 matr
 
 and of a layer whose other face is free the compliance is [(1-ν)(½ sinh 2x + x), (1-ν)(½ sinh 2x - x),
 (½-ν) sinh²x + x²/2] / g. The half-space is their limit. Eqs 2.12 as printed are the same stiffness in units of C11|q|,
-but M13 and M24 are real, M14 = M23 without the minus, and their terms cancel where x is small, vanish both where
+but M13 and M24 are real, M14 = M23 without the minus, and they cancel where x is small, are infinity times zero where
 ν = 1/2, and overflow where x is above 355. Here sinh x - x and x cosh x - sinh x have series,
 f = (sinh x - x)(sinh x + x) + ω(1+r)x² has no cancellation, and everything is multiplied by e^{-2x}. The tests
 integrate Navier's equations, with sixty digits.
