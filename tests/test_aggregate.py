@@ -25,7 +25,7 @@ PRESSURES = [0.01, 0.1, 0.3]
 HURSTS = [0.2, 0.8]
 MODULUS = 2.0
 GRADIENT = 0.01
-CONVERGED, BUDGET, NON_FINITE = (status.value[0] for status in Status)
+CONVERGED, BUDGET, NON_FINITE, *_ = (status.value[0] for status in Status)
 SETTINGS = {"title": "A study", "fit_limits": None, "surface": {"radius": 50.0}}
 
 

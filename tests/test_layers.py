@@ -11,10 +11,11 @@ from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
 errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws loading scene
-solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
+interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.conjugate_gradients
-observables analytic provenance dataset config build study march aggregate costs joblog takes claims api hazards
-stability plan compare explain cost precision
+solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.predictor follow
+observables adhesion analytic provenance dataset config build schema study branch march aggregate costs
+joblog takes claims api hazards stability plan compare explain cost precision
 figures figures.style figures.ch3 figures.ch5 figures.stability figures.render figures.claims figures.accuracy
 figures.sketch figures.stress cli
 """.split()

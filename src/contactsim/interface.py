@@ -24,6 +24,7 @@ from functools import cached_property
 import ducc0
 import numpy as np
 
+from contactsim.elasticity import relative_compliance
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Tally
 from contactsim.laws import Law
@@ -84,6 +85,12 @@ class InterfaceProblem:
         held = self.stiffness.held[:, 0].copy()
         held[0] &= self.load is None
         return held
+
+    @property
+    def yielded(self) -> float:
+        """Mean displacement of the surfaces under the mean pressure, nm."""
+        uniform = float(self.stiffness.diagonal[0, 0])
+        return self.load / uniform if self.load is not None and uniform else 0.0
 
     @cached_property
     def strength(self) -> float:
@@ -185,7 +192,7 @@ def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int 
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number, in parts of the laws' strength")
     grid = Grid(heights.shape, scene.lengths, threads)
-    compliance = scene.coupled_compliance(grid)
+    compliance = relative_compliance(scene.lower.elasticity, scene.upper.elasticity, grid, scene.components)
     derived = None
     if len(scene.exerted) < len(scene.components):
         derived, compliance = compliance.slip(), compliance.without_shear()

@@ -28,7 +28,6 @@ from contactsim.grid import Array, Grid, Operator, Tally
 from contactsim.laws import HardWall, Law
 from contactsim.loading import LoadPath, LoadStep
 from contactsim.surface import Surface
-from contactsim.symbols import Normal, Symbol
 from contactsim.traits import Trait
 
 FLATTEST = 1e-10
@@ -109,25 +108,6 @@ class Scene:
     def compliance(self, wavenumber: Array) -> Array:
         """Sum of the bodies' compliances at each |q| (rad/nm), nm/GPa."""
         return sum(body.compliance(wavenumber) for body in self.elasticities)
-
-    def coupled_compliance(self, grid: Grid) -> Symbol:
-        """Sum of the bodies' compliances for the components that exist, each |q| of a line, nm/GPa.
-
-        The upper body is a mirror image. The shortest wave of an even grid has no sideways part.
-        """
-        lower, upper = (body.elasticity for body in (self.lower, self.upper))
-        parts = [self._response(lower, grid.wavenumber)] if lower else []
-        parts += [self._response(upper, grid.wavenumber).mirrored()] if upper else []
-        total = reduce(type(parts[0]).__add__, parts)
-        if len(self.components) > 1 and grid.size % 2 == 0:
-            total.coupling[-1] = 0.0
-        return total
-
-    def _response(self, body: Elasticity, wavenumber: Array) -> Symbol:
-        """The compliance of one body for the components that exist."""
-        if len(self.components) > 1:
-            return body.coupled_compliance(wavenumber)
-        return Normal(body.compliance(wavenumber)[None])
 
     def heights(self, points: int) -> Array:
         """Sum of both surfaces' heights, each positive towards the other, `points` along x, (n,) or (ny, nx), nm."""
