@@ -213,6 +213,14 @@ def test_bodies_without_a_ratio_or_a_base_are_refused():
         assert caught.value.key == key
 
 
+def test_a_part_of_the_fields_is_what_lies_between():
+    found = hertz(0.3, 256, 8.0, np.linspace(0, 3, 12))
+    part = found.between(2.0, 6.0)
+    assert part.position.min() == 2.0 and part.position.max() == 6.0
+    assert np.array_equal(part.stress, found.stress[..., 64:193])
+    assert np.array_equal(part.displacement, found.displacement[..., 64:193])
+
+
 def test_a_map_shows_each_stress_on_a_scale_symmetric_about_zero():
     found = hertz(0.3, 256, 8.0, np.linspace(0, 3, 12))
     figure, axes = plt.subplots(1, 3)

@@ -49,6 +49,11 @@ class Fields:
     displacement: Array
     stress: Array
 
+    def between(self, left: float, right: float) -> Fields:
+        """The part from one position to another (nm)."""
+        shown = (self.position >= left) & (self.position <= right)
+        return Fields(self.position[shown], self.depth, self.displacement[..., shown], self.stress[..., shown])
+
     @property
     def largest_shear(self) -> Array:
         """Largest shear stress in the plane, (depth, n), GPa."""
