@@ -10,13 +10,15 @@ import pytest
 from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
-errors traits grid roughness scans measured topography surface elasticity laws loading scene
-solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
+errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws loading scene
+interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
-observables analytic provenance dataset config build study march extrapolation aggregate costs joblog takes findings
-claims api hazards.cases hazards.lines hazards.surfaces hazards stability plan compare explain cost precision
+solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.predictor follow
+observables adhesion analytic provenance dataset config build schema study branch march extrapolation aggregate costs
+joblog takes findings claims api hazards.cases hazards.lines hazards.surfaces hazards stability plan compare explain
+cost precision
 figures figures.style figures.maps figures.resolution figures.ch3 figures.ch5 figures.stability figures.render
-figures.claims figures.accuracy figures.sketch cli
+figures.claims figures.accuracy figures.sketch figures.stress cli
 """.split()
 """Modules in import order: each may import those before it."""
 

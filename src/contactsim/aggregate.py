@@ -15,6 +15,7 @@ from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
 from contactsim import analytic, dataset, extrapolation
+from contactsim.adhesion import SUMMARY, summarised
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.observables import proportionality
@@ -47,6 +48,8 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     runs: path, coordinates, member, companion and tight of each; settings: of the study; source: digest of the code.
     """
     fine = _read([run for run in runs if not run["companion"]])
+    if "step" in fine.dims:
+        return dataset.stamped(dataset.described(_paths(fine, runs)), settings["title"], settings, source)
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
         size, gradient = ROUND["length_y" in fine]
@@ -89,7 +92,20 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
     for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
-    return _derived(data)
+    return data if "step" in data.dims else _derived(data)
+
+
+def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
+    """Paths with what they amount to, and its change on halving the grid and on solving more tightly."""
+    data = summarised(fine)
+    for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
+        others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]
+        if others:
+            other = summarised(_read(others))
+            same = data.sel(member=other.member)
+            changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY}
+            data = data.assign({f"{name}{suffix}": change for name, change in changes.items()})
+    return data
 
 
 def _read(runs: list[dict]) -> xr.Dataset:

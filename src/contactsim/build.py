@@ -9,7 +9,7 @@ from contactsim.elasticity import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
 from contactsim.laws import EFFECTS
-from contactsim.loading import LoadPath
+from contactsim.loading import LoadPath, LoadStep
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
@@ -17,16 +17,34 @@ from contactsim.traits import Trait
 
 
 def scene_of(settings: dict) -> Scene:
-    """The scene of a run: a flat elastic body below, the rigid surface above, pressed through all loads."""
-    surface, body = (dict(settings[name]) for name in ("surface", "body"))
+    """The scene of a run: a flat elastic body below, the surface above, rigid or not, taken through all loads."""
+    surface = dict(settings["surface"])
     kind = SURFACES[surface.pop("kind")]
     if kind is SelfAffine:
         surface["rng"] = generator(settings["seed"], settings["study"], surface["hurst"], settings["member"])
     upper = kind(**surface)
-    elasticity = ELASTICITIES[body.pop("kind")](**body)
-    effects = tuple(EFFECTS[name]() for name in settings["effects"])
+    elasticity = elastic(settings["body"])
+    counter = None if settings.get("counter_body") is None else elastic(settings["counter_body"])
+    effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
     path = load_path(settings, upper, elasticity)
-    return Scene(Body(Flat.facing(upper), elasticity), Body(upper), effects, path)
+    return Scene(Body(Flat.facing(upper), elasticity), Body(upper, counter), effects, path)
+
+
+def elastic(settings: dict) -> Elasticity:
+    """A body from its settings, by contact modulus E* or, with a Poisson's ratio ν, by Young's modulus E = (1-ν²)E*."""
+    given = {name: value for name, value in settings.items() if name not in ("kind", "youngs_modulus")}
+    young = settings.get("youngs_modulus")
+    if (young is None) == (given.get("contact_modulus") is None):
+        both = {name: settings.get(name) for name in ("contact_modulus", "youngs_modulus")}
+        raise SceneError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
+    if young is not None:
+        ratio = given.get("poisson_ratio")
+        if ratio is None:
+            raise SceneError("poisson_ratio", None, "a number, where Young's modulus is given")
+        if not young > 0:
+            raise SceneError("youngs_modulus", young, "a positive, finite number in GPa")
+        given["contact_modulus"] = young / (1 - ratio**2)
+    return ELASTICITIES[settings["kind"]](**given)
 
 
 def points_of(settings: dict, surface: Surface) -> int:
@@ -38,13 +56,16 @@ def points_of(settings: dict, surface: Surface) -> int:
 
 
 def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadPath:
-    """Mean pressures from the loads as the study gives them.
+    """The steps of a path as they are; else mean pressures from the loads as the study gives them.
 
     reduced_pressure: times E* and the rms gradient, of self-affine heights that of the band-limited profile, of others
     that of their differences on the grid; contact_ratio: what a cylinder needs for a half-width, or a sphere for a
     contact radius, of that part of its radius on a half-space (Eq. 3.5).
     """
     contact_modulus = elasticity.contact_modulus
+    if "control" in settings["load"]:
+        control = Trait[settings["load"]["control"].upper()]
+        return LoadPath(tuple(LoadStep(control, value) for value in settings["load"]["values"]))
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":

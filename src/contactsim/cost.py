@@ -83,7 +83,7 @@ class Case:
     @property
     def selection(self) -> dict[str, list]:
         """What is priced of the study's dataset: values by dimension, those left out whole."""
-        return {dataset.dimension(*name.split(".", 1)): values for name, values in self.settings["vary"].items()}
+        return {dataset.dimension(name): values for name, values in self.settings["vary"].items()}
 
     def jobs(self) -> list[str]:
         """The jobs of a case: its reference and its solvers, as far as they are installed."""

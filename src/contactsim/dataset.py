@@ -42,6 +42,11 @@ SETTINGS = {
     "poisson_ratio": ("1", "Poisson's ratio"),
     "thickness": ("nm", "thickness"),
     "kind": ("1", "kind"),
+    "youngs_modulus": ("GPa", "Young's modulus"),
+    "work_of_separation": ("N/m", "normal work of separation"),
+    "work_ratio": ("1", "tangential over normal work of separation"),
+    "normal_length": ("nm", "normal characteristic length"),
+    "tangential_length": ("nm", "tangential characteristic length"),
 }
 """Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""
 
@@ -102,6 +107,35 @@ VARIABLES = {
     "tolerance": ("1", "tolerance, in grid steps"),
     "taken": ("1", "whether the solver takes scenes of the hazard's dimension"),
     "harder": ("1", "what gets harder with the severity"),
+    "step": ("1", "step of the path"),
+    "snapshot": ("nm", "approach or mean pressure at which fields are kept"),
+    "x": ("nm", "position along x"),
+    "approach": ("nm", "approach"),
+    "line_load": ("N/m", "load, compression positive"),
+    "friction_force": ("N/m", "tangential force"),
+    "repulsive_length": ("nm", "length of the contact under repulsion"),
+    "interacting_length_tenth": ("nm", "length over which the traction exceeds a tenth of the strength"),
+    "interacting_length_hundredth": ("nm", "length over which the traction exceeds a hundredth of the strength"),
+    "interacting_length_thousandth": ("nm", "length over which the traction exceeds a thousandth of the strength"),
+    "smallest_gap": ("nm", "smallest gap"),
+    "overclosure": ("1", "deepest overlap, over the normal characteristic length"),
+    "slip": ("1", "largest tangential gap under repulsion, over the tangential characteristic length"),
+    "residual": ("1", "largest residual traction, over the strength of the laws (recomputed; none if interpolated)"),
+    "jump": ("nm", "how far the surface jumped since the step before"),
+    "control": ("1", "what the path prescribes"),
+    "strength": ("GPa", "strength of the laws"),
+    "pull_off_load_loading": ("N/m", "largest pull on loading"),
+    "pull_off_load_unloading": ("N/m", "largest pull on unloading"),
+    "pull_off_approach_loading": ("nm", "approach of the largest pull on loading"),
+    "pull_off_approach_unloading": ("nm", "approach of the largest pull on unloading"),
+    "final_repulsive_length": ("nm", "length of the contact under repulsion at the largest approach"),
+    "final_load": ("N/m", "load at the largest approach"),
+    "normal_gap": ("nm", "normal gap"),
+    "tangential_gap": ("nm", "tangential gap"),
+    "normal_displacement": ("nm", "normal displacement of the lower relative to the upper surface"),
+    "tangential_displacement": ("nm", "tangential displacement of the lower relative to the upper surface"),
+    "normal_traction": ("GPa", "normal traction, pull positive"),
+    "tangential_traction": ("GPa", "tangential traction"),
     "profile_real": ("nm", "real part of the profile's Fourier coefficients"),
     "profile_imag": ("nm", "imaginary part of the profile's Fourier coefficients"),
 }
@@ -113,7 +147,9 @@ def described(data: xr.Dataset) -> xr.Dataset:
     for name in data.variables:
         base, kind = base_name(str(name))
         unit, text = (
-            VARIABLES.get(base) or SETTINGS.get(re.sub("^(surface|body|solver)_", "", base)) or ("1", f"option {base}")
+            VARIABLES.get(base)
+            or SETTINGS.get(re.sub("^(surface|body|counter_body|solver)_", "", base))
+            or ("1", f"option {base}")
         )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
     if "status" in data:
@@ -124,9 +160,10 @@ def described(data: xr.Dataset) -> xr.Dataset:
 
 
 def dimension(key: str) -> str:
-    """Name of the dimension along which a key of a study is varied: its last part, unless a result has that name."""
+    """Name of the dimension along which a key of a study is varied: its last part, unless something else has it."""
     section, _, last = key.rpartition(".")
-    return f"{section}_{last}" if section and (last in VARIABLES or last == "kind") else last
+    own = last in VARIABLES or last == "kind" or section == "counter_body"
+    return f"{section}_{last}" if section and own else last
 
 
 SUFFIXES = {

@@ -87,7 +87,8 @@ def _body(scene: Scene, side: str) -> str:
     if body.elasticity is None:
         return f"{kind}, rigid"
     others = [entry.name for entry in fields(body.elasticity) if entry.name != "contact_modulus"]
-    named = "".join(f", {_setting(name, getattr(body.elasticity, name))}" for name in others)
+    given = {name: getattr(body.elasticity, name) for name in others}
+    named = "".join(f", {_setting(name, value)}" for name, value in given.items() if value is not None)
     return f"{kind}, {type(body.elasticity).__name__} with E* = {body.elasticity.contact_modulus:g} GPa{named}"
 
 

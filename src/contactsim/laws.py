@@ -1,14 +1,56 @@
 """What acts at the interface, one small frozen class each.
 
 Effects add: a scene lists them and the traction is their sum. The hard wall is the limit of infinite stiffness: not a
-traction as a function of the gap but an inequality, whose pressure is an unknown.
+traction as a function of the gap but an inequality, whose pressure is an unknown. A law gives the traction at each
+point from the gap there. Normal traction is positive where it pulls the bodies together; tangential traction is
+positive where it opposes a positive tangential gap.
+
+The mixed-mode law (Eq. 2.17) has no potential: the cross derivatives of its two tractions differ by
+
+    (2 Δt/(δn δt²)) exp(-Δn/δn - Δt²/δt²) (φt - φn Δn/δn),
+
+so nothing that minimises an energy can solve it. Its repulsion scales with the work of separation as well, so a work
+that tends to zero is no contact, not a hard wall. Below OVERCLOSED characteristic lengths the exponential in Δn, which
+would overflow at a bad first guess, is continued by its tangent; no solution of physical interest gets there.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
+import numpy as np
+
+from contactsim.errors import SceneError, is_number
+from contactsim.grid import Array
 from contactsim.traits import Trait
+
+OVERCLOSED = 10.0
+"""Overlap, in characteristic lengths, beyond which a law is continued by its tangent."""
+
+
+class Law(Protocol):
+    """One effect given as traction against gap, point by point.
+
+    reads, exerts: components of the gap it depends on and of the traction it exerts; strength (GPa) and stiffness
+    (GPa/nm): the largest pull and the largest tangent, by which tolerances and steps are measured; reach (nm): the
+    length over which it changes, normal.
+    """
+
+    reads: frozenset[str]
+    exerts: frozenset[str]
+    traits: frozenset[Trait]
+    strength: float
+    stiffness: float
+    reach: float
+
+    def traction(self, gap: Array) -> Array:
+        """Traction (exerts, n), GPa, at a gap (reads, n), nm; rows in the order n, t."""
+        ...
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Traction (exerts, n), GPa, and its derivatives (exerts, reads, n), GPa/nm."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -20,4 +62,155 @@ class HardWall:
     traits = frozenset({Trait.WALL})
 
 
-EFFECTS = {"hard_wall": HardWall}
+@dataclass(frozen=True)
+class CohesiveZone:
+    """Mixed-mode cohesive zone (Eq. 2.17), after McGarry et al., J. Mech. Phys. Solids 63 (2014).
+
+    work_of_separation φn > 0 in N/m; work_ratio c = φt/φn ≥ 0 (Eq. 2.16); normal_length δn, tangential_length δt in nm.
+    At c = 0 it is frictionless: it exerts no shear, yet its normal traction reads the tangential gap.
+    """
+
+    work_of_separation: float
+    work_ratio: float = 0.0
+    normal_length: float = 1.0
+    tangential_length: float = 1.0
+    reads = frozenset({"n", "t"})
+
+    def __post_init__(self) -> None:
+        _check_positive(self, "work_of_separation", "normal_length", "tangential_length")
+        if not (is_number(self.work_ratio) and self.work_ratio >= 0):
+            raise SceneError("work_ratio", self.work_ratio, "0 or a positive number")
+
+    @property
+    def tangential_work(self) -> float:
+        """Tangential work of separation φt, N/m."""
+        return self.work_ratio * self.work_of_separation
+
+    @property
+    def exerts(self) -> frozenset[str]:
+        """Normal traction, and tangential traction where there is work to be done."""
+        return frozenset({"n", "t"} if self.tangential_work else {"n"})
+
+    @property
+    def traits(self) -> frozenset[Trait]:
+        """A smooth law without a potential."""
+        return frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
+
+    @property
+    def strength(self) -> float:
+        """Largest normal traction φn/(e δn) (Eq. 2.18), GPa."""
+        return self.work_of_separation / self.normal_length / np.e
+
+    @property
+    def stiffness(self) -> float:
+        """Largest tangent of the two at zero gap, GPa/nm."""
+        return max(
+            self.work_of_separation / self.normal_length**2, 2 * self.tangential_work / self.tangential_length**2
+        )
+
+    @property
+    def reach(self) -> float:
+        """Length over which the normal traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Traction (1 or 2, n), GPa, at a gap (2, n), nm."""
+        normal, tangential = gap[0] / self.normal_length, gap[1] / self.tangential_length
+        decay = _decay(normal)[0] * np.exp(-(tangential**2))
+        pull = self.work_of_separation / self.normal_length * normal * decay
+        if not self.tangential_work:
+            return pull[None]
+        return np.stack((pull, 2 * self.tangential_work / self.tangential_length * tangential * decay))
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
+        normal, tangential = gap[0] / self.normal_length, gap[1] / self.tangential_length
+        decay, slope = _decay(normal)
+        shear = np.exp(-(tangential**2))
+        slope, decay = slope * shear, decay * shear
+        size = self.work_of_separation / self.normal_length
+        traction = np.empty((len(self.exerts), gap.shape[1]))
+        derivative = np.empty((len(self.exerts), *gap.shape))
+        traction[0] = size * normal * decay
+        derivative[0, 0] = size / self.normal_length * (decay + normal * slope)
+        derivative[0, 1] = -2 / self.tangential_length * tangential * traction[0]
+        if self.tangential_work:
+            size = 2 * self.tangential_work / self.tangential_length
+            traction[1] = size * tangential * decay
+            derivative[1, 0] = size / self.normal_length * tangential * slope
+            derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * decay
+        return traction, derivative
+
+
+@dataclass(frozen=True)
+class NormalCohesiveZone:
+    """Cohesive zone of the normal gap alone, uncoupled (Eq. 4.1).
+
+    work_of_separation φn > 0 in N/m, normal_length δn in nm. It has a potential.
+    """
+
+    work_of_separation: float
+    normal_length: float = 1.0
+    reads = frozenset({"n"})
+    exerts = frozenset({"n"})
+    traits = frozenset({Trait.SMOOTH})
+
+    def __post_init__(self) -> None:
+        _check_positive(self, "work_of_separation", "normal_length")
+
+    @property
+    def strength(self) -> float:
+        """Largest traction φn/(e δn), GPa."""
+        return self.work_of_separation / self.normal_length / np.e
+
+    @property
+    def stiffness(self) -> float:
+        """Tangent at zero gap φn/δn², GPa/nm."""
+        return self.work_of_separation / self.normal_length**2
+
+    @property
+    def reach(self) -> float:
+        """Length over which the traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Traction (1, n), GPa, at a gap (1, n), nm."""
+        normal = gap / self.normal_length
+        return self.work_of_separation / self.normal_length * normal * _decay(normal)[0]
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
+        normal = gap / self.normal_length
+        decay, slope = _decay(normal)
+        size = self.work_of_separation / self.normal_length
+        return size * normal * decay, (size / self.normal_length * (decay + normal * slope))[None]
+
+    def energy(self, gap: Array) -> Array:
+        """Potential of the traction (n,), N/m, zero far apart: -φn (1 + Δn/δn) exp(-Δn/δn)."""
+        normal = gap[0] / self.normal_length
+        inside = np.maximum(normal, -OVERCLOSED)
+        energy = -self.work_of_separation * (1 + inside) * np.exp(-inside)
+        beyond = normal - inside
+        rate = np.exp(OVERCLOSED)
+        more = rate * beyond * (-OVERCLOSED + beyond * ((1 + OVERCLOSED) / 2 - beyond / 3))
+        return energy + self.work_of_separation * more
+
+
+def _decay(normal: Array) -> tuple[Array, Array]:
+    """exp(-y), below -OVERCLOSED its tangent there; and its derivative."""
+    decay = np.exp(-np.maximum(normal, -OVERCLOSED))
+    slope = -decay
+    if normal.min() < -OVERCLOSED:
+        decay = decay + slope * np.minimum(normal + OVERCLOSED, 0)
+    return decay, slope
+
+
+def _check_positive(law: object, *names: str) -> None:
+    for name in names:
+        value = getattr(law, name)
+        if not (is_number(value) and value > 0):
+            unit = "N/m" if name == "work_of_separation" else "nm"
+            raise SceneError(name, value, f"a positive, finite number in {unit}")
+
+
+EFFECTS = {"hard_wall": HardWall, "cohesive_zone": CohesiveZone, "normal_cohesive_zone": NormalCohesiveZone}

@@ -30,8 +30,6 @@ class LoadStep:
         key = "mean_pressure" if pressure else "approach"
         if not is_number(self.value):
             raise SceneError(key, self.value, "a finite number")
-        if pressure and self.value < 0:
-            raise SceneError(key, self.value, "0 or more, in GPa: without adhesion nothing can pull")
 
     @property
     def text(self) -> str:
@@ -64,3 +62,9 @@ def press(mean_pressures: Sequence[float], labels: Sequence[str] = ()) -> LoadPa
 def approach(approaches: Sequence[float]) -> LoadPath:
     """A path through approaches (nm)."""
     return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in approaches))
+
+
+def leg(control: Trait, begin: float, end: float, increment: float) -> LoadPath:
+    """From a value, exclusive, to another, inclusive, in equal increments of about that size."""
+    count = max(round(abs(end - begin) / increment), 1)
+    return LoadPath(tuple(LoadStep(control, begin + (end - begin) * k / count) for k in range(1, count + 1)))

@@ -23,6 +23,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.branch import options, simulate_path
 from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
@@ -32,6 +33,7 @@ from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene, pose
 from contactsim.solvers import solver, usual
 from contactsim.solvers.base import Result, Solver, require, sentence, solve
+from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
 
@@ -54,14 +56,22 @@ def simulate(
     threads: int = 1,
     keep: Sequence[str] = KEPT[:-1],
     known: Mapping[int, Point] | None = None,
+    **path: object,
 ) -> xr.Dataset:
     """Follow a scene's load path; the workflow's runs are this function.
 
     points: of the grid along x, None for those of a measured surface; tolerance: in grid steps; method: a solver or
     the name of one, None for the usual one; keep: of `KEPT`; known: points that need not be solved again, by step.
+    Smooth laws are followed along the path (see `simulate_path` for what else that takes), and tolerance is in parts of
+    their strength.
     Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
     reproducible.
     """
+    if Trait.SMOOTH in scene.traits:
+        method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
+        require(method, scene)
+        points = points or scene.upper.surface.points
+        return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
     known = known or {}
     heights = scene.heights(points or scene.upper.surface.points)
     method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
@@ -93,15 +103,17 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     scene = scene_of(settings)
     load, values = settings["load"]["name"], settings["load"]["values"]
     names = [digest(settings | {"load": load}, value, source) for value in values]
-    earlier = _earlier(target, costs)
+    follows = "control" in settings["load"]
+    earlier = {} if follows else _earlier(target, costs)
+    chosen = options(settings) if follows else {"keep": settings["keep"]}
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),
         tolerance=settings["tolerance"],
         method=solver(**settings["solver"]),
         threads=threads,
-        keep=settings["keep"],
         known={step: earlier[name] for step, name in enumerate(names) if name in earlier},
+        **chosen,
     )
     seconds = data.seconds.values.tolist()
     title = f"contactsim run of {settings['study']}"
@@ -122,6 +134,7 @@ def peak_memory() -> float:
 def labelled(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
     """A simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
     load, values = settings["load"]["name"], settings["load"]["values"]
+    values = np.arange(len(values)) if load == "step" else values
     data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
     return dataset.described(data.assign(seed=settings["seed"], point=(load, np.array(names, object))))
 

@@ -25,7 +25,7 @@ import numpy as np
 from contactsim.elasticity import Elasticity
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Operator, Tally
-from contactsim.laws import HardWall
+from contactsim.laws import HardWall, Law
 from contactsim.loading import LoadPath, LoadStep
 from contactsim.surface import Surface
 from contactsim.traits import Trait
@@ -54,14 +54,14 @@ class Scene:
 
     lower: Body
     upper: Body
-    effects: tuple[HardWall, ...]
+    effects: tuple[HardWall | Law, ...]
     path: LoadPath
 
     def __post_init__(self) -> None:
         if not self.elasticities:
             raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
-        if not any(Trait.WALL in effect.traits for effect in self.effects):
-            raise SceneError("effects", self.effects, "at least one that resists overlap: hard_wall")
+        if not self.effects:
+            raise SceneError("effects", self.effects, "at least one, which resists overlap")
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise SceneError("length", lengths, "the same periods for both surfaces")
@@ -75,6 +75,12 @@ class Scene:
     def components(self) -> tuple[str, ...]:
         """Displacement components that exist: those that an effect reads or exerts."""
         used = reduce(frozenset.union, (effect.reads | effect.exerts for effect in self.effects))
+        return tuple(component for component in ("n", "t") if component in used)
+
+    @cached_property
+    def exerted(self) -> tuple[str, ...]:
+        """Components in which an effect exerts traction: the unknowns; those only read are derived from them."""
+        used = reduce(frozenset.union, (effect.exerts for effect in self.effects))
         return tuple(component for component in ("n", "t") if component in used)
 
     @cached_property
@@ -254,6 +260,8 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     """The problem that a scene poses at one load step on the grid of `heights`, nm; and its units."""
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
+    if step.control is Trait.MEAN_PRESSURE and step.value < 0:
+        raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     overlap = step.value + highest  # beyond first touch, if it is an approach

@@ -9,57 +9,18 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from contactsim import dataset
 from contactsim.build import points_of, scene_of
-from contactsim.config import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
-from contactsim.elasticity import ELASTICITIES
+from contactsim.config import Key, choice, keys_of, read
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
-from contactsim.observables import KEPT
 from contactsim.provenance import digest, source_digest, versions
-from contactsim.solvers import SOLVERS, module_of, solver, solver_class, usual_kind
+from contactsim.schema import BODIES, COMPANION_KEYS, KINDS, MODULI, STUDY_KEYS, TIGHT_KEYS, read_load, usual_solver
+from contactsim.solvers import module_of, solver
 from contactsim.solvers.base import require
-from contactsim.surface import SURFACES, Flat
-from contactsim.traits import Trait
-
-LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
-KINDS: dict[str, tuple[Mapping[str, object], Callable[[str], type]]] = {
-    "surface": (SURFACES, SURFACES.__getitem__),
-    "body": (ELASTICITIES, ELASTICITIES.__getitem__),
-    "solver": (SOLVERS, solver_class),
-}
-"""Sections whose `kind` decides which keys they have: the kinds there are, and the class of each."""
-
-STUDY_KEYS = {
-    "title": Key(text, "a line of text"),
-    "surface": Key(mapping, "a mapping with `kind` and that kind's keys"),
-    "body": Key(mapping, "a mapping with `kind` and that kind's keys"),
-    "effects": Key(listed(choice(EFFECTS)), f"a list from {sorted(EFFECTS)}"),
-    "load": Key(mapping, f"a mapping with one of {', '.join(LOADS)} and its list of values"),
-    "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
-    "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
-    "surfaces_of": Key(text, "the name of a study of this chapter with the same random surfaces", None),
-    "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
-    "members": Key(whole(1), "a whole number, 1 or more", 1),
-    "companion": Key(mapping, "a mapping with `points` and `members`", None),
-    "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
-    "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
-    "tolerance": Key(positive, "a positive number of grid steps"),
-    "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
-    "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
-}
-COMPANION_KEYS = {
-    "points": Key(whole(2), "a whole number of grid points, fewer than the study's"),
-    "members": Key(whole(1), "a whole number, at most the study's members"),
-}
-TIGHT_KEYS = {
-    "tolerance": Key(positive, "a positive number of grid steps, below the study's"),
-    "members": COMPANION_KEYS["members"],
-}
 
 
 @dataclass(frozen=True)
@@ -107,10 +68,14 @@ class Study:
         """Check a section of a chapter's config, down to the scene of every variant."""
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
-        settings["load"] = _load(settings["load"], file, f"{prefix}.load")
+        settings["load"] = read_load(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
-        settings["solver"] = {"kind": _usual(settings["surface"])} | settings["solver"]
+        settings["solver"] = {"kind": usual_solver(settings)} | settings["solver"]
+        for effect in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])):
+            if settings[effect]:
+                allowed = f"no such section, as effects are {', '.join(settings['effects'])}"
+                raise SceneError(f"{prefix}.{effect}", settings[effect], allowed, file)
         for part, keys, knob in (("companion", COMPANION_KEYS, "points"), ("tight", TIGHT_KEYS, "tolerance")):
             if settings[part] is None:
                 continue
@@ -181,20 +146,22 @@ class Study:
 
     def _run(self, varied: dict, member: int, change: dict) -> Run:
         """The run of one variant and member; change: points or tolerance of a run that measures their error."""
-        parts = {name: self._part(name, self.settings[name]) for name in KINDS}
-        sections, grid = {name: self.settings[name] for name in KINDS}, {"points": self.settings["points"]}
+        sections = {name: self.settings[name] for name in self._sections()}
+        parts = {name: self._part(name, section) for name, section in sections.items()}
+        grid = {"points": self.settings["points"]}
         for name, value in varied.items():
             if name == "points":
                 grid = read({name: value}, {name: STUDY_KEYS[name]}, self.file, f"studies.{self.name}.vary")
                 continue
             head, _, tail = str(name).partition(".")
             if tail not in parts.get(head, ()):
-                known = ", ".join(f"{part}.{key}" for part in KINDS for key in parts[part] if key != "kind")
+                known = ", ".join(f"{part}.{key}" for part in parts for key in parts[part] if key != "kind")
                 allowed = f"a key of this study: points, {known}"
                 raise SceneError(f"studies.{self.name}.vary", name, allowed, self.file)
             sections[head] = sections[head] | {tail: value}
         parts = {name: self._part(name, section) for name, section in sections.items()}
-        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", "keep")} | grid | change
+        kept = "snapshots" if self.settings["path"] is not None else "keep"
+        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", kept)} | grid | change
         drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
         settings = drawn | shared | parts
         if "file" in parts["surface"]:
@@ -203,14 +170,26 @@ class Study:
         variant = digest(varied, *change.values() or [None])[:8]
         return Run(self.name, variant, member, coordinates, settings, bool(change), "tolerance" in change)
 
+    def _sections(self) -> list[str]:
+        """Names of the sections that this study's runs depend on."""
+        path = ["increments"] if self.settings["path"] is not None else []
+        counter = ["counter_body"] if self.settings["counter_body"] is not None else []
+        laws = [name for name in self.settings["effects"] if name in self.settings]
+        return ["surface", "body", *counter, "solver", *path, *laws]
+
     def _part(self, name: str, section: dict) -> dict:
-        """A section whose `kind` decides which keys it has, with the defaults filled in."""
-        known, class_of = KINDS[name]
+        """A section with the defaults filled in; its keys are those of its `kind`, or of the effect it is named for."""
         prefix = f"studies.{self.name}.{name}"
+        if name in EFFECTS:
+            return read(section, keys_of(EFFECTS[name]), self.file, prefix)
+        known, class_of = KINDS[name]
         kind = Key(choice(known), f"one of {', '.join(sorted(known))}")
         given = {"kind": section["kind"]} if "kind" in section else {}
         chosen = read(given, {"kind": kind}, self.file, prefix)["kind"]
-        return read(section, {"kind": kind} | keys_of(class_of(chosen)), self.file, prefix)
+        keys = {"kind": kind} | keys_of(class_of(chosen)) | (MODULI if name in BODIES else {})
+        return {
+            key: value for key, value in read(section, keys, self.file, prefix).items() if key not in MODULI or value
+        }
 
     def _file_digest(self, path: str) -> str:
         """Digest of a measured surface's file, so that a changed file is pressed anew."""
@@ -227,23 +206,5 @@ class Study:
             require(solver(**run.settings["solver"]), scene)
             scene.upper.surface.check(points_of(run.settings, scene.upper.surface))
         except SceneError as error:
-            section = next((f".{name}" for name in KINDS if error.key in run.settings[name]), "")
+            section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error
-
-
-def _usual(surface: dict) -> str:
-    """The kind of solver for a surface's dimension; a surface that is wrong is refused later."""
-    kind = SURFACES.get(str(surface.get("kind")), Flat)
-    dimensions = surface.get("dimensions", getattr(kind, "dimensions", 1))
-    return usual_kind(frozenset({Trait.SURFACE if dimensions == 2 else Trait.LINE}))
-
-
-def _load(section: dict, file: object, prefix: str) -> dict:
-    values = Key(listed(number), "a list of numbers, none twice", None)
-    given = {name: value for name, value in read(section, dict.fromkeys(LOADS, values), file, prefix).items() if value}
-    if len(given) != 1:
-        raise SceneError(prefix, section, f"exactly one of {', '.join(LOADS)}", file)
-    ((name, numbers),) = given.items()
-    if min(numbers) <= 0:
-        raise SceneError(f"{prefix}.{name}", min(numbers), "numbers above 0", file)
-    return {"name": name, "values": sorted(numbers)}

@@ -15,6 +15,8 @@ class Trait(Enum):
     LINE = "line contact: surfaces vary along one direction"
     SURFACE = "surface contact: surfaces vary along two directions"
     WALL = "hard wall: the gap is never negative, the pressure never pulls"
+    SMOOTH = "smooth law: traction is a function of the gap"
+    NON_CONSERVATIVE = "a law without a potential: there is no energy to minimise"
     HALF_SPACE = "half-space: the mean displacement is free, so the uniform mode has no stiffness"
     LAYER = "layer on a rigid base: long waves meet a stiffness that depends on thickness and Poisson's ratio"
     MEAN_PRESSURE = "load step given by a mean pressure"

@@ -19,9 +19,10 @@ SOLVERS = {
     "verlet": "contactsim.solvers.verlet:WallVerlet",
     "tamaas": "contactsim.solvers.tamaas:Tamaas",
     "conjugate_gradients": "contactsim.solvers.conjugate_gradients:NestedConjugateGradients",
+    "newton": "contactsim.solvers.newton:NewtonKrylov",
 }
-USUAL = {Trait.LINE: "active_set", Trait.SURFACE: "conjugate_gradients"}
-"""What is used where nothing is asked for, by the dimension of the scene."""
+USUAL = {Trait.SMOOTH: "newton", Trait.LINE: "active_set", Trait.SURFACE: "conjugate_gradients"}
+"""What is used where nothing is asked for, by the first of these traits that the scene has."""
 PEERS = {"tamaas": "tamaas"}
 """Solvers that need a package which contactsim does not."""
 

@@ -26,6 +26,8 @@ class Status(Enum):
     CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
     BUDGET = (1, "not converged: the budget of iterations is spent")
     NON_FINITE = (2, "failed: a value that is not finite appeared")
+    PULLED_OFF = (3, "no equilibrium: the load pulls the bodies apart")
+    BROKEN_OFF = (4, "not tried: the path broke off before")
 
     @property
     def sentence(self) -> str:

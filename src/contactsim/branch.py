@@ -1,0 +1,126 @@
+"""A path through states of smooth laws, as a dataset: numbers at every step, fields at some."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.adhesion import state_observables
+from contactsim.follow import INCREMENTS, PathState, Requested
+from contactsim.grid import Array
+from contactsim.interface import InterfaceProblem, pose_interface
+from contactsim.loading import LoadStep
+from contactsim.scene import Scene
+from contactsim.solvers.equilibrium import PathSolver
+from contactsim.traits import Trait
+
+logger = logging.getLogger(__name__)
+
+GAPS = ("normal_gap", "tangential_gap")
+DISPLACEMENTS = ("normal_displacement", "tangential_displacement")
+TRACTIONS = ("normal_traction", "tangential_traction")
+LINES = 40
+"""About how many lines a path writes into its log."""
+
+
+def simulate_path(
+    scene: Scene,
+    method: PathSolver,
+    *,
+    points: int,
+    tolerance: float,
+    threads: int = 1,
+    increments: object = None,
+    snapshots: Sequence[float] | None = None,
+) -> xr.Dataset:
+    """Follow a scene's load path and return one dataset with dimension `step`.
+
+    tolerance: in parts of the laws' strength; increments: of `follow.INCREMENTS`, as requested where None; snapshots:
+    approaches (nm) or mean pressures (GPa) whose first steps near them keep their fields.
+    """
+    heights, steps = scene.heights(points), scene.path.steps
+    problem = pose_interface(scene, heights, tolerance, threads)
+    kept = {_nearest(steps, value): value for value in snapshots or ()}
+    rows, fields, begin, total, seconds = [], {}, time.process_time(), 0.0, []
+    for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
+        total += state.transforms
+        seconds.append(time.process_time() - begin - sum(seconds))
+        here = problem.at(state.step)
+        gap = here.gap(state.displacement)
+        traction = here.traction(gap)
+        rows.append(_numbers(here, state, gap, traction))
+        if count in kept:
+            fields[count] = _fields(here, state, gap, traction)
+        if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
+            spent = time.process_time() - begin
+            logger.info(
+                "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s%s",
+                *(count + 1, len(steps), state.step.text, state.residual, total, spent),
+                spent / (count + 1) * (len(steps) - count - 1),
+                state.status.sentence,
+                f"; jumped {state.jump:.3g} nm" if state.jump else "",
+            )
+    return _collected(scene, heights, rows, fields).assign(seconds=("step", seconds))
+
+
+def options(settings: dict) -> dict:
+    """Increments and snapshots of a run's settings."""
+    given = dict(settings["increments"])
+    return {"increments": INCREMENTS[given.pop("kind")](**given), "snapshots": settings["snapshots"]}
+
+
+def _nearest(steps: Sequence[LoadStep], value: float) -> int:
+    """The first of the steps that are nearest to a value."""
+    return int(np.argmin(np.round([abs(step.value - value) for step in steps], 9)))
+
+
+def _numbers(problem: InterfaceProblem, state: PathState, gap: Array, traction: Array) -> dict[str, float]:
+    """What a step says: its datum, observables, and how it was found."""
+    approach = state.step.value
+    if problem.load is not None:
+        approach = problem.yielded - float(state.displacement[0, 0].real)
+    return {
+        "approach": approach,
+        **state_observables(problem, gap, traction),
+        "residual": state.residual,
+        "status": state.status.value[0],
+        "jump": state.jump,
+        "iterations": state.iterations,
+        "transforms": state.transforms,
+    }
+
+
+def _fields(problem: InterfaceProblem, state: PathState, gap: Array, traction: Array) -> dict[str, Array]:
+    """Gap, traction and displacement by component, each (n,)."""
+    moved = problem.field(state.displacement)
+    if problem.load is not None:  # its uniform mode is the gap's, approach included
+        moved[0] += problem.yielded - state.displacement[0, 0].real
+    parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
+    return {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
+
+
+def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int, dict[str, Array]]) -> xr.Dataset:
+    kinds = {"status": np.int8, "iterations": np.int32}
+    variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
+    coordinates = {}
+    if fields:
+        for name in next(iter(fields.values())):
+            variables[name] = (("snapshot", "x"), np.stack([one[name] for one in fields.values()]))
+        variables["heights"] = ("x", heights)
+        coordinates = {
+            "snapshot": np.array([scene.path.steps[count].value for count in fields]),
+            "x": np.arange(heights.size) * scene.length / heights.size,
+        }
+    variables |= {
+        "points": heights.size,
+        "length": scene.length,
+        "contact_modulus": scene.contact_modulus,
+        "control": scene.path.steps[0].control.name.lower(),
+        "strength": sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits),
+    }
+    return dataset.described(xr.Dataset(variables, coordinates))

@@ -1,0 +1,201 @@
+"""Smooth laws between two elastic bodies on a line: the problem they pose at one load step.
+
+The bodies are aligned, so one relative displacement v suffices: what the gap grows by when both surfaces give way. With
+C the sum of the bodies' compliances and T the traction of the laws,
+
+    v = -C T(g + v),   or   K v + T(g + v) = 0   with K = C⁻¹,
+
+where g is the gap of the undeformed bodies. The unknowns are the Fourier coefficients of v, in the components in which
+a law exerts traction; there K is diagonal in the wavenumber. A component that is read but not exerted, like the
+tangential gap of a frictionless coupled law, is no unknown: a surface free of shear follows the normal displacement by
+a factor a wavenumber. The stiffness is always inverted from the compliance of the exerted components: slicing the
+stiffness itself would hold the others fast.
+
+Normal approach enters as the uniform mode of the gap. Where the uniform compliance is zero (a half-space, by
+convention, and an incompressible layer) that mode of v is held at zero. Under a prescribed mean pressure the uniform
+mode of the gap is free, its stiffness zero, and the equation says that the law carries the load; the approach follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import ducc0
+import numpy as np
+
+from contactsim.elasticity import relative_compliance
+from contactsim.errors import SceneError, is_number
+from contactsim.grid import Array, Grid, Tally
+from contactsim.laws import Law
+from contactsim.loading import LoadStep
+from contactsim.scene import Scene
+from contactsim.symbols import Symbol
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """Derivative of the traction at each point, (exerted, read, n), GPa/nm; a linear map on coefficients."""
+
+    problem: InterfaceProblem
+    values: Array
+
+    def __call__(self, change: Array) -> Array:
+        """Change of the traction's coefficients (exerted, m) for one of the displacement's (exerted, m)."""
+        field = self.problem.field(change)
+        return self.problem.coefficients(contracted(self.values, field))
+
+
+def contracted(tangent: Array, field: Array) -> Array:
+    """Derivatives (exerted, read, n) times a change of the gap (read, n), summed over what is read: (exerted, n)."""
+    out = tangent[:, 0] * field[0]
+    for row in range(1, len(field)):
+        out += tangent[:, row] * field[row]
+    return out
+
+
+@dataclass(frozen=True)
+class InterfaceProblem:
+    """What smooth laws pose at one load step (see the module's text).
+
+    shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
+    derived: factor (m,) by which the tangential displacement follows the normal one, where it is read but not exerted;
+    approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work.
+    """
+
+    grid: Grid
+    shape: Array
+    laws: tuple[Law, ...]
+    stiffness: Symbol
+    derived: Array | None
+    tolerance: float
+    tally: Tally
+    approach: float | None = 0.0
+    load: float | None = None
+
+    @property
+    def unknowns(self) -> tuple[int, int]:
+        """Shape of the coefficients sought: exerted components and wavenumbers."""
+        return self.stiffness.diagonal.shape
+
+    @cached_property
+    def held(self) -> Array:
+        """Components whose uniform mode is no unknown, bool (exerted,)."""
+        held = self.stiffness.held[:, 0].copy()
+        held[0] &= self.load is None
+        return held
+
+    @property
+    def yielded(self) -> float:
+        """Mean displacement of the surfaces under the mean pressure, nm."""
+        uniform = float(self.stiffness.diagonal[0, 0])
+        return self.load / uniform if self.load is not None and uniform else 0.0
+
+    @cached_property
+    def strength(self) -> float:
+        """Sum of the laws' strengths, GPa."""
+        return sum(law.strength for law in self.laws)
+
+    @cached_property
+    def softening(self) -> float:
+        """Sum of the laws' largest tangents, GPa/nm."""
+        return sum(law.stiffness for law in self.laws)
+
+    @cached_property
+    def reach(self) -> float:
+        """Shortest length over which a law changes, nm."""
+        return min(law.reach for law in self.laws)
+
+    def at(self, step: LoadStep) -> InterfaceProblem:
+        """The same scene at another load step."""
+        if step.control is Trait.APPROACH:
+            return replace(self, approach=step.value)
+        return replace(self, approach=None, load=step.value)
+
+    def field(self, coefficients: Array) -> Array:
+        """Values (components, n) of a displacement (exerted, m), with the derived component."""
+        if self.derived is not None:
+            coefficients = np.concatenate((coefficients, self.derived * coefficients))
+        self.tally.add(len(coefficients), self.grid.size)
+        return ducc0.fft.c2r(
+            coefficients, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads
+        )
+
+    def coefficients(self, field: Array) -> Array:
+        """Fourier coefficients (rows, m) of values (rows, n)."""
+        self.tally.add(len(field), self.grid.size)
+        return ducc0.fft.r2c(field, axes=(1,), forward=True, inorm=2, nthreads=self.grid.threads)
+
+    def gap(self, displacement: Array) -> Array:
+        """The gap (components, n), nm, at the coefficients of a displacement (exerted, m)."""
+        gap = self.field(displacement)
+        gap += self.shape
+        if self.approach is not None:
+            gap[0] -= self.approach
+        return gap
+
+    def traction(self, gap: Array) -> Array:
+        """Sum of the laws' tractions (exerted, n), GPa."""
+        total = np.zeros((self.unknowns[0], gap.shape[1]))
+        for law in self.laws:
+            total[: len(law.exerts)] += law.traction(gap[: len(law.reads)])
+        return total
+
+    def tangent(self, gap: Array) -> tuple[Array, Tangent]:
+        """Sum of the laws' tractions (exerted, n) and its derivative."""
+        if len(self.laws) == 1:
+            traction, values = self.laws[0].tangent(gap)
+            return traction, Tangent(self, values)
+        total = np.zeros((self.unknowns[0], gap.shape[1]))
+        values = np.zeros((self.unknowns[0], *gap.shape))
+        for law in self.laws:
+            rows, columns = len(law.exerts), len(law.reads)
+            traction, derivative = law.tangent(gap[:columns])
+            total[:rows] += traction
+            values[:rows, :columns] += derivative
+        return total, Tangent(self, values)
+
+    def residual(self, displacement: Array, traction: Array) -> Array:
+        """Coefficients (exerted, m) of K v + T, GPa, zero where the displacement is held."""
+        out = self.coefficients(traction)
+        if self.load is not None:
+            out[0, 0] += self.load
+        return self.balanced(out, displacement)
+
+    def balanced(self, traction: Array, displacement: Array) -> Array:
+        """`traction` (exerted, m) plus K v, in its place; zero where the displacement is held."""
+        elastic = self.stiffness.apply(displacement)
+        if self.load is not None:
+            elastic[0, 0] = 0
+        traction += elastic
+        traction[self.held, 0] = 0
+        return traction
+
+    def certify(self, displacement: Array) -> float:
+        """Largest |K v + T| at any point, over the laws' strength, from the displacement alone; NaN if not finite."""
+        residual = self.residual(displacement, self.traction(self.gap(displacement)))
+        return self.size(residual)
+
+    def size(self, residual: Array) -> float:
+        """Largest value at any point of a residual's coefficients, over the laws' strength."""
+        bound = (2 * np.abs(residual).sum(axis=1)).max() / self.strength
+        if bound <= self.tolerance:
+            return float(bound)
+        self.tally.add(len(residual), self.grid.size)
+        field = ducc0.fft.c2r(residual, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads)
+        return float(np.abs(field).max() / self.strength)
+
+
+def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> InterfaceProblem:
+    """The problem that a scene of smooth laws poses on the grid of `heights` (n,), nm, at zero approach."""
+    if not (is_number(tolerance) and tolerance > 0):
+        raise SceneError("tolerance", tolerance, "a positive number, in parts of the laws' strength")
+    grid = Grid(heights.shape, scene.lengths, threads)
+    compliance = relative_compliance(scene.lower.elasticity, scene.upper.elasticity, grid, scene.components)
+    derived = None
+    if len(scene.exerted) < len(scene.components):
+        derived, compliance = compliance.slip(), compliance.without_shear()
+    shape = np.zeros((len(scene.components), grid.size))
+    shape[0] = -heights
+    return InterfaceProblem(grid, shape, scene.effects, compliance.inverse(), derived, tolerance, Tally(grid.size))

@@ -1,0 +1,133 @@
+"""The keys of a study: which there are, what each may be, and what a load or a path amounts to.
+
+Sections whose `kind` decides which keys they have are read further by the study; a law's options are a section of the
+law's own name.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping
+
+from contactsim import loading
+from contactsim.config import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
+from contactsim.elasticity import ELASTICITIES
+from contactsim.errors import SceneError
+from contactsim.follow import INCREMENTS
+from contactsim.laws import EFFECTS
+from contactsim.observables import KEPT
+from contactsim.solvers import SOLVERS, solver_class, usual_kind
+from contactsim.surface import SURFACES, Flat
+from contactsim.traits import Trait
+
+
+def turning(value: object) -> list[float]:
+    """Two or more numbers, none the same as the one before."""
+    if not isinstance(value, list) or len(value) < 2:
+        raise ValueError
+    numbers = [number(entry) for entry in value]
+    if any(now == before for before, now in itertools.pairwise(numbers)):
+        raise ValueError("an entry is given twice in a row")
+    return numbers
+
+
+LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
+KINDS: dict[str, tuple[Mapping[str, object], Callable[[str], type]]] = {
+    "surface": (SURFACES, SURFACES.__getitem__),
+    "body": (ELASTICITIES, ELASTICITIES.__getitem__),
+    "counter_body": (ELASTICITIES, ELASTICITIES.__getitem__),
+    "solver": (SOLVERS, solver_class),
+    "increments": (INCREMENTS, INCREMENTS.__getitem__),
+}
+"""Sections whose `kind` decides which keys they have: the kinds there are, and the class of each."""
+BODIES = ("body", "counter_body")
+MODULI = {
+    "contact_modulus": Key(number, "a number in GPa, or leave the key out", None),
+    "youngs_modulus": Key(number, "a number in GPa, or leave the key out", None),
+}
+"""Keys of an elastic body, one of which it needs."""
+
+STUDY_KEYS = {
+    "title": Key(text, "a line of text"),
+    "surface": Key(mapping, "a mapping with `kind` and that kind's keys"),
+    "body": Key(mapping, "a mapping with `kind` and that kind's keys"),
+    "effects": Key(listed(choice(EFFECTS)), f"a list from {sorted(EFFECTS)}"),
+    "load": Key(mapping, f"a mapping with one of {', '.join(LOADS)} and its list of values", None),
+    "path": Key(
+        mapping, "a mapping with one of approach and mean_pressure, a list of turning points, and increment", None
+    ),
+    "counter_body": Key(mapping, "a mapping as `body`, of the body above; rigid without it", None),
+    "increments": Key(mapping, "a mapping with `kind` and that kind's keys", {"kind": "requested"}),
+    "snapshots": Key(listed(number), "a list of approaches or pressures at which fields are kept", None),
+    "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
+    "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
+    "surfaces_of": Key(text, "the name of a study of this chapter with the same random surfaces", None),
+    "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
+    "members": Key(whole(1), "a whole number, 1 or more", 1),
+    "companion": Key(mapping, "a mapping with `points` and `members`", None),
+    "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
+    "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
+    "tolerance": Key(positive, "a positive number of grid steps"),
+    "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
+    "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
+}
+STUDY_KEYS |= {
+    name: Key(mapping, f"a mapping with the keys of the effect {name}", {})
+    for name in EFFECTS
+    if keys_of(EFFECTS[name])
+}
+PATH_KEYS = {
+    "approach": Key(turning, "a list of turning points in nm, two or more", None),
+    "mean_pressure": Key(turning, "a list of turning points in GPa, two or more", None),
+    "increment": Key(positive, "a positive number"),
+}
+COMPANION_KEYS = {
+    "points": Key(whole(2), "a whole number of grid points, fewer than the study's"),
+    "members": Key(whole(1), "a whole number, at most the study's members"),
+}
+TIGHT_KEYS = {
+    "tolerance": Key(positive, "a positive number of grid steps, below the study's"),
+    "members": COMPANION_KEYS["members"],
+}
+
+
+def read_load(settings: dict, file: object, prefix: str) -> dict:
+    """The loads of a study by name and values; of a path, its steps."""
+    given = [name for name in ("load", "path") if settings[name] is not None]
+    if len(given) != 1:
+        allowed = f"exactly one of load ({', '.join(LOADS)}) and path"
+        raise SceneError(f"{prefix}.load", "both load and path" if given else "nothing", allowed, file)
+    if given == ["load"]:
+        return _loads(settings["load"], file, f"{prefix}.load")
+    return _path(settings["path"], file, f"{prefix}.path")
+
+
+def _loads(section: dict, file: object, prefix: str) -> dict:
+    values = Key(listed(number), "a list of numbers, none twice", None)
+    given = {name: value for name, value in read(section, dict.fromkeys(LOADS, values), file, prefix).items() if value}
+    if len(given) != 1:
+        raise SceneError(prefix, section, f"exactly one of {', '.join(LOADS)}", file)
+    ((name, numbers),) = given.items()
+    if min(numbers) <= 0:
+        raise SceneError(f"{prefix}.{name}", min(numbers), "numbers above 0", file)
+    return {"name": name, "values": sorted(numbers)}
+
+
+def _path(section: dict, file: object, prefix: str) -> dict:
+    section = read(section, PATH_KEYS, file, prefix)
+    controls = [name for name in ("approach", "mean_pressure") if section[name] is not None]
+    if len(controls) != 1:
+        raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
+    points, control = section[controls[0]], Trait[controls[0].upper()]
+    legs = [loading.leg(control, *ends, section["increment"]) for ends in itertools.pairwise(points)]
+    return {"name": "step", "control": controls[0], "values": [step.value for leg in legs for step in leg.steps]}
+
+
+def usual_solver(settings: dict) -> str:
+    """The kind of solver for a study's surface and effects; what is wrong with them is refused later."""
+    surface = settings["surface"]
+    kind = SURFACES.get(str(surface.get("kind")), Flat)
+    dimensions = surface.get("dimensions", getattr(kind, "dimensions", 1))
+    traits = {Trait.SURFACE if dimensions == 2 else Trait.LINE}
+    smooth = any("strength" in dir(EFFECTS[name]) for name in settings["effects"])
+    return usual_kind(frozenset(traits | ({Trait.SMOOTH} if smooth else set())))

@@ -1,0 +1,57 @@
+"""What solvers of smooth laws share: the state they look for, and what a path asks of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from contactsim.grid import Array
+from contactsim.interface import InterfaceProblem
+from contactsim.solvers.base import Status
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A state of the interface: its displacement (exerted, m), coefficients, and how good it is.
+
+    residual: largest at any point, over the laws' strength; moved: largest change (nm) from where it was looked for;
+    iterations: steps of the method.
+    """
+
+    displacement: Array = field(repr=False)
+    status: Status
+    residual: float
+    moved: float
+    iterations: int
+
+    @property
+    def settled(self) -> bool:
+        """Whether it is a solution."""
+        return self.status is Status.CONVERGED
+
+
+class PathSolver(Protocol):
+    """A method that follows smooth laws.
+
+    accepts: the traits it can take; predicts: whether it profits from a guess beyond the last state; trusted: how far
+    (in the laws' length) a state may lie from its guess to be believed on the same branch; fields: doubles a point and
+    component at its peak.
+    """
+
+    accepts: frozenset[Trait]
+    predicts: bool
+    trusted: float
+    fields: int
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of an iteration, for each unknown component."""
+        ...
+
+    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+        """The equilibrium near a guess."""
+        ...
+
+    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+        """The equilibrium that the overdamped flow reaches from a state."""
+        ...

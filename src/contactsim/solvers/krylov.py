@@ -1,0 +1,63 @@
+"""Generalised minimal residual method on Fourier coefficients, for maps that are linear over the real numbers.
+
+Coefficients of a real transform are seen as pairs of real numbers. Their Euclidean inner product weighs the uniform
+and the shortest wave twice against all others, which is a norm as good as any (SIAM J. Sci. Stat. Comput. 7, 856,
+doi:10.1137/0907058).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from contactsim.grid import Array
+
+Map = Callable[[Array], Array]
+
+
+def gmres(product: Map, precondition: Map, target: Array, tolerance: float, budget: int) -> tuple[Array, int]:
+    """Solve product(x) = target to a relative residual, preconditioned from the right: x and the iterations spent.
+
+    target: complex, of any shape; the best x within the budget is returned.
+    """
+    flat = target.reshape(-1).view(float)
+    norm = np.linalg.norm(flat)
+    basis = np.empty((budget + 1, flat.size))
+    basis[0] = flat / norm
+    steps: list[Array] = []
+    hessenberg = np.zeros((budget + 1, budget))
+    rotations: list[tuple[float, float]] = []
+    right = np.zeros(budget + 1)
+    right[0] = norm
+    for column in range(budget):
+        steps.append(precondition(basis[column].view(complex).reshape(target.shape)))
+        vector = product(steps[-1]).reshape(-1).view(float)
+        known, entries = basis[: column + 1], hessenberg[: column + 2, column]
+        for _ in range(2):  # twice is enough
+            shares = known @ vector
+            vector -= shares @ known
+            entries[:-1] += shares
+        entries[-1] = np.linalg.norm(vector)
+        broken = not entries[-1] > 0
+        if not broken:
+            np.divide(vector, entries[-1], out=basis[column + 1])
+        for row, (cosine, sine) in enumerate(rotations):
+            upper, lower = entries[row], entries[row + 1]
+            entries[row], entries[row + 1] = cosine * upper + sine * lower, cosine * lower - sine * upper
+        length = np.hypot(entries[-2], entries[-1])
+        if not length > 0:
+            steps.pop()
+            break
+        cosine, sine = entries[-2] / length, entries[-1] / length
+        rotations.append((cosine, sine))
+        entries[-2], entries[-1] = length, 0.0
+        right[column], right[column + 1] = cosine * right[column], -sine * right[column]
+        if broken or abs(right[column + 1]) <= tolerance * norm:
+            break
+    count = len(steps)
+    if not count:
+        return np.zeros_like(target), 0
+    weights = solve_triangular(hessenberg[:count, :count], right[:count])
+    return np.tensordot(weights, np.array(steps), 1), count

@@ -1,0 +1,154 @@
+"""Newton–Krylov equilibrium of smooth laws, and the overdamped flow that takes over where a branch ends.
+
+From a guess near the solution, Newton's method on the Fourier coefficients needs one or two linear solves, each a few
+Krylov iterations behind the preconditioner of `zone`. Where the branch ends (a jump into or out of contact) Newton
+would land anywhere; what a slow experiment does there is the overdamped flow du/dt = -(K u + T) from the last stable
+state. It is followed by linearly implicit steps
+
+    (K + T' + s) du = -r,
+
+with a shift s, the inverse of the time step, that adapts to how far a step moves the surface. Steps uphill or too far
+are refused. Once s is small against the laws' tangent it is dropped, and the end is Newton's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactsim.errors import SceneError
+from contactsim.grid import Array
+from contactsim.interface import InterfaceProblem
+from contactsim.solvers.base import Status
+from contactsim.solvers.equilibrium import Equilibrium
+from contactsim.solvers.krylov import gmres
+from contactsim.solvers.zone import ZonePreconditioner
+from contactsim.traits import Trait
+
+TIGHTEST = 1e-5
+"""Smallest relative residual asked of a linear solve."""
+ROUGH = 1e-3
+"""The same for a step of the flow: its direction need not be exact."""
+FIRST, RETURN, DROP = 0.3, 0.02, 1e-3
+"""Shift over the laws' largest tangent: at the start, at least after a refusal, and below which it is zero."""
+
+STRAYED = 1e3
+"""Newton is given up once it has moved this many times as far as is trusted."""
+APART = 40.0
+"""Smallest gap, in the laws' length, from which on a load has pulled the bodies apart."""
+
+
+@dataclass(frozen=True)
+class NewtonKrylov:
+    """Newton–Krylov with flow at instabilities.
+
+    newton_budget: most Newton steps from a guess; krylov_budget: most Krylov iterations of one; flow_budget: most steps
+    of a flow; flow_step: largest move of a step of the flow and `trusted`: largest move of Newton from its guess that
+    is believed to stay on the branch, both in the laws' shortest length.
+    """
+
+    newton_budget: int = 8
+    krylov_budget: int = 60
+    flow_budget: int = 4000
+    flow_step: float = 0.3
+    trusted: float = 0.1
+    fields = 40
+    predicts = True
+    accepts = frozenset(
+        {
+            Trait.LINE,
+            Trait.SMOOTH,
+            Trait.NON_CONSERVATIVE,
+            Trait.HALF_SPACE,
+            Trait.LAYER,
+            Trait.APPROACH,
+            Trait.MEAN_PRESSURE,
+        }
+    )
+
+    def __post_init__(self) -> None:
+        for name in ("flow_step", "trusted"):
+            if not getattr(self, name) > 0:
+                raise SceneError(name, getattr(self, name), "a positive number of the laws' length")
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of a Krylov iteration and unknown component."""
+        return 2.5
+
+    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+        """Newton's method from a guess."""
+        displacement, far, moved = guess, STRAYED * self.trusted * problem.reach, 0.0
+        for count in range(self.newton_budget + 1):
+            traction, tangent = problem.tangent(problem.gap(displacement))
+            residual = problem.residual(displacement, traction)
+            worst = problem.size(residual)
+            if count:
+                moved = _moved(problem, displacement - guess, self.trusted * problem.reach)
+            if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and moved <= far):
+                break
+            norm = np.linalg.norm(residual)
+            forcing = max(0.1 * problem.tolerance * problem.strength / norm, TIGHTEST)
+            precondition = ZonePreconditioner(problem, tangent)
+            displacement = displacement + self._solve(problem, tangent, precondition, residual, 0.0, forcing)
+        return Equilibrium(displacement, _status(worst, problem), worst, moved, count)
+
+    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+        """The overdamped flow from a state."""
+        displacement, shift, most = start, FIRST * problem.softening, self.flow_step * problem.reach
+        status, worst, count = Status.BUDGET, np.inf, 0
+        while count < self.flow_budget:
+            count += 1
+            gap = problem.gap(displacement)
+            traction, tangent = problem.tangent(gap)
+            residual = problem.residual(displacement, traction)
+            worst = problem.size(residual)
+            if not np.isfinite(worst) or (shift == 0 and worst <= problem.tolerance):
+                status = _status(worst, problem)
+                break
+            if problem.load is not None and gap[0].min() > APART * problem.reach:
+                status = Status.PULLED_OFF
+                break
+            norm = np.linalg.norm(residual)
+            forcing = np.clip(0.1 * problem.tolerance * problem.strength / norm, TIGHTEST, ROUGH)
+            precondition = ZonePreconditioner(problem, tangent, shift)
+            change = self._solve(problem, tangent, precondition, residual, shift, forcing)
+            move = float(np.abs(problem.field(change)[: len(change)]).max())
+            downhill = -np.vdot(change, residual).real > 0
+            if not (downhill and move <= 2 * most):
+                shift = max(3 * shift, RETURN * problem.softening)
+                continue
+            displacement = displacement + change
+            shift /= 3 if move < 0.3 * most else 1.5 if move < most else 1
+            shift = shift if shift > DROP * problem.softening else 0.0
+        return Equilibrium(displacement, status, worst, _moved(problem, displacement - start, 0.0), count)
+
+    def _solve(
+        self,
+        problem: InterfaceProblem,
+        tangent: Callable,
+        precondition: Callable,
+        residual: Array,
+        shift: float,
+        forcing: float,
+    ) -> Array:
+        def product(change: Array) -> Array:
+            out = tangent(change)
+            if shift:
+                out += shift * change
+            return problem.balanced(out, change)
+
+        return gmres(product, precondition, -residual, forcing, self.krylov_budget)[0]
+
+
+def _status(worst: float, problem: InterfaceProblem) -> Status:
+    if not np.isfinite(worst):
+        return Status.NON_FINITE
+    return Status.CONVERGED if worst <= problem.tolerance else Status.BUDGET
+
+
+def _moved(problem: InterfaceProblem, change: Array, enough: float) -> float:
+    """Largest change of the displacement anywhere, nm; only a bound on it where that is at most `enough`."""
+    bound = 2 * float(np.abs(change).sum(axis=1).max())
+    return bound if bound <= enough else float(np.abs(problem.field(change)[: len(change)]).max())

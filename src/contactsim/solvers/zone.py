@@ -1,0 +1,106 @@
+"""Preconditioner for stiffness plus the tangent of laws that act over a small part of a line.
+
+Long waves, those below a fraction of the grid, are solved for exactly on a coarser grid: with C the compliance and D
+the tangent, (K + D) w = r is w = C (r - D w), in which D is not zero on the process zone Z alone, so that
+
+    (1 + C_ZZ D_Z) w_Z = (C r)_Z,   w = C (r - D w_Z),
+
+one dense factorisation of the size of the zone. Short waves see the stiffness and a constant shift. A uniform mode
+that is free (its stiffness zero, under load control) is given the stiffness of the longest wave.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import ducc0
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from contactsim.grid import Array
+from contactsim.interface import InterfaceProblem, Tangent, contracted
+from contactsim.symbols import Symbol
+
+RATIO = 8
+"""Points of the grid to one on which long waves are solved for."""
+SHIFT, LEAST = 0.3, 0.01
+"""Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
+NEGLIGIBLE = 1e-3
+"""Tangent, over the laws' largest, below which a point is outside the process zone."""
+MOST = 1500
+"""Entries of the zone beyond which its factorisation would cost more than it saves: the coarse grid gets coarser."""
+
+
+class ZonePreconditioner:
+    """Approximate inverse of K + D + shift, for coefficients (exerted, m)."""
+
+    def __init__(self, problem: InterfaceProblem, tangent: Tangent, shift: float = 0.0) -> None:
+        self._problem = problem
+        rows, modes = problem.unknowns
+        ratio = RATIO
+        while np.count_nonzero(self._acting(tangent.values[..., ::ratio])) * len(problem.shape) > MOST:
+            ratio *= 2
+        self._nodes = max(problem.grid.size // ratio, 2)
+        self._low = min(self._nodes // 2, modes)
+        sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
+        extra = shift + SHIFT * np.array([problem.softening, sideways][:rows])
+        self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
+        self._compliance = self._supported(problem.stiffness.modes(slice(0, self._low))).inverse(shift)
+        self._factor(tangent.values[..., :: problem.grid.size // self._nodes][..., : self._nodes], rows)
+
+    def _acting(self, values: Array) -> Array:
+        """Points where the tangent is not negligible, bool."""
+        return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.softening
+
+    def _supported(self, low: Symbol) -> Symbol:
+        """The stiffness of long waves, with some for a uniform mode that is free."""
+        if self._problem.load is None:
+            return low
+        diagonal = low.diagonal.copy()
+        diagonal[0, 0] = diagonal[0, min(1, self._low - 1)]
+        return replace(low, diagonal=diagonal)
+
+    def _field(self, coefficients: Array) -> Array:
+        """Values (rows, nodes) on the coarse grid of long waves (rows, low), with the derived component."""
+        derived = self._problem.derived
+        if derived is not None:
+            coefficients = np.concatenate((coefficients, derived[: self._low] * coefficients))
+        wide = np.zeros((len(coefficients), self._nodes // 2 + 1), complex)
+        wide[:, : self._low] = coefficients
+        return ducc0.fft.c2r(wide, axes=(1,), lastsize=self._nodes, forward=False)
+
+    def _factor(self, values: Array, rows: int) -> None:
+        self._zone = np.flatnonzero(self._acting(values))
+        self._values = values[..., self._zone]
+        count, read = len(self._zone), len(self._problem.shape)
+        if not count:
+            return
+        apart = (self._zone[:, None] - self._zone) % self._nodes
+        matrix = np.zeros((read, count, read, count))
+        for row in range(rows):  # response of all components to a traction in this one, at one point
+            unit = np.zeros((rows, self._low), complex)
+            unit[row] = 1 / self._nodes
+            response = self._field(self._compliance.apply(unit))
+            for to in range(read):
+                kernel = response[to][apart]
+                for by in range(read):
+                    matrix[to, :, by] += kernel * self._values[row, by]
+        square = matrix.reshape(read * count, -1)
+        square[np.diag_indices(len(square))] += 1
+        self._lu = lu_factor(square, overwrite_a=True, check_finite=False)
+
+    def __call__(self, residual: Array) -> Array:
+        """Displacement (exerted, m) for a residual of the same shape."""
+        out = np.empty_like(residual)
+        out[:, self._low :] = self._high.apply(residual[:, self._low :])
+        long = self._compliance.apply(residual[:, : self._low])
+        if len(self._zone):
+            free = self._field(long)[:, self._zone]
+            held = lu_solve(self._lu, free.ravel(), check_finite=False).reshape(free.shape)
+            pull = np.zeros((len(residual), self._nodes))
+            pull[:, self._zone] = contracted(self._values, held)
+            spread = ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low]
+            long -= self._compliance.apply(spread)
+            self._problem.tally.add(len(free) + len(residual), self._nodes)
+        out[:, : self._low] = long
+        return out
