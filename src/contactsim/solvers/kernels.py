@@ -8,7 +8,8 @@ depend on the number of threads.
 contact is 1 where a point may carry pressure; the residual there is level - gap. It is padded with zeros to WORD
 columns a word, and `words` is the same memory as whole words. Loops go over runs of words that are not zero, without
 a branch at single points, which edges of the contact would make expensive, so that they are done several at a time: a
-point without contact has neither pressure nor change nor direction. Largest values are therefore kept column by column.
+point without contact has neither pressure nor change nor direction. Largest values are therefore kept column by column,
+and a loop writes one array or two: for more, compilers do not look into whether they overlap, and do without.
 """
 
 from __future__ import annotations
@@ -95,13 +96,14 @@ def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap
                 count += value > 0
                 moved[j] = value - old[j]
                 along += moved[j] * (level - opening[j])
-                part = 1 - value / old[j] if old[j] > 0 else 0.0
+            for j in range(end - begin):
+                part = -moved[j] / old[j] if old[j] > 0 else 0.0
                 most[j] = part if part > most[j] else most[j]
             first, last = run(words, i, last)
     sums[0] = load
     sums[1] = count
     sums[2] = along
-    sums[4] = taken.max()
+    sums[4] = min(taken.max(), 1.0)  # a change that takes away everything is rounded
 
 
 @compiled
@@ -161,25 +163,26 @@ def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta,
             old, moved, turned = pressure[i, begin:end], change[i, begin:end], direction[i, begin:end]
             deep, wide = deepest[begin:end], widest[begin:end]
             for j in range(end - begin):
-                value = opening[j] + theta * risen[j]
-                opening[j] = value
+                opening[j] += theta * risen[j]
+            for j in range(end - begin):
                 carries = old[j] + theta * moved[j]
-                carries = 0.0 if carries < 1e-6 * old[j] else carries  # cut to zero, but for the rounding of the change
-                old[j] = carries
+                old[j] = 0.0 if carries < 1e-6 * old[j] else carries  # cut to zero, but for the rounding of the change
+            for j in range(end - begin):
                 before = touches[j] != 0
-                stays = before & ((carries != 0) | (value <= level))
-                joins = (not before) & (value < limit)
-                inside = stays | joins
+                joins = (not before) & (opening[j] < limit)
+                inside = joins | (before & ((old[j] != 0) | (opening[j] <= level)))
                 touches[j] = inside
-                turned[j] = turned[j] if stays else none
-                moved[j] = moved[j] if stays else none
-                total += value if inside else none
+                total += opening[j] if inside else none
                 count += inside
                 added += joins
+            for j in range(end - begin):
+                turned[j] = turned[j] if touches[j] != 0 else none
+                moved[j] = moved[j] if touches[j] != 0 else none
                 along += turned[j]
-                over = level - value if inside else none
+            for j in range(end - begin):
+                over = level - opening[j] if touches[j] != 0 else none
                 deep[j] = over if over > deep[j] else deep[j]
-                apart = value - level if carries > 0 else none
+                apart = opening[j] - level if old[j] > 0 else none
                 wide[j] = apart if apart > wide[j] else wide[j]
     sums[0] = total
     sums[1] = count

@@ -63,10 +63,10 @@ def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, s
             touches, on_left, on_top = contact[i, a:b], contact[i, a - 1 : b - 1], contact[up, a - 1 : b + 1]
             codes, result = code[i, a:b], out[i, a:b]
             for j in range(b - a):
-                bits = bits_of(on_left[j], on_top[j], on_top[j + 1], on_top[j + 2])
-                codes[j] = bits
+                codes[j] = bits_of(on_left[j], on_top[j], on_top[j + 1], on_top[j + 2])
+            for j in range(b - a):
                 r, west = level - middle[j], level - left[j]
-                value = weighted(table, bits, r, west, level - above[j], level - above[j + 1], level - above[j + 2])
+                value = weighted(table, codes[j], r, west, level - above[j], level - above[j + 1], level - above[j + 2])
                 result[j] = value if touches[j] != 0 else np.float32(0)
             row = cells[i // CELL]
             for j in range(begin, end):
