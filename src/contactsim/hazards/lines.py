@@ -201,3 +201,35 @@ def tension(severity: float) -> Case:
 def tight_tolerance(severity: float) -> Case:
     """The tolerance falls from 1e-2 to 1e-18 grid steps, below what rounding allows."""
     return made(level(_rough(256), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
+
+
+LINES = (
+    few_points,
+    light_wave,
+    first_touch,
+    nearly_full_wave,
+    nearly_full_rough,
+    last_gap,
+    full_contact,
+    equal_heights,
+    tall_spike,
+    deep_pit,
+    deep_groove,
+    low_spike,
+    flat,
+    white_noise,
+    grazing,
+    steep_slopes,
+    awkward_sizes,
+    units,
+    far_datum,
+    thin_layer,
+    incompressible_layer,
+    thin_incompressible_layer,
+    thick_layer,
+    pushed_layer,
+    zero_load,
+    tension,
+    tight_tolerance,
+)
+"""In the order of the map."""

@@ -186,3 +186,29 @@ def pushed_surface_layer(severity: float) -> Case:
 def tight_surface_tolerance(severity: float) -> Case:
     """The tolerance on a surface falls from 1e-2 to 1e-18 grid steps, below what rounding allows."""
     return made(level(_rough(), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
+
+
+SURFACES = (
+    light_surface,
+    surface_first_touch,
+    nearly_full_surface,
+    surface_last_gap,
+    full_surface,
+    flat_punch,
+    tall_post,
+    low_post,
+    deep_hole,
+    chequerboard,
+    grazing_surface,
+    wide_range,
+    far_surface,
+    ridges,
+    oblong_cells,
+    oblong_grid,
+    awkward_grids,
+    incompressible_surface_layer,
+    thin_incompressible_surface_layer,
+    pushed_surface_layer,
+    tight_surface_tolerance,
+)
+"""In the order of the map."""
