@@ -10,6 +10,7 @@ rule targets:
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/present.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/effects.smk"
 include: "workflow/rules/judge.smk"
 include: "workflow/rules/stability.smk"
 

@@ -39,7 +39,16 @@ def data():
     return stamped(described(made), "A title with κ", {"b": None, "a": [0.1, True]}, "abc")
 
 
-WRITERS = ("observables.py", "study.py", "march.py", "aggregate.py", "stability.py", "adhesion.py", "branch.py")
+WRITERS = (
+    "observables.py",
+    "study.py",
+    "march.py",
+    "aggregate.py",
+    "stability.py",
+    "adhesion.py",
+    "branch.py",
+    "ladder.py",
+)
 
 
 def names_written():

@@ -103,9 +103,7 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     scene = scene_of(settings)
     load, values = settings["load"]["name"], settings["load"]["values"]
     names = [digest(settings | {"load": load}, value, source) for value in values]
-    follows = "control" in settings["load"]
-    earlier = {} if follows else _earlier(target, costs)
-    chosen = options(settings) if follows else {"keep": settings["keep"]}
+    earlier = {} if "increments" in settings else _earlier(target, costs)
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),
@@ -113,7 +111,7 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
         method=solver(**settings["solver"]),
         threads=threads,
         known={step: earlier[name] for step, name in enumerate(names) if name in earlier},
-        **chosen,
+        **chosen(settings),
     )
     seconds = data.seconds.values.tolist()
     title = f"contactsim run of {settings['study']}"
@@ -124,6 +122,11 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
         "peak_memory_of_last_run": peak_memory(),
     }
     write_text(json.dumps(price, indent=1), costs)
+
+
+def chosen(settings: dict) -> dict:
+    """What a run's simulation is asked for, beside its grid and tolerance: fields to keep, or how a path is walked."""
+    return options(settings) if "increments" in settings else {"keep": settings["keep"]}
 
 
 def peak_memory() -> float:

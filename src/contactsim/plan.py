@@ -21,12 +21,24 @@ CONFIG_KEYS = {
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
 }
-RESERVED = ("all", "claims", "accuracy", "stability", "targets", "run", "aggregate", "unknown_target")
+RESERVED = (
+    "all",
+    "claims",
+    "accuracy",
+    "effects",
+    "measure_effects",
+    "stability",
+    "targets",
+    "run",
+    "aggregate",
+    "unknown_target",
+)
 """Names that the workflow's own rules have."""
 
 TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),
     "stability": Key(mapping, "a mapping of keys to override", {}),
+    "effects": Key(mapping, "a mapping of keys to override", {}),
 }
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies"),
@@ -72,11 +84,13 @@ class Figure:
 class Plan:
     """All that can be made at one tier: studies, figures, claims by chapter, and the map of stability if there is one.
 
-    results: the folder for it.
+    results: the folder for it; seed: root of all random numbers; effects: what the tier changes in their ladder.
     """
 
     tier: str
     results: Path
+    seed: int
+    effects: dict
     studies: dict[str, Study]
     chapters: dict[str, str]
     figures: dict[str, Figure]
@@ -128,7 +142,8 @@ class Plan:
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
             )
         hazards = _stability(folder, overrides["stability"], tier)
-        return cls(tier, Path(main["results"]) / tier, studies, chapters, figures, claims, hazards)
+        paths = Path(main["results"]) / tier, main["seed"], overrides["effects"]
+        return cls(tier, *paths, studies, chapters, figures, claims, hazards)
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """The run that a file name stands for."""

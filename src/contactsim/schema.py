@@ -98,6 +98,8 @@ def read_load(settings: dict, file: object, prefix: str) -> dict:
         allowed = f"exactly one of load ({', '.join(LOADS)}) and path"
         raise SceneError(f"{prefix}.load", "both load and path" if given else "nothing", allowed, file)
     if given == ["load"]:
+        if is_smooth(settings):
+            raise SceneError(f"{prefix}.load", settings["load"], "path: smooth laws depend on what came before", file)
         return _loads(settings["load"], file, f"{prefix}.load")
     return _path(settings["path"], file, f"{prefix}.path")
 
@@ -129,5 +131,9 @@ def usual_solver(settings: dict) -> str:
     kind = SURFACES.get(str(surface.get("kind")), Flat)
     dimensions = surface.get("dimensions", getattr(kind, "dimensions", 1))
     traits = {Trait.SURFACE if dimensions == 2 else Trait.LINE}
-    smooth = any("strength" in dir(EFFECTS[name]) for name in settings["effects"])
-    return usual_kind(frozenset(traits | ({Trait.SMOOTH} if smooth else set())))
+    return usual_kind(frozenset(traits | ({Trait.SMOOTH} if is_smooth(settings) else set())))
+
+
+def is_smooth(settings: dict) -> bool:
+    """Whether a study lists laws that give a traction: they are followed along a path."""
+    return any("strength" in dir(EFFECTS[name]) for name in settings["effects"])

@@ -18,7 +18,17 @@ from contactsim.config import Key, choice, keys_of, read
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
 from contactsim.provenance import digest, source_digest, versions
-from contactsim.schema import BODIES, COMPANION_KEYS, KINDS, MODULI, STUDY_KEYS, TIGHT_KEYS, read_load, usual_solver
+from contactsim.schema import (
+    BODIES,
+    COMPANION_KEYS,
+    KINDS,
+    MODULI,
+    STUDY_KEYS,
+    TIGHT_KEYS,
+    is_smooth,
+    read_load,
+    usual_solver,
+)
 from contactsim.solvers import module_of, solver
 from contactsim.solvers.base import require
 
@@ -160,7 +170,7 @@ class Study:
                 raise SceneError(f"studies.{self.name}.vary", name, allowed, self.file)
             sections[head] = sections[head] | {tail: value}
         parts = {name: self._part(name, section) for name, section in sections.items()}
-        kept = "snapshots" if self.settings["path"] is not None else "keep"
+        kept = "snapshots" if is_smooth(self.settings) else "keep"
         shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", kept)} | grid | change
         drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
         settings = drawn | shared | parts
@@ -172,7 +182,7 @@ class Study:
 
     def _sections(self) -> list[str]:
         """Names of the sections that this study's runs depend on."""
-        path = ["increments"] if self.settings["path"] is not None else []
+        path = ["increments"] if is_smooth(self.settings) else []
         counter = ["counter_body"] if self.settings["counter_body"] is not None else []
         laws = [name for name in self.settings["effects"] if name in self.settings]
         return ["surface", "body", *counter, "solver", *path, *laws]

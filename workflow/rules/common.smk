@@ -4,7 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from contactsim import cost
+from contactsim import cost, ladder
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical
@@ -15,11 +15,13 @@ try:
     CONFIG = Path(workflow.basedir) / "config"
     PLAN = Plan.read(CONFIG, config.get("tier"))
     CASES = cost.read_cases(CONFIG, PLAN)
+    LADDER = ladder.read_ladder(CONFIG, PLAN.seed, PLAN.effects)
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
 sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it and does not quote it
 STABILITY = ["stability"] if PLAN.stability else []
+EFFECTS = ["effects"] if LADDER else []
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     Path(".snakemake").mkdir(exist_ok=True)
@@ -35,7 +37,7 @@ def figure_files(name):
 
 
 def all_figures(wildcards):
-    names = [*PLAN.figures, *STABILITY, *(f"accuracy_{case}" for case in CASES)]
+    names = [*PLAN.figures, *STABILITY, *EFFECTS, *(f"accuracy_{case}" for case in CASES)]
     return [file for name in names for file in figure_files(name)]
 
 
@@ -47,6 +49,7 @@ def target_lines():
     lines = [f"  {name:14} {figure.settings['title']}" for name, figure in PLAN.figures.items()]
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
     lines += [f"  {name:14} {PLAN.stability['title']}" for name in STABILITY]
+    lines += [f"  {name:14} {LADDER['title']}" for name in EFFECTS]
     lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
     return "\n".join([*lines, f"  {'all':14} all of these"])

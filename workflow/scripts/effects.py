@@ -1,0 +1,13 @@
+"""What effects cost: the ladder measured, and seconds and memory apart."""
+
+import json
+
+from contactsim import dataset, ladder
+from contactsim.joblog import logged
+from contactsim.march import write_text
+
+logged(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+data, spent = ladder.measure(plan["settings"])
+dataset.write(dataset.stamped(data, "what effects cost", plan["settings"], plan["source"]), snakemake.output.data)
+write_text(json.dumps(spent), snakemake.output.costs)
