@@ -32,7 +32,7 @@ KEYS = {
 
 
 def read_ladder(folder: str | Path, seed: int, over: dict) -> dict | None:
-    """Settings of the ladder: how it is shown, and of each rung name, title and run, in order; None without effects.yaml."""
+    """Settings of the ladder: how it is shown; name, title and run of each rung; None without effects.yaml."""
     file = Path(folder) / "effects.yaml"
     if not file.exists():
         return None

@@ -28,7 +28,8 @@ def render(plan: Mapping, data: str, costs: str, targets: Mapping[str, str]) -> 
     table = pd.concat([found.to_dataframe().reset_index(), prices], axis=1)
     table.insert(1, "title", [plan["titles"][name] for name in found.rung.values])
     lost, steps = int(table.unconverged.sum()), int(table.steps.sum())
-    footer = f"{plan['tier']} tier · {int(table.unknowns.min())} points · {lost} of {steps} increments unconverged · best of {plan['repeats']} runs"
+    points = f"{plan['tier']} tier · {int(table.unknowns.min())} points"
+    footer = f"{points} · {lost} of {steps} increments unconverged · best of {plan['repeats']} runs"
     figure, panels = framed(plan["settings"] | {"panels": len(PRICES)}, footer)
     places = np.arange(len(table))[::-1]
     for panel, (name, words) in zip(panels, PRICES.items(), strict=True):
