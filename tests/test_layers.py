@@ -13,7 +13,8 @@ ORDER = """
 errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws loading scene
 interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.conjugate_gradients
-solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.predictor follow
+solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
+solvers.energy_minimisation solvers.predictor follow
 observables adhesion analytic provenance dataset config build schema study branch march aggregate costs
 joblog takes claims api hazards stability plan compare explain cost precision
 figures figures.style figures.ch3 figures.ch5 figures.stability figures.render figures.claims figures.accuracy

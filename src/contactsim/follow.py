@@ -96,9 +96,9 @@ class Requested:
                 yield PathState(step, broken, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
                 continue
             before = problem.tally.transforms
-            found, spent, flowed = walk.near(step), 0, False
-            if not (found.settled and found.moved <= solver.trusted * problem.reach):
-                spent, flowed = found.iterations, True
+            found, spent, flowed = walk.near(step) if solver.predicts else None, 0, False
+            if found is None or not (found.settled and found.moved <= solver.trusted * problem.reach):
+                spent, flowed = found.iterations if found else 0, True
                 found = walk.flow(step)
             jump = 0.0
             if found.settled:
@@ -142,6 +142,8 @@ class Adaptive:
 
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order, interpolated between those walked through."""
+        if not solver.predicts:
+            raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
         walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
             end = _turn(steps, begin)
