@@ -76,6 +76,7 @@ class Walk:
         if flowed:
             taken = abs(step.value - self.history.places[-1]) if self.history.places else np.inf
             jump = found.moved if found.moved > max(SUDDEN * self.problem.reach, STEADY * taken) else 0.0
+        if jump:
             self.history.restart(step.value, found.displacement)
         else:
             self.history.add(step.value, found.displacement)

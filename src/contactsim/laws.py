@@ -29,7 +29,7 @@ from contactsim.traits import Trait
 OVERCLOSED = 10.0
 """Overlap, in characteristic lengths, beyond which a law is continued by its tangent."""
 SLIPPED = 30.0
-"""Tangential gap, in characteristic lengths, at which exp(-y²) is zero to all digits: larger ones make no difference."""
+"""Tangential gap, in characteristic lengths, beyond which exp(-y²), zero to all digits, is taken there."""
 
 
 class Law(Protocol):

@@ -47,8 +47,8 @@ Mobility = Callable[[Array], Array]
 class DampedVerlet:
     """Unit mass on every node (Eqs 2.3-2.7), as the thesis has it.
 
-    time_step: δt and damping: η, with unit masses in units of nm and GPa, text: 0.1 and about 1; ahead: whether laws are
-    evaluated ahead (Eq. 2.14); batch: steps between two checks of the residual; budget: most batches.
+    time_step: δt and damping: η, in units in which nm, GPa and the mass are 1, text: 0.1 and about 1; ahead: whether
+    laws are evaluated ahead (Eq. 2.14); batch: steps between two checks of the residual; budget: most batches.
     """
 
     time_step: float = 0.1

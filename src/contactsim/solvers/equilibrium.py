@@ -39,10 +39,9 @@ class Equilibrium:
 class PathSolver(Protocol):
     """A method that follows smooth laws.
 
-    accepts: the traits it can take; predicts: whether it starts from a guess beyond the last state, or else flows from that
-    one always; trusted: how far
-    (in the laws' length) a state may lie from its guess to be believed on the same branch; fields: doubles a point and
-    component at its peak.
+    accepts: the traits it can take; predicts: whether it starts from a guess beyond the last state, or else flows from
+    that one always; trusted: how far (in the laws' length) a state may lie from its guess to be believed on the same
+    branch; fields: doubles a point and component at its peak.
     """
 
     accepts: frozenset[Trait]

@@ -86,8 +86,7 @@ class NewtonKrylov:
                 strayed = moved(problem, displacement - guess, self.trusted * problem.reach)
             if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
                 break
-            norm = np.linalg.norm(residual)
-            forcing = max(0.1 * problem.tolerance * problem.strength / norm, TIGHTEST)
+            forcing = max(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST)
             precondition = ZonePreconditioner(problem, tangent)
             displacement = displacement + self._solve(problem, tangent, precondition, residual, 0.0, forcing)
         return Equilibrium(displacement, judged(worst, problem), worst, strayed, count)
@@ -108,8 +107,7 @@ class NewtonKrylov:
             if apart(problem, gap):
                 status = Status.PULLED_OFF
                 break
-            norm = np.linalg.norm(residual)
-            forcing = np.clip(0.1 * problem.tolerance * problem.strength / norm, TIGHTEST, ROUGH)
+            forcing = np.clip(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST, ROUGH)
             precondition = ZonePreconditioner(problem, tangent, shift)
             change = self._solve(problem, tangent, precondition, residual, shift, forcing)
             move = float(np.abs(problem.field(change)[: len(change)]).max())
@@ -137,4 +135,5 @@ class NewtonKrylov:
                 out += shift * change
             return problem.balanced(out, change)
 
-        return gmres(product, precondition, -residual, forcing, self.krylov_budget)[0]
+        unit = problem.strength  # squares of a weak law's tractions would underflow
+        return unit * gmres(product, precondition, residual / -unit, forcing, self.krylov_budget)[0]
