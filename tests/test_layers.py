@@ -13,7 +13,8 @@ ORDER = """
 errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws loading scene
 interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
-solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.predictor follow
+solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
+solvers.energy_minimisation solvers.predictor follow
 observables adhesion analytic provenance dataset config build schema study branch march extrapolation aggregate costs
 joblog takes findings claims api hazards.cases hazards.lines hazards.surfaces hazards stability plan ladder compare
 explain cost precision

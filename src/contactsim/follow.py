@@ -18,11 +18,13 @@ from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.loading import LoadStep
 from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import Equilibrium, PathSolver
+from contactsim.solvers.equilibrium import Equilibrium, PathSolver, moved
 from contactsim.solvers.predictor import POINTS, History, lagrange
+from contactsim.traits import Trait
 
 SUDDEN, STEADY = 0.1, 5.0
-"""A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step."""
+"""A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
+is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
 SAFETY, SHRINK, GROW = 0.9, 0.4, 2.0
 """Of an adaptive increment: share of the length that the error allows, least and largest change."""
 REFUSED = 4.0
@@ -53,6 +55,7 @@ class Walk:
         self.problem, self.solver = problem, solver
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
+        self._pace: float | None = None
 
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The problem at a load step."""
@@ -72,15 +75,23 @@ class Walk:
 
     def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> float:
         """Move on to a state; how far the surface jumped to it."""
-        jump = 0.0
-        if flowed:
-            taken = abs(step.value - self.history.places[-1]) if self.history.places else np.inf
-            jump = found.moved if found.moved > max(SUDDEN * self.problem.reach, STEADY * taken) else 0.0
+        taken = abs(step.value - self.history.places[-1]) if self.history.places else np.inf
+        expected = np.inf if taken == np.inf else STEADY * self._length(step, taken)
+        jump = found.moved if flowed and found.moved > max(SUDDEN * self.problem.reach, expected) else 0.0
+        if step.control is Trait.MEAN_PRESSURE and not jump and 0 < taken < np.inf:
+            self._pace = moved(self.problem, found.displacement - self.last) / taken
+        if jump:
             self.history.restart(step.value, found.displacement)
         else:
             self.history.add(step.value, found.displacement)
         self.last = found.displacement
         return jump
+
+    def _length(self, step: LoadStep, taken: float) -> float:
+        """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""
+        if step.control is Trait.APPROACH:
+            return taken
+        return np.inf if self._pace is None else self._pace * taken
 
 
 @dataclass(frozen=True)
@@ -96,9 +107,9 @@ class Requested:
                 yield PathState(step, broken, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
                 continue
             before = problem.tally.transforms
-            found, spent, flowed = walk.near(step), 0, False
-            if not (found.settled and found.moved <= solver.trusted * problem.reach):
-                spent, flowed = found.iterations, True
+            found, spent, flowed = walk.near(step) if solver.predicts else None, 0, False
+            if found is None or not (found.settled and found.moved <= solver.trusted * problem.reach):
+                spent, flowed = found.iterations if found else 0, True
                 found = walk.flow(step)
             jump = 0.0
             if found.settled:
@@ -142,6 +153,8 @@ class Adaptive:
 
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order, interpolated between those walked through."""
+        if not solver.predicts:
+            raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
         walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
             end = _turn(steps, begin)

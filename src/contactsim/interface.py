@@ -86,6 +86,15 @@ class InterfaceProblem:
         held[0] &= self.load is None
         return held
 
+    @cached_property
+    def supported(self) -> Symbol:
+        """The stiffness, with that of the longest wave for a uniform mode that a load leaves free."""
+        if self.load is None:
+            return self.stiffness
+        diagonal = self.stiffness.diagonal.copy()
+        diagonal[0, 0] = diagonal[0, 1]
+        return replace(self.stiffness, diagonal=diagonal)
+
     @property
     def yielded(self) -> float:
         """Mean displacement of the surfaces under the mean pressure, nm."""
@@ -155,6 +164,22 @@ class InterfaceProblem:
             total[:rows] += traction
             values[:rows, :columns] += derivative
         return total, Tangent(self, values)
+
+    def energy(self, displacement: Array, gap: Array) -> float:
+        """Elastic energy plus the laws' potentials, less the work of the load, over the period, N/m; they need one."""
+        weighted = self.balanced(np.zeros_like(displacement), displacement) * self.weights
+        stored = 0.5 * float(np.vdot(displacement, weighted).real)
+        pressed = 0.0 if self.load is None else self.load * float(displacement[0, 0].real)
+        return stored + pressed + sum(float(law.energy(gap[: len(law.reads)]).mean()) for law in self.laws)
+
+    @cached_property
+    def weights(self) -> Array:
+        """How often each coefficient of a real transform counts in a mean over the period, (m,): once or twice."""
+        weights = np.full(self.unknowns[1], 2.0)
+        weights[0] = 1.0
+        if self.grid.size % 2 == 0:
+            weights[-1] = 1.0
+        return weights
 
     def residual(self, displacement: Array, traction: Array) -> Array:
         """Coefficients (exerted, m) of K v + T, GPa, zero where the displacement is held."""

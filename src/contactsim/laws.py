@@ -10,8 +10,9 @@ The mixed-mode law (Eq. 2.17) has no potential: the cross derivatives of its two
     (2 Δt/(δn δt²)) exp(-Δn/δn - Δt²/δt²) (φt - φn Δn/δn),
 
 so nothing that minimises an energy can solve it. Its repulsion scales with the work of separation as well, so a work
-that tends to zero is no contact, not a hard wall. Below OVERCLOSED characteristic lengths the exponential in Δn, which
-would overflow at a bad first guess, is continued by its tangent; no solution of physical interest gets there.
+that tends to zero is no contact, not a hard wall. Below OVERCLOSED characteristic lengths the dependence on Δn, whose
+exponential would overflow at a bad first guess, is continued by its tangent; no solution of physical interest gets
+there.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ from contactsim.traits import Trait
 
 OVERCLOSED = 10.0
 """Overlap, in characteristic lengths, beyond which a law is continued by its tangent."""
+SLIPPED = 30.0
+"""Tangential gap, in characteristic lengths, beyond which exp(-y²), zero to all digits, is taken there."""
 
 
 class Law(Protocol):
@@ -115,31 +118,36 @@ class CohesiveZone:
 
     def traction(self, gap: Array) -> Array:
         """Traction (1 or 2, n), GPa, at a gap (2, n), nm."""
-        normal, tangential = gap[0] / self.normal_length, gap[1] / self.tangential_length
-        decay = _decay(normal)[0] * np.exp(-(tangential**2))
-        pull = self.work_of_separation / self.normal_length * normal * decay
+        normal, tangential = self._without_units(gap)
+        shear = np.exp(-(tangential**2))
+        pull = self.work_of_separation / self.normal_length * _pull(normal)[0] * shear
         if not self.tangential_work:
             return pull[None]
-        return np.stack((pull, 2 * self.tangential_work / self.tangential_length * tangential * decay))
+        size = 2 * self.tangential_work / self.tangential_length
+        return np.stack((pull, size * tangential * _decay(normal)[0] * shear))
 
     def tangent(self, gap: Array) -> tuple[Array, Array]:
         """Traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
-        normal, tangential = gap[0] / self.normal_length, gap[1] / self.tangential_length
-        decay, slope = _decay(normal)
+        normal, tangential = self._without_units(gap)
         shear = np.exp(-(tangential**2))
-        slope, decay = slope * shear, decay * shear
+        pull, slope = _pull(normal)
         size = self.work_of_separation / self.normal_length
         traction = np.empty((len(self.exerts), gap.shape[1]))
         derivative = np.empty((len(self.exerts), *gap.shape))
-        traction[0] = size * normal * decay
-        derivative[0, 0] = size / self.normal_length * (decay + normal * slope)
+        traction[0] = size * pull * shear
+        derivative[0, 0] = size / self.normal_length * slope * shear
         derivative[0, 1] = -2 / self.tangential_length * tangential * traction[0]
         if self.tangential_work:
+            decay, slope = _decay(normal)
             size = 2 * self.tangential_work / self.tangential_length
-            traction[1] = size * tangential * decay
-            derivative[1, 0] = size / self.normal_length * tangential * slope
-            derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * decay
+            traction[1] = size * tangential * decay * shear
+            derivative[1, 0] = size / self.normal_length * tangential * slope * shear
+            derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * decay * shear
         return traction, derivative
+
+    def _without_units(self, gap: Array) -> tuple[Array, Array]:
+        """Both components of the gap over their lengths."""
+        return gap[0] / self.normal_length, np.clip(gap[1] / self.tangential_length, -SLIPPED, SLIPPED)
 
 
 @dataclass(frozen=True)
@@ -175,34 +183,35 @@ class NormalCohesiveZone:
 
     def traction(self, gap: Array) -> Array:
         """Traction (1, n), GPa, at a gap (1, n), nm."""
-        normal = gap / self.normal_length
-        return self.work_of_separation / self.normal_length * normal * _decay(normal)[0]
+        return self.work_of_separation / self.normal_length * _pull(gap / self.normal_length)[0]
 
     def tangent(self, gap: Array) -> tuple[Array, Array]:
         """Traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
-        normal = gap / self.normal_length
-        decay, slope = _decay(normal)
-        size = self.work_of_separation / self.normal_length
-        return size * normal * decay, (size / self.normal_length * (decay + normal * slope))[None]
+        pull, slope = _pull(gap / self.normal_length)
+        return self.work_of_separation / self.normal_length * pull, self.stiffness * slope[None]
 
     def energy(self, gap: Array) -> Array:
         """Potential of the traction (n,), N/m, zero far apart: -φn (1 + Δn/δn) exp(-Δn/δn)."""
         normal = gap[0] / self.normal_length
         inside = np.maximum(normal, -OVERCLOSED)
-        energy = -self.work_of_separation * (1 + inside) * np.exp(-inside)
         beyond = normal - inside
-        rate = np.exp(OVERCLOSED)
-        more = rate * beyond * (-OVERCLOSED + beyond * ((1 + OVERCLOSED) / 2 - beyond / 3))
-        return energy + self.work_of_separation * more
+        pull, slope = _pull(inside)
+        return self.work_of_separation * (beyond * (pull + beyond * slope / 2) - (1 + inside) * np.exp(-inside))
 
 
 def _decay(normal: Array) -> tuple[Array, Array]:
     """exp(-y), below -OVERCLOSED its tangent there; and its derivative."""
-    decay = np.exp(-np.maximum(normal, -OVERCLOSED))
-    slope = -decay
-    if normal.min() < -OVERCLOSED:
-        decay = decay + slope * np.minimum(normal + OVERCLOSED, 0)
-    return decay, slope
+    inside = np.maximum(normal, -OVERCLOSED)
+    decay = np.exp(-inside)
+    return decay * (1 + (inside - normal)), -decay
+
+
+def _pull(normal: Array) -> tuple[Array, Array]:
+    """Traction y exp(-y), below -OVERCLOSED its tangent there; and its derivative."""
+    inside = np.maximum(normal, -OVERCLOSED)
+    decay = np.exp(-inside)
+    slope = (1 - inside) * decay
+    return inside * decay + (normal - inside) * slope, slope
 
 
 def _check_positive(law: object, *names: str) -> None:

@@ -20,6 +20,9 @@ SOLVERS = {
     "tamaas": "contactsim.solvers.tamaas:Tamaas",
     "conjugate_gradients": "contactsim.solvers.conjugate_gradients:NestedConjugateGradients",
     "newton": "contactsim.solvers.newton:NewtonKrylov",
+    "damped_verlet": "contactsim.solvers.damped_verlet:DampedVerlet",
+    "mass_weighted_verlet": "contactsim.solvers.damped_verlet:MassWeightedVerlet",
+    "energy_minimisation": "contactsim.solvers.energy_minimisation:EnergyMinimisation",
 }
 USUAL = {Trait.SMOOTH: "newton", Trait.LINE: "active_set", Trait.SURFACE: "conjugate_gradients"}
 """What is used where nothing is asked for, by the first of these traits that the scene has."""

@@ -5,10 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import numpy as np
+
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.solvers.base import Status
 from contactsim.traits import Trait
+
+APART = 40.0
+"""Smallest gap, in the laws' length, from which on a load has pulled the bodies apart."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +39,9 @@ class Equilibrium:
 class PathSolver(Protocol):
     """A method that follows smooth laws.
 
-    accepts: the traits it can take; predicts: whether it profits from a guess beyond the last state; trusted: how far
-    (in the laws' length) a state may lie from its guess to be believed on the same branch; fields: doubles a point and
-    component at its peak.
+    accepts: the traits it can take; predicts: whether it starts from a guess beyond the last state, or else flows from
+    that one always; trusted: how far (in the laws' length) a state may lie from its guess to be believed on the same
+    branch; fields: doubles a point and component at its peak.
     """
 
     accepts: frozenset[Trait]
@@ -55,3 +60,21 @@ class PathSolver(Protocol):
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The equilibrium that the overdamped flow reaches from a state."""
         ...
+
+
+def judged(residual: float, problem: InterfaceProblem) -> Status:
+    """What a residual, over the laws' strength, makes of a state."""
+    if not np.isfinite(residual):
+        return Status.NON_FINITE
+    return Status.CONVERGED if residual <= problem.tolerance else Status.BUDGET
+
+
+def apart(problem: InterfaceProblem, gap: Array) -> bool:
+    """Whether a load has pulled the bodies apart; gap: (components, n), nm."""
+    return problem.load is not None and bool(gap[0].min() > APART * problem.reach)
+
+
+def moved(problem: InterfaceProblem, change: Array, enough: float = 0.0) -> float:
+    """Largest change of the displacement anywhere, nm; only a bound on it where that is at most `enough`."""
+    bound = 2 * float(np.abs(change).sum(axis=1).max())
+    return bound if bound <= enough else float(np.abs(problem.field(change)[: len(change)]).max())

@@ -22,7 +22,7 @@ from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import Equilibrium
+from contactsim.solvers.equilibrium import Equilibrium, apart, judged, moved
 from contactsim.solvers.krylov import gmres
 from contactsim.solvers.zone import ZonePreconditioner
 from contactsim.traits import Trait
@@ -36,8 +36,6 @@ FIRST, RETURN, DROP = 0.3, 0.02, 1e-3
 
 STRAYED = 1e3
 """Newton is given up once it has moved this many times as far as is trusted."""
-APART = 40.0
-"""Smallest gap, in the laws' length, from which on a load has pulled the bodies apart."""
 
 
 @dataclass(frozen=True)
@@ -79,20 +77,19 @@ class NewtonKrylov:
 
     def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
         """Newton's method from a guess."""
-        displacement, far, moved = guess, STRAYED * self.trusted * problem.reach, 0.0
+        displacement, far, strayed = guess, STRAYED * self.trusted * problem.reach, 0.0
         for count in range(self.newton_budget + 1):
             traction, tangent = problem.tangent(problem.gap(displacement))
             residual = problem.residual(displacement, traction)
             worst = problem.size(residual)
             if count:
-                moved = _moved(problem, displacement - guess, self.trusted * problem.reach)
-            if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and moved <= far):
+                strayed = moved(problem, displacement - guess, self.trusted * problem.reach)
+            if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
                 break
-            norm = np.linalg.norm(residual)
-            forcing = max(0.1 * problem.tolerance * problem.strength / norm, TIGHTEST)
+            forcing = max(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST)
             precondition = ZonePreconditioner(problem, tangent)
             displacement = displacement + self._solve(problem, tangent, precondition, residual, 0.0, forcing)
-        return Equilibrium(displacement, _status(worst, problem), worst, moved, count)
+        return Equilibrium(displacement, judged(worst, problem), worst, strayed, count)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
@@ -105,13 +102,12 @@ class NewtonKrylov:
             residual = problem.residual(displacement, traction)
             worst = problem.size(residual)
             if not np.isfinite(worst) or (shift == 0 and worst <= problem.tolerance):
-                status = _status(worst, problem)
+                status = judged(worst, problem)
                 break
-            if problem.load is not None and gap[0].min() > APART * problem.reach:
+            if apart(problem, gap):
                 status = Status.PULLED_OFF
                 break
-            norm = np.linalg.norm(residual)
-            forcing = np.clip(0.1 * problem.tolerance * problem.strength / norm, TIGHTEST, ROUGH)
+            forcing = np.clip(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST, ROUGH)
             precondition = ZonePreconditioner(problem, tangent, shift)
             change = self._solve(problem, tangent, precondition, residual, shift, forcing)
             move = float(np.abs(problem.field(change)[: len(change)]).max())
@@ -122,7 +118,7 @@ class NewtonKrylov:
             displacement = displacement + change
             shift /= 3 if move < 0.3 * most else 1.5 if move < most else 1
             shift = shift if shift > DROP * problem.softening else 0.0
-        return Equilibrium(displacement, status, worst, _moved(problem, displacement - start, 0.0), count)
+        return Equilibrium(displacement, status, worst, moved(problem, displacement - start), count)
 
     def _solve(
         self,
@@ -139,16 +135,5 @@ class NewtonKrylov:
                 out += shift * change
             return problem.balanced(out, change)
 
-        return gmres(product, precondition, -residual, forcing, self.krylov_budget)[0]
-
-
-def _status(worst: float, problem: InterfaceProblem) -> Status:
-    if not np.isfinite(worst):
-        return Status.NON_FINITE
-    return Status.CONVERGED if worst <= problem.tolerance else Status.BUDGET
-
-
-def _moved(problem: InterfaceProblem, change: Array, enough: float) -> float:
-    """Largest change of the displacement anywhere, nm; only a bound on it where that is at most `enough`."""
-    bound = 2 * float(np.abs(change).sum(axis=1).max())
-    return bound if bound <= enough else float(np.abs(problem.field(change)[: len(change)]).max())
+        unit = problem.strength  # squares of a weak law's tractions would underflow
+        return unit * gmres(product, precondition, residual / -unit, forcing, self.krylov_budget)[0]

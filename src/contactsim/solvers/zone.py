@@ -11,15 +11,12 @@ that is free (its stiffness zero, under load control) is given the stiffness of 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import ducc0
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, Tangent, contracted
-from contactsim.symbols import Symbol
 
 RATIO = 8
 """Points of the grid to one on which long waves are solved for."""
@@ -45,20 +42,12 @@ class ZonePreconditioner:
         sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
         extra = shift + SHIFT * np.array([problem.softening, sideways][:rows])
         self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
-        self._compliance = self._supported(problem.stiffness.modes(slice(0, self._low))).inverse(shift)
+        self._compliance = problem.supported.modes(slice(0, self._low)).inverse(shift)
         self._factor(tangent.values[..., :: problem.grid.size // self._nodes][..., : self._nodes], rows)
 
     def _acting(self, values: Array) -> Array:
         """Points where the tangent is not negligible, bool."""
         return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.softening
-
-    def _supported(self, low: Symbol) -> Symbol:
-        """The stiffness of long waves, with some for a uniform mode that is free."""
-        if self._problem.load is None:
-            return low
-        diagonal = low.diagonal.copy()
-        diagonal[0, 0] = diagonal[0, min(1, self._low - 1)]
-        return replace(low, diagonal=diagonal)
 
     def _field(self, coefficients: Array) -> Array:
         """Values (rows, nodes) on the coarse grid of long waves (rows, low), with the derived component."""

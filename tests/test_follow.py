@@ -1,0 +1,230 @@
+"""Paths of smooth laws: one branch whatever the solver, the increments or the control, and an honest end."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.elasticity import HalfSpace, Layer
+from contactsim.errors import SceneError
+from contactsim.follow import Adaptive
+from contactsim.interface import pose_interface
+from contactsim.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.loading import LoadPath, LoadStep, approach, press
+from contactsim.solvers import solver
+from contactsim.solvers.base import Status
+from contactsim.solvers.equilibrium import APART
+from contactsim.solvers.newton import NewtonKrylov
+from contactsim.traits import Trait
+from smooth import LAWS, LAYER, LENGTH, along, scene_of, walk
+
+PATH = ("newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation")
+JUMP = along(-6.2, -5.2, 0.1)
+"""Around the jump to contact."""
+
+
+def solvers_of(scene):
+    return [kind for kind in PATH if scene.traits <= solver(kind).accepts]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LAWS)
+def test_all_solvers_follow_the_same_branch_and_jump_at_the_same_increment(name):
+    scene = scene_of(LAWS[name], JUMP)
+    kinds = solvers_of(scene)
+    assert kinds == [kind for kind in PATH if kind != "energy_minimisation" or name == "uncoupled"]
+    newton = walk(scene)
+    assert len(newton.jumps) == 1
+    for kind in kinds[1:]:
+        other = walk(scene, method=kind)
+        assert other.statuses == {"CONVERGED"}
+        assert max(state.residual for state in other.states) <= 1e-7
+        assert other.jumps == newton.jumps
+        # a residual of 1e-7, softened by a stiffness that all but vanishes at the fold
+        assert np.allclose(other.load, newton.load, rtol=1e-4, atol=0)
+        assert other.transforms > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", PATH[2:])
+def test_the_cheap_baselines_follow_the_whole_loop(kind):
+    law = LAWS["uncoupled"] if kind == "energy_minimisation" else LAWS["frictional"]
+    scene = scene_of(law, along(-7, 1, 0.25) >> along(0.75, -18, 0.25))
+    ours, other = walk(scene), walk(scene, method=kind)
+    assert other.jumps == ours.jumps
+    assert len(ours.jumps) == 2
+    assert np.allclose(other.load, ours.load, rtol=1e-4, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("law", "pull_off"),
+    [
+        (CohesiveZone(2.0), 241.9),
+        (CohesiveZone(2.0, 0.1), 257.7),
+        (CohesiveZone(2.0, 1.0), 282.8),
+        (NormalCohesiveZone(2.0), 287.6),
+    ],
+)
+def test_pull_off_on_loading_is_that_of_chapter_4(law, pull_off):
+    # found beforehand by an independent code at increments of 0.02 nm; the jump lies within one of them
+    begin = walk(scene_of(law, along(-8, -5.7, 0.1) >> along(-5.68, -5.5, 0.02)), points=256)
+    assert -begin.load.min() == pytest.approx(pull_off, abs=0.15)
+    assert len(begin.jumps) == 1
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_adaptive_increments_give_the_curve_of_the_requested_ones_for_less(name):
+    scene = scene_of(LAWS[name], along(-10, 10, 0.02))
+    asked, adaptive = walk(scene), walk(scene, increments=Adaptive())
+    assert asked.statuses == adaptive.statuses == {"CONVERGED"}
+    assert adaptive.jumps == asked.jumps
+    assert len(asked.jumps) == 1
+    assert np.abs(adaptive.load - asked.load).max() <= 1e-3 * -asked.load.min()
+    assert asked.transforms >= 4 * adaptive.transforms
+
+
+def test_a_finer_path_jumps_within_the_increment_of_the_coarse_one():
+    jumps = [walk(scene_of(LAWS["frictionless"], along(-6, -5, step))).jumps for step in (0.2, 0.1, 0.02)]
+    for coarse, fine, step in zip(jumps, jumps[1:], (0.2, 0.1), strict=False):
+        assert len(coarse) == len(fine) == 1
+        assert coarse[0] - step - 1e-9 <= fine[0] <= coarse[0] + 1e-9
+
+
+def test_unloading_stays_in_contact_beyond_where_loading_jumped_in_and_ends_open():
+    found = walk(scene_of(LAWS["uncoupled"], along(-10, 2, 0.2) >> along(1.8, -20, 0.2)))
+    assert found.statuses == {"CONVERGED"}
+    into, out = found.jumps
+    assert out < into - 1
+    place = np.array([state.step.value for state in found.states])
+    turn = int(np.argmax(place))
+    between = (out + into) / 2
+    loading = np.interp(between, place[:turn], found.load[:turn])
+    unloading = np.interp(-between, -place[turn:], found.load[turn:])
+    assert unloading < 2 * loading < 0
+    assert -found.load[turn:].min() > -found.load[: turn + 1].min()
+    assert found.load[-1] == pytest.approx(walk(scene_of(LAWS["uncoupled"], approach([-20.0]))).load[0], rel=1e-5)
+
+
+def test_on_a_branch_without_a_jump_there_is_no_hysteresis():
+    found = walk(scene_of(NormalCohesiveZone(0.4), along(-10, 2, 0.2) >> along(1.8, -10, 0.2)))
+    assert not found.jumps
+    assert np.allclose(found.load, found.load[::-1], rtol=1e-5, atol=1e-6)
+
+
+def test_increments_longer_than_newton_is_trusted_need_no_flow_once_there_is_a_history():
+    found = walk(scene_of(LAWS["uncoupled"], along(-10, 10, 0.25)))
+    flowed = [state for state in found.states if state.iterations > NewtonKrylov.newton_budget]
+    assert len(flowed) <= 6  # the first states and those around the jump
+
+
+# ---- load control
+
+
+@pytest.mark.parametrize("body", [LAYER, HalfSpace(77.0, 0.3), Layer(93.0, 0.5, 5000.0)], ids=repr)
+@pytest.mark.parametrize("name", LAWS)
+def test_the_load_of_an_approach_gives_that_approach(name, body):
+    moved = walk(scene_of(LAWS[name], along(-10, 7, 0.2), body))
+    kept = [count for count, state in enumerate(moved.states) if state.step.value >= 1]
+    loads = press((moved.load[kept] / LENGTH).tolist())
+    loaded = walk(scene_of(LAWS[name], loads, body))
+    assert loaded.statuses == {"CONVERGED"}
+    assert not loaded.jumps
+    for count, state in zip(kept, loaded.states, strict=True):
+        here = loaded.problem.at(state.step)
+        found = here.yielded - state.displacement[0, 0].real
+        # the residual 1e-7 of the strength over the contact's stiffness, some 1e-3 GPa/nm
+        assert found == pytest.approx(moved.states[count].step.value, abs=1e-4)
+    assert np.allclose(loaded.load, moved.load[kept], rtol=1e-5, atol=1e-3)
+
+
+@pytest.mark.parametrize("kind", PATH[:1] + PATH[2:])
+def test_a_load_beyond_pull_off_is_told_and_the_path_breaks_off(kind):
+    loads = [LoadStep(Trait.MEAN_PRESSURE, value / LENGTH) for value in (200.0, -1000.0, 200.0)]
+    found = walk(scene_of(LAWS["uncoupled"], LoadPath(tuple(loads))), method=kind)
+    assert [state.status for state in found.states] == [Status.CONVERGED, Status.PULLED_OFF, Status.BROKEN_OFF]
+    here = found.problem.at(loads[1])
+    assert here.gap(found.states[1].displacement)[0].min() > APART * here.reach
+
+
+# ---- hard scenes and honest ends
+
+
+def hard_scenes():
+    path = along(-10, 8, 0.5)
+    for name, law in LAWS.items():
+        yield f"half-space {name}", scene_of(law, path, HalfSpace(77.0, 0.3))
+        yield f"incompressible layer {name}", scene_of(law, path, Layer(93.0, 0.5, 5000.0))
+        yield f"auxetic layer {name}", scene_of(law, path, Layer(93.0, -0.5, 5000.0))
+        yield f"60 lengths beyond touch at once {name}", scene_of(law, approach([60.0]))
+        yield f"the same of a half-space {name}", scene_of(law, approach([60.0]), HalfSpace(77.0, 0.3))
+        for thickness in (10.0, 1e3, 1e5, 1e7):
+            yield f"thickness {thickness:g} {name}", scene_of(law, path, Layer(77.0, 0.3, thickness))
+    for work in (1e-200, 1e-8, 1e-3):
+        for ratio in (0.0, 1.0):
+            yield f"work {work:g}, ratio {ratio:g}", scene_of(CohesiveZone(work, ratio), path)
+    yield "work ratio 100", scene_of(CohesiveZone(2.0, 100.0), along(-10, -4, 0.5))
+
+
+HARD = dict(hard_scenes())
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_hard_scenes_are_solved(name):
+    found = walk(HARD[name], points=128)
+    assert found.statuses == {"CONVERGED"}
+    assert np.isfinite(found.load).all()
+    for state in (found.states[0], found.states[-1]):
+        assert found.problem.at(state.step).certify(state.displacement) <= 1e-7
+
+
+@pytest.mark.parametrize("points", [2, 3, 4, 7, 16, 31])
+def test_any_number_of_points_has_an_answer(points):
+    found = walk(scene_of(LAWS["frictional"], along(-10, 5, 0.5)), points)
+    assert found.statuses == {"CONVERGED"}
+    assert np.isfinite(found.load).all()
+
+
+def test_a_process_zone_below_the_grid_ends_honestly():
+    scene = scene_of(CohesiveZone(1e5), along(-10, -9, 0.5))
+    found = walk(scene, points=128, method=NewtonKrylov(flow_budget=100))
+    assert found.statuses <= {"CONVERGED", "BUDGET", "BROKEN_OFF"}
+    for state in found.states:
+        solved = found.problem.at(state.step).certify(state.displacement) <= 1e-7
+        assert solved == (state.status is Status.CONVERGED)
+
+
+@pytest.mark.parametrize("kind", PATH)
+def test_a_spent_budget_is_told_and_the_path_breaks_off(kind):
+    short = {"newton": {"newton_budget": 1, "flow_budget": 1}}.get(kind, {"budget": 1})
+    found = walk(scene_of(LAWS["uncoupled"], along(-5.5, -5, 0.25)), method=solver(kind, **short))
+    assert [state.status for state in found.states] == [Status.BUDGET, Status.BROKEN_OFF, Status.BROKEN_OFF]
+    assert found.states[0].residual > 1e-7
+    assert np.isnan(found.states[1].residual)
+
+
+def test_dynamics_that_diverge_are_told():
+    # far beyond touch the law is stiffer than its stiffness says, and than the time step can follow
+    found = walk(scene_of(NormalCohesiveZone(2.0), approach([60.0])), method="damped_verlet")
+    assert found.states[0].status is Status.NON_FINITE
+
+
+def test_work_is_counted_in_transforms():
+    scene = scene_of(LAWS["frictional"])
+    problem = pose_interface(scene, scene.heights(64), 1e-30).at(LoadStep(Trait.APPROACH, -8.0))
+    found = solver("damped_verlet", batch=10, budget=3).flow(problem, np.zeros(problem.unknowns, complex))
+    assert found.iterations == 30
+    # four for each of 30 steps, for each of 4 checks and their 2, and 2 for how far it moved
+    assert problem.tally.transforms == 4 * 30 + 4 * (4 + 2) + 2
+
+
+def test_adaptive_increments_need_a_solver_that_predicts():
+    with pytest.raises(SceneError, match=r"^increments: got 'adaptive'; allowed: requested"):
+        walk(scene_of(LAWS["uncoupled"], JUMP), method="damped_verlet", increments=Adaptive())
+
+
+@pytest.mark.parametrize(
+    "options", [{"error": 0.0}, {"least": -1.0}, {"most": float("nan")}, {"least": 2.0, "most": 1.0}]
+)
+def test_increments_out_of_range_are_refused(options):
+    with pytest.raises(SceneError, match=rf"^{next(iter(options))}: got .*; allowed: "):
+        Adaptive(**options)

@@ -1,0 +1,125 @@
+"""The parts of Newton-Krylov: the linear solver, its preconditioner, and what the whole refuses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from cases import refusal
+from contactsim.interface import pose_interface
+from contactsim.solvers import solver, solver_class
+from contactsim.solvers.base import require
+from contactsim.solvers.krylov import gmres
+from contactsim.solvers.zone import RATIO, ZonePreconditioner
+from contactsim.surface import Cylinder
+from smooth import LAWS, scene_of
+
+
+def real_linear(seed, size, shape):
+    """A map on complex arrays that is linear over the real numbers alone, and its matrix."""
+    rng = np.random.default_rng(seed)
+    matrix = np.eye(2 * size) * 3 + rng.standard_normal((2 * size, 2 * size)) / np.sqrt(2 * size)
+    return matrix, lambda x: (matrix @ x.reshape(-1).view(float)).view(complex).reshape(shape)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("shape", [(1, 9), (2, 6)])
+def test_gmres_solves_maps_that_are_linear_over_the_reals(seed, shape):
+    size = shape[0] * shape[1]
+    matrix, product = real_linear(seed, size, shape)
+    rough = real_linear(seed + 100, size, shape)[1]
+    target = np.random.default_rng(seed).standard_normal((*shape, 2)).view(complex)[..., 0]
+    exact = np.linalg.solve(matrix, target.reshape(-1).view(float)).view(complex).reshape(shape)
+    for precondition in (lambda x: x, rough):
+        found, count = gmres(product, precondition, target, 1e-12, 2 * size)
+        assert count <= 2 * size
+        assert np.allclose(found, exact, rtol=0, atol=1e-10 * np.abs(exact).max())
+
+
+def test_gmres_stops_at_the_residual_asked_for_and_returns_the_best_within_its_budget():
+    product = real_linear(0, 40, (2, 20))[1]
+    target = np.random.default_rng(1).standard_normal((2, 20, 2)).view(complex)[..., 0]
+    counts, residuals = [], []
+    for tolerance in (1e-1, 1e-4, 1e-8):
+        found, count = gmres(product, lambda x: x, target, tolerance, 80)
+        residuals.append(np.linalg.norm(product(found) - target) / np.linalg.norm(target))
+        assert residuals[-1] <= tolerance * (1 + 1e-6)
+        counts.append(count)
+    assert counts == sorted(set(counts))
+    short, count = gmres(product, lambda x: x, target, 1e-8, 3)
+    assert count == 3
+    assert np.linalg.norm(product(short) - target) < np.linalg.norm(target)
+
+
+def test_gmres_survives_a_map_that_is_zero_or_exact_at_once():
+    target = np.array([[1.0 + 2.0j, -1.0j]])
+    found, _ = gmres(lambda x: 2 * x, lambda x: x, target, 1e-14, 5)
+    assert np.allclose(found, target / 2, rtol=1e-14, atol=0)
+    found, _ = gmres(lambda x: 0 * x, lambda x: x, target, 1e-14, 5)
+    assert np.isfinite(found).all()
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("shift", [0.0, 0.7])
+def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_within_the_zone(name, shift):
+    # a short period, so that the laws act everywhere, and a field of the longest waves
+    scene = scene_of(LAWS[name], surface=Cylinder(length=200.0, radius=25000.0))
+    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    displacement = np.zeros(problem.unknowns, complex)
+    tangent = problem.tangent(problem.gap(displacement))[1]
+    smooth = np.full_like(tangent.values, 0.0)
+    smooth += tangent.values.mean(axis=-1, keepdims=True)  # uniform: long waves stay long
+    object.__setattr__(tangent, "values", smooth)
+    precondition = ZonePreconditioner(problem, tangent, shift)
+    low = 256 // RATIO // 2
+    change = np.zeros(problem.unknowns, complex)
+    change[:, :low] = np.random.default_rng(3).standard_normal((len(change), low, 2)).view(complex)[..., 0]
+    change[:, 0] = change[:, 0].real
+    residual = problem.balanced(tangent(change) + shift * change, change)
+    assert np.abs(residual[:, low:]).max() < 1e-12 * np.abs(residual).max()
+    residual[:, low:] = 0
+    assert np.allclose(precondition(residual), change, rtol=0, atol=1e-9 * np.abs(change).max())
+
+
+@pytest.mark.parametrize("kind", ["newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation"])
+@pytest.mark.parametrize("trait", ["uncoupled", "frictionless", "frictional"])
+def test_a_law_without_potential_is_refused_by_the_minimiser_alone(kind, trait):
+    scene = scene_of(LAWS[trait])
+    if kind == "energy_minimisation" and trait != "uncoupled":
+        error = refusal("solver", None, lambda: _require(kind, scene))
+        assert "NON_CONSERVATIVE" in error.allowed
+    else:
+        require(solver(kind), scene)
+
+
+def _require(kind, scene):
+    try:
+        require(solver(kind), scene)
+    except ValueError as error:
+        raise error.within("None") from None
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [
+        ("newton", "flow_step"),
+        ("newton", "trusted"),
+        ("damped_verlet", "time_step"),
+        ("damped_verlet", "damping"),
+        ("mass_weighted_verlet", "damping"),
+        ("mass_weighted_verlet", "time_step"),
+    ],
+)
+@pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
+def test_options_out_of_range_are_refused(kind, name, value):
+    with pytest.raises(ValueError, match=rf"^{name}: got {value}; allowed: "):
+        solver_class(kind)(**{name: value})
+
+
+def test_a_time_step_beyond_the_limit_of_stability_is_refused():
+    scene = scene_of(LAWS["uncoupled"])
+    problem = pose_interface(scene, scene.heights(64), 1e-7)
+    with pytest.raises(ValueError, match=r"^time_step: got 9.0; allowed: below .* limit of stability"):
+        solver("damped_verlet", time_step=9.0).flow(problem, np.zeros(problem.unknowns, complex))
+    with pytest.raises(ValueError, match=r"^time_step: got 1.0; allowed: "):
+        solver("mass_weighted_verlet", time_step=1.0)
