@@ -17,7 +17,7 @@ from contactsim.figures.claims import COLOURS, COLUMNS, drawn
 from contactsim.plan import Plan
 
 PLAN = Plan.read(ROOT / "config", "quick")
-STUDIES = {name: PLAN.studies[name] for name in ("smooth_line", "rough_line")}
+STUDIES = {name: PLAN.studies[name] for name in ("smooth_line", "rough_line", "rough_line_coarse", "rough_surface")}
 PRESSURES = [0.001, 0.01, 0.1]
 VALUE = {
     "source": "Section 0",
@@ -59,15 +59,15 @@ def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144
 
 
 def test_a_verdict_flips_when_the_dataset_changes():
-    assert claims.judge(claim(), made_up(2.05))["verdict"] == REPRODUCED
-    assert claims.judge(claim(), made_up(2.15))["verdict"] == NOT_REPRODUCED
+    assert claims.judge(claim(), [made_up(2.05)])["verdict"] == REPRODUCED
+    assert claims.judge(claim(), [made_up(2.15)])["verdict"] == NOT_REPRODUCED
 
 
 @pytest.mark.parametrize("level", [2.05, 2.15])
 @pytest.mark.parametrize(("scatter", "grid"), [(0.0, 0.06), (0.2, 0.0), (0.1, 0.04)])
 def test_an_error_larger_than_the_distance_to_the_edge_leaves_it_open(level, scatter, grid):
-    assert claims.judge(claim(), made_up(level, scatter, grid))["verdict"] == NOT_DECIDABLE
-    assert claims.judge(claim(), made_up(level, scatter / 9, grid / 9))["verdict"] != NOT_DECIDABLE
+    assert claims.judge(claim(), [made_up(level, scatter, grid)])["verdict"] == NOT_DECIDABLE
+    assert claims.judge(claim(), [made_up(level, scatter / 9, grid / 9)])["verdict"] != NOT_DECIDABLE
 
 
 def test_the_two_errors_add_in_quadrature():
@@ -78,17 +78,17 @@ def test_the_two_errors_add_in_quadrature():
 
 def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
     area = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
-    found = claims.find(claim(**area), made_up(2.0, grid=0.2))
+    found = claims.find(claim(**area), [made_up(2.0, grid=0.2)])
     assert found.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
     data = made_up(2.0).assign(kappa_grid_error=made_up(grid=0.2).kappa_grid_error)
     part = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
-    assert claims.find(claim(**part), data).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
+    assert claims.find(claim(**part), [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
 
 
 def test_a_relation_has_one_edge():
     most, least = claim(expect=None, within=None, at_most=3.0), claim(expect=None, within=None, at_least=3.0)
-    assert [claims.judge(most, made_up(level))["verdict"] for level in (2.0, 4.0)] == [REPRODUCED, NOT_REPRODUCED]
-    assert [claims.judge(least, made_up(level))["verdict"] for level in (2.0, 4.0)] == [NOT_REPRODUCED, REPRODUCED]
+    assert [claims.judge(most, [made_up(level)])["verdict"] for level in (2.0, 4.0)] == [REPRODUCED, NOT_REPRODUCED]
+    assert [claims.judge(least, [made_up(level)])["verdict"] for level in (2.0, 4.0)] == [NOT_REPRODUCED, REPRODUCED]
     assert (claims.expected(most), claims.expected(least), claims.expected(claim())) == ("≤ 3", "≥ 3", "2 ± 0.1")
 
 
@@ -96,64 +96,120 @@ def test_a_condition_that_holds_is_named_and_one_that_does_not_changes_nothing()
     low = claim(condition={"words": "at low p*", "select": {"reduced_pressure": [0.001, 0.005]}})
     high = claim(condition={"words": "at high p*", "select": {"reduced_pressure": [0.05, 0.1]}})
     data = made_up(2.5, tilt=0.5)  # 2, 2.5 and 3 at the three loads
-    row = claims.judge(low, data)
+    row = claims.judge(low, [data])
     assert (row["verdict"], row["condition"]) == (CONDITION, "at low p*")
     assert (row["value"], row["condition_value"]) == pytest.approx((2.5, 2.0))
-    row = claims.judge(high, data)
+    row = claims.judge(high, [data])
     assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "")
     assert np.isnan(row["condition_value"])
 
 
 def test_where_a_condition_decides_against_an_open_statement_it_is_not_reproduced():
     settings = claim(condition={"words": "on the grid of the thesis", "grid": "thesis"})
-    row = claims.judge(settings, made_up(3.0, grid=5.0))
+    row = claims.judge(settings, [made_up(3.0, grid=5.0)])
     assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "on the grid of the thesis")
     assert row["condition_value"] == pytest.approx(3.0)
 
 
 def test_a_condition_is_not_needed_where_all_is_reproduced():
-    row = claims.judge(claim(condition={"words": "at low p*", "select": {}}), made_up())
+    row = claims.judge(claim(condition={"words": "at low p*", "select": {}}), [made_up()])
     assert (row["verdict"], row["condition"]) == (REPRODUCED, "")
 
 
 def test_on_the_grid_of_the_thesis_its_numbers_are_compared_without_grid_error():
     settings = claim(condition={"words": "on the grid of the thesis", "grid": "thesis"})
-    assert claims.judge(settings, made_up(grid=0.5))["verdict"] == CONDITION
-    assert claims.judge(settings, made_up(grid=0.5, points=1024))["verdict"] == NOT_DECIDABLE
+    assert claims.judge(settings, [made_up(grid=0.5)])["verdict"] == CONDITION
+    assert claims.judge(settings, [made_up(grid=0.5, points=1024)])["verdict"] == NOT_DECIDABLE
 
 
 def test_a_statement_about_the_grid_of_the_thesis_is_open_on_another():
     settings = claim(of="kappa_grid_error", against="kappa", take="ratio", expect=0.05, within=0.02, grid="thesis")
-    assert claims.judge(settings, made_up(grid=0.1))["verdict"] == REPRODUCED
-    assert claims.judge(settings, made_up(grid=0.1, points=1024))["verdict"] == NOT_DECIDABLE
+    assert claims.judge(settings, [made_up(grid=0.1)])["verdict"] == REPRODUCED
+    assert claims.judge(settings, [made_up(grid=0.1, points=1024)])["verdict"] == NOT_DECIDABLE
 
 
 def test_what_nothing_answers_is_not_decidable():
     bare = Claim.read("test", {key: VALUE[key] for key in ("source", "statement", "because")}, "ch3.yaml", STUDIES)
-    assert claims.judge(bare.settings, None)["verdict"] == NOT_DECIDABLE
+    assert claims.judge(bare.settings, [])["verdict"] == NOT_DECIDABLE
     assert (claims.expected(bare.settings), claims.measure(bare.settings)) == ("", "")
     nowhere = claim(select={"reduced_pressure": [0.5, 1.0]})
-    assert claims.judge(nowhere, made_up())["verdict"] == NOT_DECIDABLE
+    assert claims.judge(nowhere, [made_up()])["verdict"] == NOT_DECIDABLE
 
 
 def test_unconverged_solutions_do_not_count_and_with_none_left_it_is_open():
     data = made_up()
     data["kappa"][:, 0] = 99.0
     data["status"][:, 0] = 1
-    assert claims.find(claim(), data).value == pytest.approx(2.0)
+    assert claims.find(claim(), [data]).value == pytest.approx(2.0)
     data["status"][:] = 1
-    assert claims.judge(claim(), data)["verdict"] == NOT_DECIDABLE
+    assert claims.judge(claim(), [data])["verdict"] == NOT_DECIDABLE
 
 
 def test_one_member_of_a_random_surface_has_no_known_error_and_a_cylinder_needs_none():
     alone = made_up(members=1)
-    assert claims.judge(claim(), alone)["verdict"] == NOT_DECIDABLE
+    assert claims.judge(claim(), [alone])["verdict"] == NOT_DECIDABLE
     alone.attrs["settings"] = json.dumps({"surface": {"kind": "cylinder"}, "thesis_points": None})
-    assert claims.judge(claim(), alone)["verdict"] == REPRODUCED
+    assert claims.judge(claim(), [alone])["verdict"] == REPRODUCED
 
 
 def test_without_a_companion_the_grid_error_is_unknown():
-    assert claims.judge(claim(), made_up().drop_vars("kappa_grid_error"))["verdict"] == NOT_DECIDABLE
+    assert claims.judge(claim(), [made_up().drop_vars("kappa_grid_error")])["verdict"] == NOT_DECIDABLE
+
+
+# --- ratios of two studies ----------------------------------------------------------------------------------------
+
+RATIO = {"over": "rough_surface", "expect": 0.9, "within": 0.05}
+
+
+def test_over_a_second_study_the_number_is_the_ratio_of_the_means():
+    two = [made_up(1.8, scatter=0.1), made_up(2.0, scatter=0.3, members=7)]
+    found = claims.find(claim(**RATIO), two)
+    assert found.value == pytest.approx(0.9)
+    swapped = claims.find(claim(**RATIO), two[::-1])
+    assert swapped.value == pytest.approx(1 / 0.9)
+    assert claims.judge(claim(**RATIO), [made_up(1.8), made_up(2.0)])["verdict"] == REPRODUCED
+    assert claims.judge(claim(**RATIO), [made_up(1.8), made_up(1.8)])["verdict"] == NOT_REPRODUCED
+
+
+def test_a_ratio_is_taken_where_both_studies_have_loads_and_variants():
+    lines = made_up(1.8, tilt=0.3)  # κ of 1.5, 1.8 and 2.1
+    surfaces = made_up(2.0).isel(reduced_pressure=[0, 2], hurst=[1])
+    found = claims.find(claim(**RATIO), [lines, surfaces.assign_coords(reduced_pressure=[0.001, 0.2])])
+    assert found.value == pytest.approx(0.75)  # the first load alone
+    apart = surfaces.assign_coords(reduced_pressure=[0.002, 0.2])
+    assert claims.judge(claim(**RATIO), [lines, apart])["verdict"] == NOT_DECIDABLE
+    below = {"reduced_pressure": [0.05, 0.1]}
+    assert claims.find(claim(**RATIO, select=below), [lines, surfaces]).value == pytest.approx(2.1 / 2)
+
+
+def test_the_ensembles_of_a_ratio_are_independent():
+    one, two = made_up(1.8, scatter=0.02, members=4), made_up(2.0, scatter=0.05, members=9)
+    relative = [claims.find(claim(), [data]).ensemble_error / level for data, level in ((one, 1.8), (two, 2.0))]
+    found = claims.find(claim(**RATIO), [one, two])
+    assert found.ensemble_error == pytest.approx(0.9 * np.hypot(*relative), rel=1e-3)
+    alone = claims.find(claim(**RATIO), [one, made_up(2.0, members=1)])
+    assert np.isnan(alone.ensemble_error)
+
+
+def test_the_grid_errors_of_a_ratio_move_apart_and_one_that_is_unknown_leaves_it_open():
+    one, two = made_up(1.8, grid=0.09), made_up(2.0, grid=0.2)
+    assert claims.find(claim(**RATIO), [one, two]).grid_error == pytest.approx(0.9 * (1.05 / 0.9 - 1))
+    unknown = two.drop_vars("kappa_grid_error")
+    assert claims.judge(claim(**RATIO), [made_up(1.8), unknown])["verdict"] == NOT_DECIDABLE
+
+
+def test_the_grid_of_the_thesis_is_that_of_both_studies():
+    settings = claim(**RATIO, condition={"words": "on the grid of the thesis", "grid": "thesis"})
+    assert claims.judge(settings, [made_up(1.8, grid=0.5), made_up(2.0)])["verdict"] == CONDITION
+    assert claims.judge(settings, [made_up(1.8, grid=0.5), made_up(2.0, points=1024)])["verdict"] == NOT_DECIDABLE
+
+
+def test_a_ratio_names_both_studies_and_asks_for_both():
+    assert claims.measure(claim(**RATIO)) == "mean of kappa in rough_line over rough_surface"
+    assert Claim("test", claim(**RATIO)).studies == ["rough_line", "rough_surface"]
+    data = {"rough_line": made_up(1.8), "rough_surface": made_up(2.0)}
+    row = claims.verdicts({"test": claim(**RATIO)}, data).iloc[0]
+    assert (row.value, row.study, row.over) == (pytest.approx(0.9), "rough_line", "rough_surface")
 
 
 # --- numbers ------------------------------------------------------------------------------------------------------
@@ -179,7 +235,7 @@ def test_each_take_gives_what_a_hand_would():
 def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
     settings = claim(select={"hurst": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
-    found, at = claims.find(settings, data), data.sel(hurst=0.5, reduced_pressure=0.1)
+    found, at = claims.find(settings, [data]), data.sel(hurst=0.5, reduced_pressure=0.1)
     assert found.value == pytest.approx(float(at.kappa_mean))
     assert found.ensemble_error == pytest.approx(float(at.kappa_standard_error))
     assert found.grid_error == pytest.approx(float(at.kappa_grid_error))
@@ -237,7 +293,13 @@ def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
 def test_verdicts_depend_on_claims_code_and_every_study_asked():
     settings = PLAN.claims_settings("ch3")
     assert set(settings) == {"chapter", "claims", "source", "data"}
-    assert list(settings["data"]) == ["rough_line", "rough_surface", "smooth_line", "smooth_surface"]
+    assert list(settings["data"]) == [
+        "rough_line",
+        "rough_line_coarse",
+        "rough_surface",
+        "smooth_line",
+        "smooth_surface",
+    ]
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
     assert not any("verdict" in one for _, one in settings["claims"])
 
@@ -263,6 +325,21 @@ BAD = {
     "a dimension too few": ({"take": "spread"}, "along", None, "hurst, reduced_pressure"),
     "a dimension too many": ({"along": "hurst"}, "along", "hurst", "mean does not use it"),
     "unknown against": ({"take": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
+    "ratio to an unknown study": ({"over": "rough"}, "over", "rough", "rough_line_coarse, rough_surface"),
+    "ratio to itself": ({"over": "rough_line"}, "over", "rough_line", "rough_line_coarse, rough_surface"),
+    "ratio to a study along others": ({"over": "smooth_line"}, "over", "smooth_line", "rough_surface"),
+    "ratio of what both lack": (
+        {"over": "rough_surface", "of": "half_width"},
+        "of",
+        "half_width",
+        "kappa, kappa_fit",
+    ),
+    "ratio of ratios": (
+        {"over": "rough_surface", "take": "ratio", "against": "kappa_r"},
+        "take",
+        "ratio",
+        "mean, spread, fall",
+    ),
     "select of another study": (
         {"select": {"contact_ratio": [0.1, 0.2]}},
         "select.contact_ratio",

@@ -15,7 +15,7 @@ interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.
 solvers.kernels solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.predictor follow
 observables adhesion analytic provenance dataset config build schema study branch march aggregate costs
-joblog takes claims api hazards stability plan compare explain cost precision
+joblog takes findings claims api hazards stability plan compare explain cost precision
 figures figures.style figures.ch3 figures.ch5 figures.stability figures.render figures.claims figures.accuracy
 figures.sketch figures.stress cli
 """.split()

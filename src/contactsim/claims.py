@@ -20,20 +20,19 @@ that something is constant.
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
-from contactsim import dataset
 from contactsim.config import Key, choice, mapping, number, positive, read, text
 from contactsim.errors import SceneError
+from contactsim.findings import Finding, find
 from contactsim.study import Study
-from contactsim.takes import TAKES, averaged, needs, quantities, quantity
+from contactsim.takes import TAKES, needs, quantities
 
 REPRODUCED, CONDITION = "reproduced", "reproduced with a condition"
 NOT_REPRODUCED, NOT_DECIDABLE = "not reproduced", "not decidable"
@@ -58,6 +57,7 @@ CLAIM_KEYS = {
     "statement": Key(text, "what the thesis says"),
     "because": Key(text, "why that band, or why there is no answer"),
     "study": Key(text, "the name of a study of this chapter, or left out where there is no answer", None),
+    "over": Key(text, "the name of a second study, or left out", None),
     "of": Key(text, "the name of a quantity", None),
     "take": Key(choice(TAKES), f"one of {', '.join(TAKES)}", None),
     "against": Key(text, "the name of a quantity", None),
@@ -98,7 +98,8 @@ class Claim:
         _one_of(settings, "study", studies, file, prefix)
         study = studies[settings["study"]]
         dims = [dim for dim in study.dimensions if dim != "member"]
-        known = {"of": quantities(study), "take": list(TAKES), "against": quantities(study), "along": dims}
+        shared = quantities(study) if settings["over"] is None else _shared(settings, studies, file, prefix)
+        known = {"of": shared, "take": list(TAKES), "against": quantities(study), "along": dims}
         _one_of(settings, "take", known["take"], file, prefix)
         for key in ("of", *needs(settings["take"])):
             _one_of(settings, key, known[key], file, prefix)
@@ -106,6 +107,9 @@ class Claim:
             if key not in needs(settings["take"]) and settings[key] is not None:
                 allowed = f"left out: {settings['take']} does not use it"
                 raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)
+        if settings["over"] is not None and settings["against"] is not None:
+            single = [take for take in TAKES if "against" not in needs(take)]
+            raise SceneError(f"{prefix}.take", settings["take"], f"with `over`, one of {', '.join(single)}", file)
         settings["select"] = selection(settings["select"] or {}, dims, file, f"{prefix}.select")
         if settings["condition"] is not None:
             condition = read(settings["condition"], CONDITION_KEYS, file, f"{prefix}.condition")
@@ -116,65 +120,23 @@ class Claim:
             raise SceneError(prefix, sorted(given), "expect with within, or at_least, or at_most", file)
         return cls(name, settings)
 
+    @property
+    def studies(self) -> list[str]:
+        """The studies whose data answer it: none, one, or two of which it takes the ratio."""
+        return [self.settings[key] for key in ("study", "over") if self.settings[key] is not None]
+
+
+def _shared(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
+    """Quantities that both studies of a ratio answer for; the second must vary along the same dimensions."""
+    study = studies[settings["study"]]
+    alike = [name for name, other in studies.items() if other.dimensions == study.dimensions]
+    _one_of(settings, "over", [name for name in alike if name != settings["study"]], file, prefix)
+    return sorted(set(quantities(study)) & set(quantities(studies[settings["over"]])))
+
 
 def _one_of(settings: dict, key: str, known: object, file: object, prefix: str) -> None:
     if settings[key] not in known:
         raise SceneError(f"{prefix}.{key}", settings[key], f"one of {', '.join(known)}", file)
-
-
-@dataclass(frozen=True)
-class Finding:
-    """A number with its ensemble and grid error; NaN: unknown."""
-
-    value: float = NAN
-    ensemble_error: float = NAN
-    grid_error: float = NAN
-
-
-def find(claim: Mapping, data: xr.Dataset, condition: Mapping | None = None) -> Finding:
-    """The number that answers a claim, from the dataset of its study, on all of its selection or on the condition."""
-    study, parts = dataset.settings_of(data), [claim] if condition is None else [claim, condition]
-    for dim, (least, largest) in [ends for part in parts for ends in part["select"].items()]:
-        data = data.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))})
-    if 0 in data.sizes.values():
-        return Finding()
-    value = _number(claim, data)
-    ensemble = _jackknife(claim, data) if data.member.size > 1 else _alone(study)
-    grid = _shifted(claim, data, value)
-    if "thesis" in [part["grid"] for part in parts]:
-        grid = 0.0 if int(data.points) == study["thesis_points"] else NAN
-    return Finding(value, ensemble, grid)
-
-
-def _number(claim: Mapping, data: xr.Dataset) -> float:
-    given = {"against": lambda name: quantity(data, name), "along": str}
-    take = claim["take"]
-    return TAKES[take](quantity(data, claim["of"]), **{need: given[need](claim[need]) for need in needs(take)})
-
-
-def _jackknife(claim: Mapping, data: xr.Dataset) -> float:
-    """Standard error from leaving out each member; of a mean it is the usual one."""
-    count = data.member.size
-    parts = [_number(claim, data.drop_isel(member=member)) for member in range(count)]
-    return math.sqrt((count - 1) * np.var(parts))
-
-
-def _alone(study: Mapping) -> float:
-    """The ensemble error of one member: none where the surface is not random, else unknown."""
-    return NAN if study["surface"]["kind"] == "self_affine" else 0.0
-
-
-def _shifted(claim: Mapping, data: xr.Dataset, value: float) -> float:
-    """The largest change when each quantity moves by its grid error, up or down; exact ones stay."""
-    names = {averaged(claim[key]) for key in ("of", "against") if claim[key] is not None}
-    moved = sorted(names - {None})
-    if any(f"{name}_grid_error" not in data for name in moved):
-        return NAN
-    changes = []
-    for signs in itertools.product((-1, 1), repeat=len(moved)):
-        shifts = {name: data[name] + sign * data[f"{name}_grid_error"] for name, sign in zip(moved, signs, strict=True)}
-        changes.append(abs(_number(claim, data.assign(shifts)) - value))
-    return max(changes)
 
 
 def measure(claim: Mapping) -> str:
@@ -182,7 +144,8 @@ def measure(claim: Mapping) -> str:
     if claim["study"] is None:
         return ""
     given = [f" {need} {claim[need]}" for need in needs(claim["take"])]
-    return f"{claim['take']} of {claim['of']}{''.join(given)}"
+    ratio = "" if claim["over"] is None else f" in {claim['study']} over {claim['over']}"
+    return f"{claim['take']} of {claim['of']}{ratio}{''.join(given)}"
 
 
 def band(claim: Mapping) -> tuple[float, float]:
@@ -211,12 +174,12 @@ def verdict(claim: Mapping, found: Finding) -> str:
     return REPRODUCED if low < found.value < high else NOT_REPRODUCED
 
 
-def judge(claim: Mapping, data: xr.Dataset | None) -> dict:
-    """A claim's number, errors and verdict, and those under its condition where that decides it."""
-    found = Finding() if data is None else find(claim, data)
+def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict:
+    """A claim's number, errors and verdict, and those under its condition where that decides it; data: as in `find`."""
+    found = find(claim, data) if data else Finding()
     row = {"verdict": verdict(claim, found), **vars(found), "condition": "", "condition_value": NAN}
     row |= {"condition_ensemble_error": NAN, "condition_grid_error": NAN}
-    if data is not None and claim["condition"] is not None and row["verdict"] != REPRODUCED:
+    if data and claim["condition"] is not None and row["verdict"] != REPRODUCED:
         narrower = find(claim, data, claim["condition"])
         decided = {REPRODUCED: CONDITION, NOT_REPRODUCED: NOT_REPRODUCED}.get(verdict(claim, narrower))
         if decided == CONDITION or (decided and row["verdict"] == NOT_DECIDABLE):
@@ -233,6 +196,7 @@ def verdicts(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) -> p
             "measure": measure(claim),
             "expected": expected(claim),
         }
-        found = judge(claim, data.get(claim["study"]))
-        rows.append({"claim": name, **words, **found, "because": claim["because"], "study": claim["study"] or ""})
+        studies = {key: claim[key] or "" for key in ("study", "over")}
+        found = judge(claim, [data[study] for study in studies.values() if study])
+        rows.append({"claim": name, **words, **found, "because": claim["because"], **studies})
     return pd.DataFrame(rows)

@@ -180,7 +180,7 @@ class Plan:
 
     def claims_studies(self, chapter: str) -> list[str]:
         """The studies that a chapter's claims ask."""
-        return sorted({claim.settings["study"] for claim in self.claims[chapter].values()} - {None})
+        return sorted({study for claim in self.claims[chapter].values() for study in claim.studies})
 
     def claims_settings(self, chapter: str) -> dict:
         """What the verdicts of a chapter depend on: its claims in their order, their code, and all their data's."""

@@ -1,0 +1,94 @@
+"""The number that answers a claim, with its ensemble error and its grid error.
+
+A claim over a second study is about the ratio of the means of the two at the loads and variants that both have. Their
+ensembles are independent: the jackknife leaves out a member of one, then of the other, and the two errors add in
+quadrature. Of the grid errors the worst combination counts, as of any two quantities; where the grids of both err to
+the same side, that overstates the error of the ratio.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+import operator
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.takes import TAKES, averaged, needs, quantity
+
+NAN = float("nan")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A number with its ensemble and grid error; NaN: unknown."""
+
+    value: float = NAN
+    ensemble_error: float = NAN
+    grid_error: float = NAN
+
+
+def find(claim: Mapping, data: Sequence[xr.Dataset], condition: Mapping | None = None) -> Finding:
+    """The number that answers a claim, on all of its selection or on the condition.
+
+    data: the datasets of its studies, one or, for a ratio, two.
+    """
+    parts = [claim] if condition is None else [claim, condition]
+    for dim, (least, largest) in [ends for part in parts for ends in part["select"].items()]:
+        data = [one.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}) for one in data]
+    data = xr.align(*data, join="inner", exclude={"member"})
+    if any(0 in one.sizes.values() for one in data):
+        return Finding()
+    value = _number(claim, data)
+    ensemble = math.hypot(*(_jackknife(claim, data, which) for which in range(len(data))))
+    grid = _shifted(claim, data, value)
+    if "thesis" in [part["grid"] for part in parts]:
+        own = all(int(one.points) == dataset.settings_of(one)["thesis_points"] for one in data)
+        grid = 0.0 if own else NAN
+    return Finding(value, ensemble, grid)
+
+
+def _number(claim: Mapping, data: Sequence[xr.Dataset]) -> float:
+    def ask(name: str) -> xr.DataArray:
+        return functools.reduce(operator.truediv, [quantity(one, name) for one in data])
+
+    given = {"against": ask, "along": str}
+    take = claim["take"]
+    return TAKES[take](ask(claim["of"]), **{need: given[need](claim[need]) for need in needs(take)})
+
+
+def _with(data: Sequence[xr.Dataset], which: int, one: xr.Dataset) -> list[xr.Dataset]:
+    return [one if k == which else other for k, other in enumerate(data)]
+
+
+def _jackknife(claim: Mapping, data: Sequence[xr.Dataset], which: int) -> float:
+    """Standard error from leaving out each member of one of the datasets; of a mean it is the usual one.
+
+    One member has none where the surface is not random, else an unknown one.
+    """
+    count = data[which].member.size
+    if count == 1:
+        return NAN if dataset.settings_of(data[which])["surface"]["kind"] == "self_affine" else 0.0
+    parts = [_number(claim, _with(data, which, data[which].drop_isel(member=member))) for member in range(count)]
+    return math.sqrt((count - 1) * np.var(parts))
+
+
+def _shifted(claim: Mapping, data: Sequence[xr.Dataset], value: float) -> float:
+    """The largest change when each quantity of each dataset moves by its grid error, up or down; exact ones stay."""
+    names = {averaged(claim[key]) for key in ("of", "against") if claim[key] is not None}
+    moved = [(which, name) for which in range(len(data)) for name in sorted(names - {None})]
+    if any(f"{name}_grid_error" not in data[which] for which, name in moved):
+        return NAN
+    changes = []
+    for signs in itertools.product((-1, 1), repeat=len(moved)):
+        shifted = list(data)
+        for sign, (which, name) in zip(signs, moved, strict=True):
+            error = data[which][f"{name}_grid_error"]
+            shifted[which] = shifted[which].assign({name: data[which][name] + sign * error})
+        changes.append(abs(_number(claim, shifted) - value))
+    return max(changes)
