@@ -17,12 +17,19 @@ THRESHOLDS = (1e-1, 1e-2, 1e-3)
 """Parts of the strength beyond which two surfaces interact."""
 
 LEGS = ("loading", "unloading")
+FINAL = {
+    "final_repulsive_length": "repulsive_length",
+    "final_load": "line_load",
+    "final_pressure": "largest_pressure",
+    "final_pull": "largest_pull",
+    "final_slip": "slip",
+}
+"""What is read at the largest approach, and of which number of a state."""
 SUMMARY = (
-    *(f"pull_off_{what}_{leg}" for what in ("load", "approach") for leg in LEGS),
-    "final_repulsive_length",
-    "final_load",
+    *(f"{what}_{leg}" for what in ("pull_off_load", "pull_off_approach", "largest_jump") for leg in LEGS),
+    *FINAL,
 )
-"""What a path amounts to."""
+"""What a path amounts to; the slip only where a law reads the tangential gap."""
 
 
 def repulsive_length(gap: Array, spacing: float) -> float:
@@ -37,6 +44,7 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
     load and friction_force, N/m; repulsive_length, interacting lengths for `THRESHOLDS`, smallest_gap, nm;
+    largest_pressure and largest_pull: normal traction where it is largest, either way, GPa;
     overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
@@ -46,6 +54,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
         "line_load": float(-traction[0].mean() * length),
         "repulsive_length": repulsive_length(gap[0], spacing),
         "smallest_gap": float(gap[0].min()),
+        "largest_pressure": float(max(-traction[0].min(), 0.0)),
+        "largest_pull": float(max(traction[0].max(), 0.0)),
         "overclosure": float(max(-gap[0].min(), 0.0) / problem.reach),
     }
     numbers |= {f"interacting_length_{level:g}": float(spacing * (size > level).sum()) for level in THRESHOLDS}
@@ -62,9 +72,8 @@ def pull_off(approach: Array, load: Array) -> dict[str, float]:
 
     approach, load: (step,). Loading is up to the first largest approach, unloading what follows.
     """
-    turn = int(np.argmax(approach)) + 1
     found = {}
-    for name, part in zip(LEGS, (slice(0, turn), slice(turn, None)), strict=True):
+    for name, part in zip(LEGS, legs(approach), strict=True):
         pull = -load[part]
         known = pull.size > 0 and not np.isnan(pull).all()
         place = int(np.nanargmax(pull)) if known else 0
@@ -73,24 +82,34 @@ def pull_off(approach: Array, load: Array) -> dict[str, float]:
     return found
 
 
-def summarised(data: xr.Dataset) -> xr.Dataset:
-    """A study of paths with what its curves amount to: pull-off, and the contact at the largest approach."""
-    names = SUMMARY[:4]
+def legs(approach: Array) -> tuple[slice, slice]:
+    """The steps of loading and of unloading; approach (step,)."""
+    turn = int(np.argmax(approach)) + 1
+    return slice(0, turn), slice(turn, None)
 
-    def per_path(approach: Array, load: Array) -> tuple[float, ...]:
-        found = pull_off(approach, load)
+
+def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
+    """Largest jump (nm) on loading and on unloading, zero where there is none; NaN where there is no such leg."""
+    parts = zip(LEGS, (jump[part] for part in legs(approach)), strict=True)
+    return {f"largest_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts}
+
+
+def summarised(data: xr.Dataset) -> xr.Dataset:
+    """A study of paths with what its curves amount to (`SUMMARY`); states that did not converge are left out."""
+    names = SUMMARY[: -len(FINAL)]
+
+    def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
+        found = pull_off(approach, load) | largest_jumps(approach, jump)
         return tuple(found[name] for name in names)
 
-    converged = data.line_load.where(data.status == 0)
+    converged = data.status == 0
     columns = xr.apply_ufunc(
         per_path,
-        *(data.approach, converged),
-        input_core_dims=[["step"], ["step"]],
+        *(data.approach, data.line_load.where(converged), data.jump.where(converged)),
+        input_core_dims=[["step"]] * 3,
         output_core_dims=[[]] * len(names),
         vectorize=True,
     )
-    data = data.assign(dict(zip(names, columns, strict=True)))
     last = data.approach.argmax("step")
-    return data.assign(
-        final_repulsive_length=data.repulsive_length.isel(step=last), final_load=data.line_load.isel(step=last)
-    )
+    final = {name: data[of].where(converged).isel(step=last) for name, of in FINAL.items() if of in data}
+    return data.assign(dict(zip(names, columns, strict=True)) | final)

@@ -71,7 +71,9 @@ def load_name(data: xr.Dataset) -> str:
 
 
 def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
-    """Values with NaN where the solution did not converge."""
+    """Values with NaN where the solution did not converge; what a whole path amounts to is of converged ones already."""
+    if "step" in data.dims and "step" not in values.dims:
+        return values
     return values.where(data.status == Status.CONVERGED.value[0])
 
 
@@ -101,7 +103,7 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
         if others:
             other = summarised(_read(others))
             same = data.sel(member=other.member)
-            changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY}
+            changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY if name in other}
             data = data.assign({f"{name}{suffix}": change for name, change in changes.items()})
     return data
 
