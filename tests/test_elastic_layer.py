@@ -312,6 +312,9 @@ def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
     assert told.bodies[1] == "Flat, Layer with E* = 1 GPa, Poisson's ratio 0.3, thickness 100 nm"
     assert "mean displacement" not in told.left_out
     assert {name: told.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
+    for ratio, named in ((None, ""), (0.3, ", Poisson's ratio 0.3")):
+        bodies = explain(scene(HalfSpace(1.0, ratio)), 256, "active_set").bodies
+        assert bodies[1] == f"Flat, HalfSpace with E* = 1 GPa{named}"
     fixed = explain(scene(Layer(1.0, 0.5, 100.0)), 256, "active_set")
     assert fixed.left_out["mean displacement"] == "zero: an incompressible layer keeps its volume"
     free = explain(scene(Layer(1.0, 0.5, 100.0), HalfSpace(1.0)), 256, "active_set")

@@ -18,7 +18,7 @@ there and is, up to a factor of two and with y = qz counted from the base,
     σ_zz: i (p [(1+r) cosh y - 2 r y sinh y] - u_t [(1-r) sinh y + 2 r y cosh y])
     σ_xz: u_t [(1+r) cosh y + 2 r y sinh y] + p [2 r y cosh y - (1-r) sinh y].
 
-In plane strain σ_xx = (ν σ_zz + 2μ ∂u_t/∂x)/(1-ν). The mean stress is uniform; a uniform strain along x is excluded.
+In plane strain σ_xx = (ν σ_zz + 2μ ∂u_t/∂x)/(1-ν). The mean stress is uniform, the mean strain along x none.
 """
 
 from __future__ import annotations
@@ -49,6 +49,11 @@ class Fields:
     displacement: Array
     stress: Array
 
+    def between(self, left: float, right: float) -> Fields:
+        """The part from one position to another (nm)."""
+        shown = (self.position >= left) & (self.position <= right)
+        return Fields(self.position[shown], self.depth, self.displacement[..., shown], self.stress[..., shown])
+
     @property
     def largest_shear(self) -> Array:
         """Largest shear stress in the plane, (depth, n), GPa."""
@@ -60,8 +65,8 @@ def inside(body: Elasticity, grid: Grid, traction: Array, depths: Array) -> Fiel
     """Fields under tractions on the surface of the lower body, which is a half-space or a layer on a rigid base.
 
     traction: (1, n), normal alone, or (2, n), normal and along x, GPa; positive pulls the body up and along x, so a
-    pressure is negative. depths: (depth,), nm, from 0 to the thickness. The mean displacement of a half-space is zero.
-    An upper body is a lower one upside down: give (T_n, -T_t) and read -u_n and -σ_xz.
+    pressure is negative. depths: (depth,), nm, from 0 to the thickness. On the surface of a half-space the mean
+    displacement is zero. An upper body is a lower one upside down: give (T_n, -T_t) and read -u_n and -σ_xz.
     """
     depths, traction = np.atleast_1d(np.asarray(depths, float)), np.asarray(traction, float)
     if not (depths >= 0).all() or not (depths <= body.base_depth).all():
@@ -71,9 +76,8 @@ def inside(body: Elasticity, grid: Grid, traction: Array, depths: Array) -> Fiel
     both = np.zeros((2, *grid.shape))
     both[: len(traction)] = traction
     tractions = np.stack([grid.forward(row) for row in both])
-    compliance = relative_compliance(body, None, grid, ("n", "t"))
-    surface = compliance.apply(tractions)
-    waves = _waves(body, grid.wavenumber[1:], surface[:, 1:], depths)
+    surface = relative_compliance(body, None, grid, ("n", "t")).apply(tractions)
+    waves = _waves(body, grid.wavenumber[1:], tractions[:, 1:], surface[:, 1:], depths)
     coefficients = np.empty((depths.size, 5, *grid.half_shape), complex)
     coefficients[:, :, 1:] = np.moveaxis(waves, 0, 1)
     coefficients[:, :, 0] = _mean(body, tractions[:, 0].real, surface[:, 0].real, depths)
@@ -84,24 +88,27 @@ def inside(body: Elasticity, grid: Grid, traction: Array, depths: Array) -> Fiel
 
 def _mean(body: Elasticity, traction: Array, surface: Array, depths: Array) -> Array:
     """Mean displacement and stress at each depth, (depth, 5)."""
-    left = np.ones_like(depths) if np.isinf(body.base_depth) else 1 - depths / body.base_depth
-    normal, shear = traction
-    side = body.poisson_ratio / (1 - body.poisson_ratio) * normal
-    return np.column_stack([surface[0] * left, surface[1] * left, *np.outer([side, normal, shear], np.ones_like(left))])
-
-
-def _waves(body: Elasticity, wavenumber: Array, surface: Array, depths: Array) -> Array:
-    """Coefficients (5, depth, m): displacement n, t, stress xx, zz, xz, of waves q > 0 from the surface's (2, m)."""
     ratio = body.poisson_ratio
-    start = np.stack([-1j * surface[0], surface[1]])  # p and u_t
+    flexibility = np.array([(1 - 2 * ratio) / (1 - ratio) ** 2, 2 / (1 - ratio)]) / body.contact_modulus
+    displacement = surface - np.outer(depths, traction * flexibility)
+    stress = np.array([ratio / (1 - ratio) * traction[0], *traction])
+    return np.hstack([displacement, np.tile(stress, (depths.size, 1))])
+
+
+def _waves(body: Elasticity, wavenumber: Array, traction: Array, surface: Array, depths: Array) -> Array:
+    """Coefficients (5, depth, m): displacement n, t, stress xx, zz, xz, of waves q > 0.
+
+    traction, surface: both known at the surface, (2, m), since either follows from the other: the displacements of a
+    thin incompressible layer say little of its pressure, the tractions on a deep one nothing of its base.
+    """
+    ratio = body.poisson_ratio
+    shear_modulus = body.contact_modulus * (1 - ratio) / 2
+    turned = np.array([[-1j], [1]])
     out = np.empty((4, depths.size, wavenumber.size), complex)
     thin = wavenumber * body.base_depth < THIN
-    carry = {True: _from_base, False: _decaying}
-    for is_thin, method in carry.items():
-        chosen = thin == is_thin
-        q = wavenumber[chosen]
-        out[:, :, chosen] = method(q, start[:, chosen], depths, body.base_depth, ratio)
-    shear_modulus = body.contact_modulus * (1 - ratio) / 2
+    loads, moved = turned * traction / (shear_modulus * wavenumber), turned * surface
+    out[:, :, thin] = _from_base(wavenumber[thin], loads[:, thin], depths, body.base_depth, ratio)
+    out[:, :, ~thin] = _decaying(wavenumber[~thin], moved[:, ~thin], depths, body.base_depth, ratio)
     p, along, normal, shear = out
     strain = 1j * wavenumber * along
     normal, shear = 1j * shear_modulus * wavenumber * normal, shear_modulus * wavenumber * shear
@@ -132,25 +139,25 @@ def _wave(y: Array, start: Array, ratio: float) -> Array:
     return np.exp(-y) * np.stack([p + bent, along - bent, normal, shear])
 
 
-def _from_base(q: Array, start: Array, depths: Array, base: float, ratio: float) -> Array:
-    """The same, (4, depth, m), carried up from the base; its displacement gradient there follows from the surface."""
+def _from_base(q: Array, loads: Array, depths: Array, base: float, ratio: float) -> Array:
+    """The same, (4, depth, m), from σ_zz/i and σ_xz in μq of the surface, (2, m), by what the base then does."""
+    r = 1 / (3 - 4 * ratio)
+    x, y = q * base, np.outer(base - depths, q)
+    (nn, nt), (tn, tt) = _stresses(x, ratio)
+    normal, shear = loads
+    root = np.stack([tt * normal - nt * shear, nn * shear - tn * normal])
+    p, along = root / ((1 + r) ** 2 + 4 * r * np.sinh(x) ** 2 + 4 * (r * x) ** 2)
+    sinh, cosh = np.sinh(y), np.cosh(y)
+    bent, cross = cosh_less_sinh(y) * np.exp(y) / 2, r * y * sinh
+    lifted = 2 * (1 - 2 * ratio) * r * y * cosh - bent  # sinh y - r y cosh y
+    moved = lifted * p - cross * along, cross * p + (sinh + r * y * cosh) * along
+    (nn, nt), (tn, tt) = _stresses(y, ratio)
+    return np.stack([*moved, nn * p + nt * along, tn * p + tt * along])
+
+
+def _stresses(y: Array, ratio: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """What takes the base to σ_zz/i, and to σ_xz."""
     r, omega = 1 / (3 - 4 * ratio), 2 * (1 - 2 * ratio) / (3 - 4 * ratio)
-    x = q * base
-    (nn, cross), (_, tt) = _lift(x, r, omega)
-    p, along = start
-    root = np.stack([tt * p + cross * along, nn * along - cross * p]) * (4 * np.exp(-2 * x) / determinant(x, ratio))
-    y = np.outer(base - depths, q)
-    (nn, cross), (_, tt) = _lift(y, r, omega)
     sinh, cosh = np.sinh(y), np.cosh(y)
-    p, along = root
-    normal = p * ((1 + r) * cosh - 2 * r * y * sinh) - along * (omega * sinh + 2 * r * y * cosh)
-    shear = along * ((1 + r) * cosh + 2 * r * y * sinh) + p * (2 * r * y * cosh - omega * sinh)
-    return np.stack([nn * p - cross * along, cross * p + tt * along, normal, shear])
-
-
-def _lift(y: Array, r: float, omega: float) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """What takes p and u_t of the base to displacement: sinh y ∓ r y cosh y, and across r y sinh y."""
-    sinh, cosh = np.sinh(y), np.cosh(y)
-    normal = omega * y * cosh - cosh_less_sinh(y) * np.exp(y) / 2
-    cross = r * y * sinh
-    return (normal, cross), (cross, sinh + r * y * cosh)
+    even, odd = 2 * r * y * sinh, 2 * r * y * cosh
+    return ((1 + r) * cosh - even, -omega * sinh - odd), (odd - omega * sinh, (1 + r) * cosh + even)

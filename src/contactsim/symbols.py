@@ -92,6 +92,11 @@ class Coupled:
         return self.diagonal == 0
 
     @cached_property
+    def _straight(self) -> Array:
+        """The diagonal as complex numbers, which numpy multiplies by others twice as fast."""
+        return self.diagonal.astype(complex)
+
+    @cached_property
     def _cross(self) -> Array:
         """What takes t to n, and n to t: complex, (2, m)."""
         return 1j * np.stack([self.coupling, -self.coupling])
@@ -99,7 +104,7 @@ class Coupled:
     def apply(self, coefficients: Array, out: Array | None = None) -> Array:
         """Multiply coefficients (2, m); `out` (may be `coefficients`) receives the result."""
         crossed = self._cross * coefficients[::-1]
-        out = np.multiply(self.diagonal, coefficients, out=out)
+        out = np.multiply(self._straight, coefficients, out=out)
         out += crossed
         return out
 

@@ -34,7 +34,7 @@ def draw(fields: Fields, axes: Sequence[Axes], scale: float = 1.0, unit: str = "
         panel.contour(
             fields.position, fields.depth, values, levels=limit * np.linspace(-0.9, 0.9, 10), colors="k", linewidths=0.3
         )
-        panel.figure.colorbar(mesh, ax=panel, label=f"{symbol} ({unit})", aspect=15)
+        panel.figure.colorbar(mesh, ax=panel, label=f"{symbol} ({unit})", location="bottom", aspect=25)
         panel.set(
             xlabel=r"$x$ (nm)", ylabel="depth (nm)", aspect="equal", ylim=(fields.depth.max(), fields.depth.min())
         )
