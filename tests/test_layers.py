@@ -14,10 +14,10 @@ errors traits grid roughness scans measured topography surface plane_strain symb
 interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.predictor follow
-observables adhesion analytic provenance dataset config build schema study branch march aggregate costs
+observables adhesion analytic provenance dataset config build schema study tabulate branch march aggregate costs
 joblog takes findings claims api hazards stability plan compare explain cost precision
-figures figures.style figures.ch3 figures.ch5 figures.stability figures.render figures.claims figures.accuracy
-figures.sketch figures.stress cli
+figures figures.style figures.stress figures.load_curves figures.ch2 figures.ch3 figures.ch4 figures.ch5
+figures.stability figures.render figures.claims figures.accuracy figures.sketch cli
 """.split()
 """Modules in import order: each may import those before it."""
 

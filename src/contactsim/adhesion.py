@@ -20,6 +20,8 @@ LEGS = ("loading", "unloading")
 FINAL = {
     "final_repulsive_length": "repulsive_length",
     "final_load": "line_load",
+    "final_repulsive_load": "repulsive_load",
+    "final_adhesive_load": "adhesive_load",
     "final_pressure": "largest_pressure",
     "final_pull": "largest_pull",
     "final_slip": "slip",
@@ -43,7 +45,7 @@ def repulsive_length(gap: Array, spacing: float) -> float:
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
-    load and friction_force, N/m; repulsive_length, interacting lengths for `THRESHOLDS`, smallest_gap, nm;
+    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; repulsive_length, interacting lengths for `THRESHOLDS`, smallest_gap, nm;
     largest_pressure and largest_pull: normal traction where it is largest, either way, GPa;
     overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the laws' lengths.
     """
@@ -52,6 +54,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     repulsive = gap[0] < 0
     numbers = {
         "line_load": float(-traction[0].mean() * length),
+        "repulsive_load": float(-np.minimum(traction[0], 0.0).mean() * length),
+        "adhesive_load": float(np.maximum(traction[0], 0.0).mean() * length),
         "repulsive_length": repulsive_length(gap[0], spacing),
         "smallest_gap": float(gap[0].min()),
         "largest_pressure": float(max(-traction[0].min(), 0.0)),
@@ -91,7 +95,9 @@ def legs(approach: Array) -> tuple[slice, slice]:
 def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
     """Largest jump (nm) on loading and on unloading, zero where there is none; NaN where there is no such leg."""
     parts = zip(LEGS, (jump[part] for part in legs(approach)), strict=True)
-    return {f"largest_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts}
+    return {
+        f"largest_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts
+    }
 
 
 def summarised(data: xr.Dataset) -> xr.Dataset:

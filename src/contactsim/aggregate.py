@@ -71,9 +71,7 @@ def load_name(data: xr.Dataset) -> str:
 
 
 def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
-    """Values with NaN where the solution did not converge; what a whole path amounts to is of converged ones already."""
-    if "step" in data.dims and "step" not in values.dims:
-        return values
+    """Values with NaN where the solution did not converge."""
     return values.where(data.status == Status.CONVERGED.value[0])
 
 
@@ -88,7 +86,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
         data.drop_vars(APART, errors="ignore").expand_dims({name: [at] for name, at in place.items()})
         for data, place in parts
     ]
-    data = xr.combine_by_coords(places, combine_attrs="drop")
+    data = xr.combine_by_coords(places, combine_attrs="drop", join="outer", compat="no_conflicts")
     for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]

@@ -102,8 +102,9 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     begin = time.process_time()
     scene = scene_of(settings)
     load, values = settings["load"]["name"], settings["load"]["values"]
-    names = [digest(settings | {"load": load}, value, source) for value in values]
     follows = "control" in settings["load"]
+    places = enumerate(values) if follows else values  # a path may come to the same value twice
+    names = [digest(settings | {"load": load}, place, source) for place in places]
     earlier = {} if follows else _earlier(target, costs)
     chosen = options(settings) if follows else {"keep": settings["keep"]}
     data = simulate(
