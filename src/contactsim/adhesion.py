@@ -45,8 +45,8 @@ def repulsive_length(gap: Array, spacing: float) -> float:
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
-    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; repulsive_length, interacting lengths for `THRESHOLDS`, smallest_gap, nm;
-    largest_pressure and largest_pull: normal traction where it is largest, either way, GPa;
+    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; repulsive_length, interacting lengths
+    for `THRESHOLDS`, smallest_gap, nm; largest_pressure and largest_pull: normal traction where it is largest, GPa;
     overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]

@@ -125,7 +125,7 @@ def rigid_cylinder_pull_off(work: Array, radius: float, length: float) -> Array:
 
 
 def normal_strength(work: float, length: float, slip: Array) -> Array:
-    """Largest normal traction φn/(e δn) exp(-s²) of the mixed-mode cohesive zone at a slip s = Δt/δt (Eq. 2.18); GPa."""
+    """Largest normal traction φn/(e δn) exp(-s²) of the mixed-mode cohesive zone at s = Δt/δt (Eq. 2.18); GPa."""
     return work / (np.e * length) * np.exp(-(np.asarray(slip) ** 2))
 
 

@@ -6,13 +6,15 @@ they are divided by πRφ0 with φ0 = 1 N/m, which leaves a number only for a th
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import analytic, dataset
+from contactsim import analytic
 from contactsim.adhesion import LEGS
 from contactsim.build import elastic
 from contactsim.fields import inside
@@ -299,7 +301,7 @@ def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     reach = 1.2 * float(one.final_repulsive_length)
     middle = grid.positions()[one.x.size // 2]
     found = inside(body, grid, traction, _depths(reach)).between(middle - reach, middle + reach)
-    return stress.draw(found, axes)
+    return stress.draw(replace(found, position=found.position - middle), axes)
 
 
 def _depths(reach: float) -> Array:

@@ -47,7 +47,7 @@ def centred(data: xr.Dataset) -> tuple[Array, Array]:
 
 
 def branch(axes: Axes, one: xr.Dataset, leg: str, **look: object) -> pd.DataFrame:
-    """One leg of a path, its largest pull as a dot, and its jumps as dotted lines; what did not converge is left out."""
+    """One leg of a path, its largest pull a dot, its jumps dotted lines; what did not converge is left out."""
     part = legs(one.approach.values)[LEGS.index(leg)]
     approach = one.approach.values[part] / normal_length(one)
     load = normalised(converged(one.line_load, one).values[part], one)

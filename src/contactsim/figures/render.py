@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
@@ -84,7 +85,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
             for name, words in PRICED.items()
-            if f"{name}_{error}_error" in data and data[f"{name}_{error}_error"].notnull().any()
+            if f"{name}_{error}_error" in data and not np.isnan(data[f"{name}_{error}_error"]).all()
         ]
         if sizes:
             parts.append(f"{error} error up to: {', '.join(sizes)}")
