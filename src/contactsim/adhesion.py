@@ -74,15 +74,21 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
 def pull_off(approach: Array, load: Array) -> dict[str, float]:
     """Largest pull (N/m) and its approach (nm), on loading and on unloading; NaN where there is no such leg.
 
-    approach, load: (step,). Loading is up to the first largest approach, unloading what follows.
+    approach, load: (step,). Loading is up to the first largest approach, unloading what follows. The increments leave
+    an `_increment_error` of each: of the approach one increment, of the pull its change to the nearer of the two states
+    beside it, which at a jump is the one that has not jumped.
     """
     found = {}
     for name, part in zip(LEGS, legs(approach), strict=True):
-        pull = -load[part]
+        pull, places = -load[part], approach[part]
         known = pull.size > 0 and not np.isnan(pull).all()
-        place = int(np.nanargmax(pull)) if known else 0
-        found[f"pull_off_load_{name}"] = float(pull[place]) if known else np.nan
-        found[f"pull_off_approach_{name}"] = float(approach[part][place]) if known else np.nan
+        best = int(np.nanargmax(pull)) if known else 0
+        beside = [other for other in (best - 1, best + 1) if known and 0 <= other < pull.size]
+        found[f"pull_off_load_{name}"] = float(pull[best]) if known else np.nan
+        found[f"pull_off_approach_{name}"] = float(places[best]) if known else np.nan
+        for what, values in (("load", pull), ("approach", places)):
+            changes = [abs(float(values[best] - values[other])) for other in beside]
+            found[f"pull_off_{what}_{name}_increment_error"] = min(changes, default=np.nan)
     return found
 
 
@@ -102,7 +108,7 @@ def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
 
 def summarised(data: xr.Dataset) -> xr.Dataset:
     """A study of paths with what its curves amount to (`SUMMARY`); states that did not converge are left out."""
-    names = SUMMARY[: -len(FINAL)]
+    names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
 
     def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
         found = pull_off(approach, load) | largest_jumps(approach, jump)

@@ -183,6 +183,7 @@ SUFFIXES = {
     "_mean": ": mean over members",
     "_standard_error": ": standard error of the mean over members",
     "_grid_error": ": change of the mean on halving the grid",
+    "_increment_error": ": what the increments of the path leave open",
     "_tolerance_error": ": change of the mean on solving more tightly",
     "_half_width": ": half-width of the 95 % confidence interval",
 }

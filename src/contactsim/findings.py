@@ -1,10 +1,10 @@
 """The number that answers a claim, with its ensemble error and its grid error.
 
 A claim over a second study is about the ratio of the means of the two at the loads and variants that both have; what
-only one of the two varies is held against the other at each value. Their
-ensembles are independent: the jackknife leaves out a member of one, then of the other, and the two errors add in
-quadrature. Of the grid errors the worst combination counts, as of any two quantities; where the grids of both err to
-the same side, that overstates the error of the ratio.
+only one of the two varies is held against the other at each value. Their ensembles are independent: the jackknife
+leaves out a member of one, then of the other, and the two errors add in quadrature. Of the grid errors the worst
+combination counts, as of any two quantities; where the grids of both err to the same side, that overstates the error of
+the ratio. What the increments of a path leave open is counted with the grid.
 """
 
 from __future__ import annotations
@@ -92,7 +92,13 @@ def _shifted(claim: Mapping, data: Sequence[xr.Dataset], value: float) -> float:
     for signs in itertools.product((-1, 1), repeat=len(moved)):
         shifted = list(data)
         for sign, (which, name) in zip(signs, moved, strict=True):
-            error = data[which][f"{name}_grid_error"]
+            error = data[which][f"{name}_grid_error"] + _of_increments(data[which], name)
             shifted[which] = shifted[which].assign({name: data[which][name] + sign * error})
         changes.append(abs(_number(claim, shifted) - value))
     return max(changes)
+
+
+def _of_increments(data: xr.Dataset, name: str) -> xr.DataArray | float:
+    """What the increments of a path leave open; of anything else zero."""
+    error = data.get(f"{name}_increment_error")
+    return 0.0 if error is None else error.max("member")

@@ -28,6 +28,8 @@ REFERENCE_WORK = 2.0
 """Work of separation, N/m, of the figures for which the thesis names one."""
 FRICTION = {0.0: "--", 0.1: "-.", 0.5: ":", 1.0: "-"}
 """Line of a ratio of works."""
+FELT = 0.01
+"""Part of the largest load below which a curve is not worth showing."""
 COUPLING = {"coupled": "-", "uncoupled": "--"}
 
 
@@ -167,7 +169,8 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
     axes[1].legend(
         handles=style.key({rf"$\nu={r:g}$": color for r, color in ratios.items()}, COUPLING), loc="upper left"
     )
-    _load_axes(axes, ("loading", "loading", "unloading", "unloading"))
+    fixed = r"$\nu=0.3$", rf"$\varphi_n={REFERENCE_WORK:g}$ N/m"
+    _load_axes(axes, tuple(f"{leg}, {words}" for leg in LEGS for words in fixed))
     return pd.concat(rows)
 
 
@@ -181,12 +184,15 @@ def _both_legs(panels: list[Axes], pair: tuple, color: str, panel: str, **place:
     return pd.concat(rows)
 
 
-def _load_axes(axes: list[Axes], legs: tuple[str, ...]) -> None:
-    """Labels and titles of panels of load against approach."""
-    for panel, leg in zip(axes, legs, strict=True):
+def _load_axes(axes: list[Axes], titles: tuple[str, ...]) -> None:
+    """Labels and titles of panels of load against approach, from where the surfaces first or last pull."""
+    for panel, title in zip(axes, titles, strict=True):
+        points = np.concatenate([line.get_xydata() for line in panel.lines])
+        felt = points[np.abs(points[:, 1]) > FELT * np.nanmax(np.abs(points[:, 1])), 0]
+        panel.set_xlim(felt.min() - 2.0, felt.max() + 1.0)
         panel.axhline(0.0, color=style.EXACT, lw=0.5)
         panel.set(xlabel=r"approach $\delta/\delta_n$", ylabel=curves.LOAD_LABEL)
-        panel.set_title(leg, fontsize=9)
+        panel.set_title(title, fontsize=9)
     _lettered(axes)
 
 
@@ -263,6 +269,8 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
         for values, line in limits.values():
             panel.plot(dense, values, color=style.EXACT, lw=0.8, ls=line)
         panel.set(xscale="log", yscale="log", xlabel=r"work of separation $\varphi_n/\varphi_0$")
+        for axis, ends in ((panel.xaxis, panel.get_xlim()), (panel.yaxis, panel.get_ylim())):
+            style.ticks(axis, *ends)
         panel.set_ylabel(curves.LOAD_LABEL.replace(r"$\bar L", r"pull-off $-\bar L", 1))
         panel.set_title(rf"$\nu={ratio:g}$", fontsize=9)
     marks = [

@@ -81,7 +81,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
-    for error in ("grid", "tolerance"):
+    for error in ("grid", "increment", "tolerance"):
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
             for name, words in PRICED.items()
