@@ -11,11 +11,13 @@ import yaml
 import contactsim
 from conftest import ROOT
 from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
-from contactsim.config import keys_of
+from contactsim.config import REQUIRED, keys_of
 from contactsim.cost import CASE_KEYS, SETTING_KEYS
+from contactsim.laws import EFFECTS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
-from contactsim.schema import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS, TIGHT_KEYS
+from contactsim.schema import COMPANION_KEYS, KINDS, LOADS, PATH_KEYS, STUDY_KEYS, TIGHT_KEYS
 from contactsim.stability import STABILITY_KEYS
+from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -103,7 +105,7 @@ def test_every_link_leads_somewhere():
             STABILITY_KEYS,
             dict.fromkeys(LOADS),
         ),
-        *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS),
+        *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, LAW_KEYS),
     ],
 )
 def test_every_key_is_explained(keys):
@@ -115,6 +117,16 @@ def test_every_key_is_explained(keys):
 def test_every_take_is_explained_with_what_it_uses(take):
     uses = ", ".join(f"`{need}`" for need in needs(take))
     assert re.search(rf"^\| `{take}` \| .+ \| {uses} ?\|$", KEYS, re.MULTILINE)
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_every_option_of_an_effect_is_explained_with_its_default(effect):
+    part = KEYS[KEYS.index("### Effects") :].split("\n### ")[0]
+    for name, key in keys_of(EFFECTS[effect]).items():
+        own = part[part.index(f"| `{effect}`") :]
+        row = re.search(rf"^.*\| `{name}` \|.*$", own, re.MULTILINE)
+        default = row[0].rstrip("| ").rpartition("|")[2].strip()
+        assert default == ("required" if key.default is REQUIRED else f"{key.default:g}"), name
 
 
 @pytest.mark.parametrize("section", KINDS)
@@ -134,7 +146,8 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
     known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *COMPANION_KEYS, *STABILITY_KEYS, *LOADS}
-    known |= {*CLAIM_KEYS, *CONDITION_KEYS, *TAKES, *CASE_KEYS, *SETTING_KEYS}
+    known |= {*CLAIM_KEYS, *CONDITION_KEYS, *TAKES, *CASE_KEYS, *SETTING_KEYS, *PATH_KEYS, *LAW_KEYS, *EFFECTS}
+    known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in KINDS.values():
         for kind in classes:
             known |= {kind, *keys_of(class_of(kind))}

@@ -19,15 +19,27 @@ INTERACTING = {
     "interacting_length_thousandth": 1e-3,
 }
 """Parts of the strength beyond which two surfaces interact."""
+FINAL = {
+    "final_repulsive_length": "repulsive_length",
+    "final_load": "line_load",
+    "final_repulsive_load": "repulsive_load",
+    "final_adhesive_load": "adhesive_load",
+    "final_pressure": "largest_pressure",
+    "final_pull": "largest_pull",
+    "final_slip": "slip",
+}
+"""What is read at the largest approach, and of which number of a state."""
+LEGS = ("loading", "unloading")
 SUMMARY = (
     "pull_off_load_loading",
-    "pull_off_approach_loading",
     "pull_off_load_unloading",
+    "pull_off_approach_loading",
     "pull_off_approach_unloading",
-    "final_repulsive_length",
-    "final_load",
+    "largest_jump_loading",
+    "largest_jump_unloading",
+    *FINAL,
 )
-"""What a path amounts to."""
+"""What a path amounts to; the slip only where a law reads the tangential gap."""
 
 
 def repulsive_length(gap: Array, spacing: float) -> float:
@@ -41,7 +53,8 @@ def repulsive_length(gap: Array, spacing: float) -> float:
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
-    load and friction_force, N/m; repulsive_length, lengths for `INTERACTING`, smallest_gap, nm;
+    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; repulsive_length, lengths for
+    `INTERACTING`, smallest_gap, nm; largest_pressure and largest_pull: normal traction where it is largest, GPa;
     overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
@@ -49,8 +62,12 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     repulsive = gap[0] < 0
     numbers = {
         "line_load": float(-traction[0].mean() * length),
+        "repulsive_load": float(-np.minimum(traction[0], 0.0).mean() * length),
+        "adhesive_load": float(np.maximum(traction[0], 0.0).mean() * length),
         "repulsive_length": repulsive_length(gap[0], spacing),
         "smallest_gap": float(gap[0].min()),
+        "largest_pressure": float(max(-traction[0].min(), 0.0)),
+        "largest_pull": float(max(traction[0].max(), 0.0)),
         "overclosure": float(max(-gap[0].min(), 0.0) / problem.reach),
     }
     numbers |= {name: float(spacing * (size > level).sum()) for name, level in INTERACTING.items()}
@@ -62,32 +79,57 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     return numbers
 
 
-def pull_off(approach: Array, load: Array) -> tuple[float, float, float, float]:
+def pull_off(approach: Array, load: Array) -> dict[str, float]:
     """Largest pull (N/m) and its approach (nm) on loading, then on unloading; NaN where there is no such leg.
 
-    approach, load: (step,). Loading is up to the first largest approach, unloading what follows.
+    approach, load: (step,). Loading is up to the first largest approach, unloading what follows. The increments leave
+    an `_increment_error` of each: of the approach one increment, of the pull its change to the nearer of the two states
+    beside it, which at a jump is the one that has not jumped.
     """
-    turn, found = int(np.argmax(approach)) + 1, []
-    for leg in (slice(0, turn), slice(turn, None)):
-        pull = -load[leg]
+    found = {}
+    for name, part in zip(LEGS, legs(approach), strict=True):
+        pull, places = -load[part], approach[part]
         known = pull.size > 0 and not np.isnan(pull).all()
-        place = int(np.nanargmax(pull)) if known else 0
-        found += [float(pull[place]), float(approach[leg][place])] if known else [np.nan, np.nan]
-    return tuple(found)
+        best = int(np.nanargmax(pull)) if known else 0
+        beside = [other for other in (best - 1, best + 1) if known and 0 <= other < pull.size]
+        found[f"pull_off_load_{name}"] = float(pull[best]) if known else np.nan
+        found[f"pull_off_approach_{name}"] = float(places[best]) if known else np.nan
+        for what, values in (("load", pull), ("approach", places)):
+            changes = [abs(float(values[best] - values[other])) for other in beside]
+            found[f"pull_off_{what}_{name}_increment_error"] = min(changes, default=np.nan)
+    return found
+
+
+def legs(approach: Array) -> tuple[slice, slice]:
+    """The steps of loading and of unloading; approach (step,)."""
+    turn = int(np.argmax(approach)) + 1
+    return slice(0, turn), slice(turn, None)
+
+
+def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
+    """Largest jump (nm) on loading and on unloading, zero where there is none; NaN where there is no such leg."""
+    parts = zip(LEGS, (jump[part] for part in legs(approach)), strict=True)
+    return {
+        f"largest_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts
+    }
 
 
 def summarised(data: xr.Dataset) -> xr.Dataset:
-    """A study of paths with what its curves amount to: pull-off, and the contact at the largest approach."""
-    converged = data.line_load.where(data.status == 0)
+    """A study of paths with what its curves amount to (`SUMMARY`); states that did not converge are left out."""
+    names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
+
+    def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
+        found = pull_off(approach, load) | largest_jumps(approach, jump)
+        return tuple(found[name] for name in names)
+
+    converged = data.status == 0
     columns = xr.apply_ufunc(
-        pull_off,
-        *(data.approach, converged),
-        input_core_dims=[["step"], ["step"]],
-        output_core_dims=[[]] * 4,
+        per_path,
+        *(data.approach, data.line_load.where(converged), data.jump.where(converged)),
+        input_core_dims=[["step"]] * 3,
+        output_core_dims=[[]] * len(names),
         vectorize=True,
     )
-    data = data.assign(dict(zip(SUMMARY[:4], columns, strict=True)))
     last = data.approach.argmax("step")
-    return data.assign(
-        final_repulsive_length=data.repulsive_length.isel(step=last), final_load=data.line_load.isel(step=last)
-    )
+    final = {name: data[of].where(converged).isel(step=last) for name, of in FINAL.items() if of in data}
+    return data.assign(dict(zip(names, columns, strict=True)) | final)

@@ -88,7 +88,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
         data.drop_vars([*APART, *place], errors="ignore").expand_dims({name: [at] for name, at in place.items()})
         for data, place in parts
     ]
-    data = xr.combine_by_coords(places, combine_attrs="drop")
+    data = xr.combine_by_coords(places, combine_attrs="drop", join="outer", compat="no_conflicts")
     for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
@@ -105,7 +105,7 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
         if others:
             other = summarised(_read(others))
             same = data.sel(member=other.member)
-            changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY}
+            changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY if name in other}
             data = data.assign({f"{name}{suffix}": change for name, change in changes.items()})
     return data
 

@@ -1,7 +1,8 @@
 """Exact answers, for tests and figures alike.
 
 Line contacts without adhesion on a half-space: a parabolic cylinder (Hertz), a sinusoid (Westergaard), and the
-complete contact of any profile; Persson's estimate of the contact area of rough surfaces. Loads are per unit thickness;
+complete contact of any profile; Persson's estimate of the contact area of rough surfaces. With adhesion: the pull-off
+of a cylinder in its two limits, and the strengths of the mixed-mode cohesive zone. Loads are per unit thickness;
 units nm, GPa, N/m, in which E* times a length is a line load without further factors.
 """
 
@@ -103,3 +104,31 @@ def line_area(reduced_pressure: Array, b1: float, b2: float) -> Array:
     """Relative contact area erf(√2 p*/Ψ), Ψ = b1 + (1 - b1) erf(b2 p*), of a rough line (Eq. 3.11)."""
     pressure = np.asarray(reduced_pressure)
     return persson_area(pressure / (b1 + (1 - b1) * erf(b2 * pressure)))
+
+
+def cylinder_pull_off(work: Array, radius: float, contact_modulus: float) -> Array:
+    """Pull-off 3 (π E* w² R/16)^(1/3) of an adhesive cylinder in the limit of JKR; N/m, nm, GPa to N/m.
+
+    Hertz's load less that of a crack whose energy release rate P²/(2π c E*) is the work w,
+    L = π E* c²/(4R) - √(2π E* w c), is least at c³ = 2wR²/(π E*) (Barquins, J. Adhesion 26, 1988).
+    """
+    return 3 * (np.pi * contact_modulus * np.asarray(work) ** 2 * radius / 16) ** (1 / 3)
+
+
+def rigid_cylinder_pull_off(work: Array, radius: float, length: float) -> Array:
+    """Pull-off w √(2π R/(e δ)) of a rigid cylinder by the exponential cohesive zone; N/m, nm to N/m.
+
+    Over the gap g + x²/(2R) the traction w y e^(-y)/δ, y the gap over δ, amounts to w √(2π R/δ) (g/δ + 1/2) e^(-g/δ),
+    which is largest at g = δ/2: what Bradley's limit is for a sphere. Nothing moves, so nothing slips.
+    """
+    return np.asarray(work) * np.sqrt(2 * np.pi * radius / (np.e * length))
+
+
+def normal_strength(work: float, length: float, slip: Array) -> Array:
+    """Largest normal traction φn/(e δn) exp(-s²) of the mixed-mode cohesive zone at s = Δt/δt (Eq. 2.18); GPa."""
+    return work / (np.e * length) * np.exp(-(np.asarray(slip) ** 2))
+
+
+def tangential_strength(work: float, length: float, opening: Array) -> Array:
+    """Largest tangential traction √(2/e) φt/δt exp(-y) of the mixed-mode cohesive zone at y = Δn/δn (Eq. 2.18); GPa."""
+    return np.sqrt(2 / np.e) * work / length * np.exp(-np.asarray(opening))

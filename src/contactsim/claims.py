@@ -15,7 +15,7 @@ does not reproduce it, it is not reproduced. The condition may be part of the lo
 or the thesis's own grid: then the number is compared with the thesis's at equal resolution, and its grid error does
 not count. A statement about that grid itself is not decidable on another. Errors are one standard error, so a number
 near an edge is decided wrongly about one time in six; and noise adds to every spread, which works against statements
-that something is constant.
+that something is constant. A study without chance in it has no ensemble error, and its grid error alone decides.
 """
 
 from __future__ import annotations
@@ -62,6 +62,7 @@ CLAIM_KEYS = {
     "take": Key(choice(TAKES), f"one of {', '.join(TAKES)}", None),
     "against": Key(text, "the name of a quantity", None),
     "along": Key(text, "a dimension of the study", None),
+    "across": Key(text, "another dimension of the study", None),
     "select": Key(mapping, "a mapping from a dimension to its least and largest value", None),
     "expect": Key(number, "a number, with `within`", None),
     "within": Key(positive, "a positive number, with `expect`", None),
@@ -97,13 +98,14 @@ class Claim:
             return cls(name, settings)
         _one_of(settings, "study", studies, file, prefix)
         study = studies[settings["study"]]
-        dims = [dim for dim in study.dimensions if dim != "member"]
         shared = quantities(study) if settings["over"] is None else _shared(settings, studies, file, prefix)
-        known = {"of": shared, "take": list(TAKES), "against": quantities(study), "along": dims}
+        asked = [studies[settings[key]] for key in ("study", "over") if settings[key] is not None]
+        dims = list(dict.fromkeys(dim for one in asked for dim in one.dimensions if dim != "member"))
+        known = {"of": shared, "take": list(TAKES), "against": quantities(study), "along": dims, "across": dims}
         _one_of(settings, "take", known["take"], file, prefix)
         for key in ("of", *needs(settings["take"])):
             _one_of(settings, key, known[key], file, prefix)
-        for key in ("against", "along"):
+        for key in ("against", "along", "across"):
             if key not in needs(settings["take"]) and settings[key] is not None:
                 allowed = f"left out: {settings['take']} does not use it"
                 raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)
@@ -127,9 +129,9 @@ class Claim:
 
 
 def _shared(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
-    """Quantities that both studies of a ratio answer for; the second must vary along the same dimensions."""
+    """Quantities that both studies of a ratio answer for; the second must be loaded in the same way."""
     study = studies[settings["study"]]
-    alike = [name for name, other in studies.items() if other.dimensions == study.dimensions]
+    alike = [name for name, other in studies.items() if other.dimensions[-1] == study.dimensions[-1]]
     _one_of(settings, "over", [name for name in alike if name != settings["study"]], file, prefix)
     return sorted(set(quantities(study)) & set(quantities(studies[settings["over"]])))
 

@@ -85,7 +85,7 @@ def compared(first: Plan, second: Plan) -> dict[str, pd.DataFrame | None]:
 def _figure(first: Plan, second: Plan, name: str) -> pd.DataFrame:
     figure = second.figures[name]
     a, b = (_numbers(plan, name) for plan in (first, second))
-    places = (*FIT_DIMENSIONS, *second.studies[figure.settings["study"]].dimensions)
+    places = (*FIT_DIMENSIONS, *(dim for study in figure.studies for dim in second.studies[study].dimensions))
     keys = [place for place in (*places, *a.select_dtypes(exclude="number")) if place in a and place in b]
     keys = list(dict.fromkeys(keys))
     for plan, table in ((first, a), (second, b)):

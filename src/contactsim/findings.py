@@ -1,9 +1,10 @@
 """The number that answers a claim, with its ensemble error and its grid error.
 
-A claim over a second study is about the ratio of the means of the two at the loads and variants that both have. Their
-ensembles are independent: the jackknife leaves out a member of one, then of the other, and the two errors add in
-quadrature. Of the grid errors the worst combination counts, as of any two quantities; where the grids of both err to
-the same side, that overstates the error of the ratio.
+A claim over a second study is about the ratio of the means of the two at the loads and variants that both have; what
+only one of the two varies is held against the other at each value. Their ensembles are independent: the jackknife
+leaves out a member of one, then of the other, and the two errors add in quadrature. Of the grid errors the worst
+combination counts, as of any two quantities; where the grids of both err to the same side, that overstates the error of
+the ratio. What the increments of a path leave open is counted with the grid.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from contactsim import dataset
 from contactsim.takes import TAKES, averaged, needs, quantity
 
 NAN = float("nan")
+ALONG_PATHS = ("step", "snapshot", "x")
+"""Dimensions of which a path's numbers are free, so that two studies need not share them."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +43,9 @@ def find(claim: Mapping, data: Sequence[xr.Dataset], condition: Mapping | None =
     """
     parts = [claim] if condition is None else [claim, condition]
     for dim, (least, largest) in [ends for part in parts for ends in part["select"].items()]:
-        data = [one.sel({dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}) for one in data]
-    data = xr.align(*data, join="inner", exclude={"member"})
+        part = {dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}
+        data = [one.sel(part) if dim in one.dims else one for one in data]
+    data = xr.align(*data, join="inner", exclude={"member", *ALONG_PATHS})
     if any(0 in one.sizes.values() for one in data):
         return Finding()
     value = _number(claim, data)
@@ -57,7 +61,7 @@ def _number(claim: Mapping, data: Sequence[xr.Dataset]) -> float:
     def ask(name: str) -> xr.DataArray:
         return functools.reduce(operator.truediv, [quantity(one, name) for one in data])
 
-    given = {"against": ask, "along": str}
+    given = {"against": ask, "along": str, "across": str}
     take = claim["take"]
     return TAKES[take](ask(claim["of"]), **{need: given[need](claim[need]) for need in needs(take)})
 
@@ -88,7 +92,13 @@ def _shifted(claim: Mapping, data: Sequence[xr.Dataset], value: float) -> float:
     for signs in itertools.product((-1, 1), repeat=len(moved)):
         shifted = list(data)
         for sign, (which, name) in zip(signs, moved, strict=True):
-            error = data[which][f"{name}_grid_error"]
+            error = data[which][f"{name}_grid_error"] + _of_increments(data[which], name)
             shifted[which] = shifted[which].assign({name: data[which][name] + sign * error})
         changes.append(abs(_number(claim, shifted) - value))
     return max(changes)
+
+
+def _of_increments(data: xr.Dataset, name: str) -> xr.DataArray | float:
+    """What the increments of a path leave open; of anything else zero."""
+    error = data.get(f"{name}_increment_error")
+    return 0.0 if error is None else error.max("member")

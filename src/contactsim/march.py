@@ -102,8 +102,10 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     begin = time.process_time()
     scene = scene_of(settings)
     load, values = settings["load"]["name"], settings["load"]["values"]
-    names = [digest(settings | {"load": load}, value, source) for value in values]
-    earlier = {} if "increments" in settings else _earlier(target, costs)
+    path = "increments" in settings
+    places = enumerate(values) if path else values  # a path may come to the same value twice
+    names = [digest(settings | {"load": load}, place, source) for place in places]
+    earlier = {} if path else _earlier(target, costs)
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),

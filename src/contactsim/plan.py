@@ -14,6 +14,7 @@ from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid,
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
+from contactsim.tabulate import read_law
 from contactsim.traits import Trait
 
 CONFIG_KEYS = {
@@ -41,7 +42,7 @@ TIER_KEYS = {
     "effects": Key(mapping, "a mapping of keys to override", {}),
 }
 CHAPTER_KEYS = {
-    "studies": Key(mapping, "a mapping from names to studies"),
+    "studies": Key(mapping, "a mapping from names to studies", {}),
     "figures": Key(mapping, "a mapping from names to figures"),
     "claims": Key(mapping, "a mapping from names to claims", {}),
 }
@@ -53,7 +54,8 @@ FIELDS = "fields"
 """First argument of a figure's function that draws the fields of one load of a surface."""
 
 FIGURE_KEYS = {
-    "study": Key(text, "the name of a study of this chapter"),
+    "study": Key(text, "the name of a study of this chapter, or left out with a `law`", None),
+    "law": Key(mapping, "a mapping with `effect`, its options and the gaps drawn, instead of a study", None),
     "beside": Key(listed(text), "names of further studies of this chapter", []),
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
@@ -76,8 +78,8 @@ class Figure:
 
     @property
     def studies(self) -> list[str]:
-        """The studies whose data it shows."""
-        return [self.settings["study"], *self.settings["beside"]]
+        """The studies whose data it shows; none where it shows a law by itself."""
+        return [study for study in (self.settings["study"], *self.settings["beside"]) if study is not None]
 
 
 @dataclass(frozen=True)
@@ -185,7 +187,7 @@ class Plan:
 
     def map_figure(self) -> dict:
         """What the figure of the map depends on; in the form of `figure_settings`."""
-        layout = {"panels": 2, "select": {}, "reference": {}}
+        layout = {"panels": 2, "select": {}, "reference": {}, "law": None}
         settings = {key: self.stability[key] for key in ("title", "caption", "size")} | layout
         code = source_digest("contactsim.figures.stability", "contactsim.figures.render")
         data = digest(self.map_settings())
@@ -240,10 +242,16 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
     settings = read(section, FIGURE_KEYS, file, prefix)
     if settings["size"][0] < LEAST_WIDTH * settings["panels"]:
         raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
+    if (settings["study"] is None) == (settings["law"] is None):
+        both = {key: settings[key] for key in ("study", "law")}
+        raise SceneError(prefix, both, "exactly one of study and law", file)
+    if settings["law"] is not None:
+        settings["law"] = read_law(settings["law"], file, f"{prefix}.law")
     for key, named in (("study", [settings["study"]]), ("beside", settings["beside"])):
-        for study in set(named) - set(studies):
+        for study in set(named) - {*studies, None}:
             raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
-    settings["select"] = selection(settings["select"], studies[settings["study"]].dimensions, file, f"{prefix}.select")
+    dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
+    settings["select"] = selection(settings["select"], dims, file, f"{prefix}.select")
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)

@@ -1,7 +1,7 @@
 """Numbers read off a dataset: its quantities as means over members, and the ways to reduce one to a single number.
 
-Each take is a function of a quantity; where it wants another quantity or a dimension besides, its parameters
-`against` and `along` say so.
+Each take is a function of a quantity; where it wants another quantity or dimensions besides, its parameters
+`against`, `along` and `across` say so.
 """
 
 from __future__ import annotations
@@ -13,7 +13,9 @@ import numpy as np
 import xarray as xr
 
 from contactsim import analytic
+from contactsim.adhesion import FINAL, SUMMARY
 from contactsim.aggregate import AVERAGED, converged, fit_line_area
+from contactsim.laws import EFFECTS
 from contactsim.study import Study
 
 
@@ -25,6 +27,51 @@ def mean(of: xr.DataArray) -> float:
 def spread(of: xr.DataArray, along: str) -> float:
     """(largest − smallest)/mean along a dimension, averaged over the others."""
     return float(((of.max(along) - of.min(along)) / of.mean(along)).mean())
+
+
+def largest_spread(of: xr.DataArray, along: str) -> float:
+    """(largest − smallest)/|mean| along a dimension, the largest over the others."""
+    return float(((of.max(along) - of.min(along)) / abs(of.mean(along))).max())
+
+
+def rise(of: xr.DataArray, along: str) -> float:
+    """By which part it rises from the first to the last value of a dimension, averaged over the others."""
+    return float(_rise(of, along).mean())
+
+
+def largest_rise(of: xr.DataArray, along: str) -> float:
+    """By which part it rises from the first to the last value of a dimension, the largest over the others."""
+    return float(_rise(of, along).max())
+
+
+def least_rise(of: xr.DataArray, along: str) -> float:
+    """By which part it rises from the first to the last value of a dimension, the least over the others."""
+    return float(_rise(of, along).min())
+
+
+def rise_gain(of: xr.DataArray, along: str, across: str) -> float:
+    """The part by which it rises along one dimension, at the last less that at the first value across another."""
+    risen = _rise(of, along)
+    return float((risen.isel({across: -1}) - risen.isel({across: 0})).mean())
+
+
+def shortfall(of: xr.DataArray, along: str) -> float:
+    """By which part of the last value of a dimension the first is smaller, averaged over the others."""
+    return float((1 - of.isel({along: 0}) / of.isel({along: -1})).mean())
+
+
+def _rise(of: xr.DataArray, along: str) -> xr.DataArray:
+    return of.isel({along: -1}) / of.isel({along: 0}) - 1
+
+
+def least(of: xr.DataArray) -> float:
+    """The smallest of all points."""
+    return float(of.min())
+
+
+def largest(of: xr.DataArray) -> float:
+    """The largest of all points."""
+    return float(of.max())
 
 
 def fall(of: xr.DataArray, along: str) -> float:
@@ -54,12 +101,16 @@ def ratio(of: xr.DataArray, against: xr.DataArray) -> float:
 
 
 TAKES: dict[str, Callable[..., float]] = {
-    take.__name__: take for take in (mean, spread, fall, slope, spread_ratio, departure, ratio)
+    take.__name__: take
+    for take in (
+        *(mean, spread, fall, slope, spread_ratio, departure, ratio),
+        *(least, largest, largest_spread, rise, least_rise, largest_rise, rise_gain, shortfall),
+    )
 }
 
 
 def needs(take: str) -> list[str]:
-    """What a take wants besides `of`: some of `against` and `along`."""
+    """What a take wants besides `of`: some of `against`, `along` and `across`."""
     return list(inspect.signature(TAKES[take]).parameters)[1:]
 
 
@@ -81,6 +132,8 @@ FITTED: dict[str, tuple[str, bool]] = {
 
 def quantities(study: Study) -> list[str]:
     """Names of the quantities that a study's dataset answers for."""
+    if study.settings["path"] is not None:
+        return _path_quantities(study)
     load = study.settings["load"]["name"]
     known = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
     if load == "contact_ratio":
@@ -93,6 +146,16 @@ def quantities(study: Study) -> list[str]:
     return sorted(known)
 
 
+def _path_quantities(study: Study) -> list[str]:
+    """What a path amounts to, its grid errors, and what is varied."""
+    known = set(SUMMARY)
+    if not any("t" in EFFECTS[name].reads for name in study.settings["effects"]):
+        known -= {name for name, of in FINAL.items() if of == "slip"}
+    if study.settings["companion"] is not None:
+        known |= {f"{name}_grid_error" for name in known}
+    return sorted(known | (set(study.dimensions) - {"member", "step"}))
+
+
 def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
     """The means over members of a quantity; unconverged solutions are left out."""
     if name in FITTED:
@@ -101,10 +164,12 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
         return quantity(data, "relative_contact_area") * data.length / 2
     if name == "contact_radius":
         return np.sqrt(quantity(data, "relative_contact_area") * data.length * data.length_y / np.pi)
+    if "step" in data.dims:
+        return data[name].mean("member") if "member" in data[name].dims else data[name]
     return converged(data[name], data).mean("member")
 
 
 def averaged(name: str) -> str | None:
     """The averaged quantity, with a grid error of its own, that another is made from; None for what is exact."""
     made = "relative_contact_area" if name in (*FITTED, "half_width", "contact_radius") else name
-    return made if made in AVERAGED else None
+    return made if made in (*AVERAGED, *SUMMARY) else None

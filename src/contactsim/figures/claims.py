@@ -52,6 +52,25 @@ SYMBOLS = {
     "kappa_fit_logarithm": "κ of the logarithmic fit",
     "kappa_fit_all": "κ of the fit to all H",
     "spread_ratio": "ratio of spreads",
+    "largest_spread": "largest spread",
+    "least_rise": "least rise",
+    "largest_rise": "largest rise",
+    "rise_gain": "gain of the rise",
+    "work_of_separation": "φn",
+    "work_ratio": "φt/φn",
+    "pull_off_load_loading": "the pull-off load",
+    "pull_off_load_unloading": "the pull-off load on unloading",
+    "pull_off_approach_loading": "the approach at pull-off",
+    "pull_off_approach_unloading": "the approach at pull-off on unloading",
+    "largest_jump_loading": "the largest jump on loading",
+    "largest_jump_unloading": "the largest jump on unloading",
+    "final_repulsive_length": "the contact size",
+    "final_load": "the load",
+    "final_repulsive_load": "the repulsive force",
+    "final_adhesive_load": "the adhesive force",
+    "final_pressure": "the largest pressure",
+    "final_pull": "the largest pull",
+    "final_slip": "the largest slip",
 }
 """Names of the config as they are read in a text."""
 CHARACTERS = 18
@@ -102,7 +121,7 @@ def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
 def _cells(row: dict) -> dict[str, str]:
     """The text of each cell; under a condition, what was found there follows the verdict."""
     texts = {name: row[name] for name in ("source", "statement", "expected", "because", "verdict")}
-    texts["measure"] = " ".join(map(symbol, row["measure"].split()))
+    texts["measure"] = " ".join(symbol(word).replace("_", " ") for word in row["measure"].split())
     numbers = ("value", "ensemble_error", "grid_error")
     texts |= dict(zip(numbers, rounded(*(row[name] for name in numbers)), strict=True))
     if row["condition"]:
@@ -147,6 +166,6 @@ def made_text(data: Mapping[str, xr.Dataset]) -> str:
         points = style.points_text(settings[study], int(one.points))
         parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")
     parts.append("errors to two digits; ensemble error: one standard error over members")
-    parts.append("grid error: change on halving the points")
+    parts.append("grid error: change on halving the points, and what the increments of a path leave open")
     parts.append("not decidable: an edge of the band is nearer than both errors in quadrature")
     return " · ".join(parts)

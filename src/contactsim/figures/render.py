@@ -8,15 +8,26 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
 from contactsim import aggregate, dataset
 from contactsim.figures import style
+from contactsim.tabulate import tabulated
 
 LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
+PRICED = {
+    "kappa": "κ",
+    "kappa_r": "κᵣ",
+    "kappa_r_bond": "κᵣ of pairs",
+    "final_repulsive_length": "contact",
+    "pull_off_load_loading": "pull-off on loading",
+    "pull_off_load_unloading": "on unloading",
+}
+"""Quantities whose errors a footer tells, and how."""
 
 
 def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Mapping[str, str]) -> None:
@@ -26,6 +37,8 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     the figure writes a `footer` of its own; targets: png, pdf and csv.
     """
     settings, shown_data = plan["settings"], [dataset.read(path) for path in data]
+    if settings["law"] is not None:
+        shown_data = [tabulated(settings["law"])]
     module = import_module(f"contactsim.figures.{plan['chapter']}")
     draw = getattr(module, plan["name"])
     for dim, (least, largest) in settings["select"].items():
@@ -68,16 +81,20 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
-    symbols = {"kappa": "κ", "kappa_r": "κᵣ", "kappa_r_bond": "κᵣ of pairs"}
-    for error in ("grid", "tolerance"):
+    for error in ("grid", "increment", "tolerance"):
         sizes = [
-            f"{symbol} {float(data[f'{name}_{error}_error'].max()):.1g}"
-            for name, symbol in symbols.items()
-            if f"{name}_{error}_error" in data
+            f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
+            for name, words in PRICED.items()
+            if f"{name}_{error}_error" in data and not np.isnan(data[f"{name}_{error}_error"]).all()
         ]
         if sizes:
             parts.append(f"{error} error up to: {', '.join(sizes)}")
     return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])
+
+
+def _unit(values: xr.DataArray) -> str:
+    unit = values.attrs.get("units", "1")
+    return "" if unit == "1" else f" {unit}"
 
 
 def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:

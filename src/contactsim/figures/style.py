@@ -85,6 +85,13 @@ def hurst_key(values: Iterable[float]) -> list[Line2D]:
     return [Line2D([], [], color="#777777", label=f"$H={value:g}$", **hurst(value)) for value in values]
 
 
+def shades(values: Iterable[float]) -> dict[float, str]:
+    """A colour for each value, dark to light in their order."""
+    known = [float(value) for value in values]
+    colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.82, len(known)))
+    return dict(zip(known, map(mpl.colors.to_hex, colours), strict=True))
+
+
 def key(colours: Mapping[str, str], lines: Mapping[str, object]) -> list[Line2D]:
     """Legend entries: a coloured line for each name, then a dark line of each style."""
     coloured = [Line2D([], [], color=color, lw=1.5, label=name) for name, color in colours.items()]
