@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import math
 import os
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
 
 from contactsim import aggregate, costs, dataset, march
+from contactsim.build import scene_of
 from contactsim.figures.claims import render_claims
 from contactsim.figures.render import render
 from contactsim.plan import Plan
@@ -17,19 +21,27 @@ ROOT = Path(__file__).parents[1]
 FILES = (("datasets", ".nc"), ("costs", ".csv"))
 
 
+def solved(job: tuple) -> None:
+    """One run, in a process of its own."""
+    march.run(*job)
+
+
 @pytest.fixture(scope="session")
 def made(tmp_path_factory) -> Path:
     """A folder in which `results/quick` holds everything of the quick tier."""
     folder = tmp_path_factory.mktemp("made")
-    before = Path.cwd()
+    before, jobs = Path.cwd(), []
     os.chdir(folder)
     try:
         plan = Plan.read(ROOT / "config", "quick")
         for study in plan.studies:
-            settings = plan.study_settings(study)
-            for run, entry in zip(plan.studies[study].runs(), settings["runs"], strict=True):
-                march.run(run.settings, run.source, entry["path"], entry["costs"])
-            name = plan.dataset_name(study)
+            for run, entry in zip(plan.studies[study].runs(), plan.study_settings(study)["runs"], strict=True):
+                jobs.append((run.settings, run.source, entry["path"], entry["costs"]))
+        jobs.sort(key=lambda job: -math.prod(scene_of(job[0]).upper.surface.shape(job[0]["points"])))
+        with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+            list(pool.map(solved, jobs))
+        for study in plan.studies:
+            settings, name = plan.study_settings(study), plan.dataset_name(study)
             data = aggregate.aggregate(settings["runs"], settings["settings"], settings["source"])
             dataset.write(data, plan.results / f"datasets/{name}.nc")
             costs.table(settings["runs"]).to_csv(plan.results / f"costs/{name}.csv", index=False)
