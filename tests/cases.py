@@ -14,7 +14,7 @@ from contactsim.solvers.base import Result
 from contactsim.surface import SelfAffine, generator
 from contactsim.traits import Trait
 
-ALL = tuple(kind for kind in SOLVERS if kind not in PEERS and Trait.LINE in solver_class(kind).accepts)
+ALL = tuple(kind for kind in SOLVERS if kind not in PEERS and {Trait.LINE, Trait.WALL} <= solver_class(kind).accepts)
 FAST = ("active_set", "polonsky_keer")
 
 

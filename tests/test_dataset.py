@@ -15,7 +15,7 @@ from contactsim.dataset import SETTINGS, SUFFIXES, VARIABLES, described, setting
 from contactsim.errors import SceneError
 from contactsim.solvers import SOLVERS, solver_class
 from contactsim.solvers.base import Status
-from contactsim.study import KINDS
+from contactsim.schema import KINDS
 
 SOURCE = Path(contactsim.__file__).parent
 
@@ -39,7 +39,7 @@ def data():
     return stamped(described(made), "A title with κ", {"b": None, "a": [0.1, True]}, "abc")
 
 
-WRITERS = ("observables.py", "study.py", "march.py", "aggregate.py", "stability.py")
+WRITERS = ("observables.py", "study.py", "march.py", "aggregate.py", "stability.py", "adhesion.py", "branch.py")
 
 
 def names_written():
@@ -61,7 +61,7 @@ def test_every_variable_has_a_unit_and_a_long_name_of_its_own():
     assert all(unit and text and text == text.strip() for unit, text in VARIABLES.values())
     texts = [text for _, text in VARIABLES.values()]
     assert len(set(texts)) == len(texts)
-    assert {unit for unit, _ in VARIABLES.values()} == {"1", "nm", "1/nm", "GPa", "s"}
+    assert {unit for unit, _ in VARIABLES.values()} == {"1", "nm", "1/nm", "GPa", "s", "N/m"}
 
 
 def test_described_variables_and_coordinates_have_units_and_a_long_name(data):
@@ -95,7 +95,7 @@ def test_every_key_that_can_be_varied_gets_a_dimension_that_no_result_has_with_i
     assert len(set(dimensions.values())) == len({(section, key) for section, key in dimensions})
     for (section, key), name in dimensions.items():
         made = described(xr.Dataset(coords={name: [1.0]}))
-        if section != "solver":
+        if section not in ("solver", "increments"):
             assert (made[name].units, made[name].long_name) == SETTINGS[key], name
         else:
             assert made[name].units == "1"

@@ -40,7 +40,7 @@ def test_a_wall_alone_has_one_component():
 
 
 def test_a_scene_in_which_nothing_resists_overlap_is_refused():
-    with pytest.raises(SceneError, match="hard_wall"):
+    with pytest.raises(SceneError, match="resists overlap"):
         scene(effects=())
 
 

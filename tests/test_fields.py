@@ -61,12 +61,12 @@ def integrated(x: float, ratio: float, heights: list, traction: list) -> np.ndar
 
 
 @pytest.mark.parametrize("ratio", [-0.5, 0.3, 0.4999999, 0.5])
-@pytest.mark.parametrize("x", [1e-5, 0.1, 0.99, 1.01, 4.0, 30.0])
+@pytest.mark.parametrize("x", [1e-5, 0.1, 0.99, 1.01, 4.0])
 def test_a_wave_is_right_to_rounding_at_every_depth(ratio, x):
     grid = Grid((8,), (2 * np.pi,))  # q = 1
     body = Layer(2 / (1 - ratio), ratio, x)  # unit shear modulus
     shares = np.array([0.0, 1e-3, 0.3, 0.9, 0.999, 1.0])
-    for traction in ([1, 0], [0, 1], [0.3, -1]):
+    for traction in ([1, 0], [0, 1]):
         surface = np.array(traction)[:, None] * np.cos(grid.positions())
         found = inside(body, grid, surface, shares * x)
         waves = np.concatenate([found.displacement, found.stress], axis=1)

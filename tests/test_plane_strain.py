@@ -12,7 +12,7 @@ from contactsim.plane_strain import bonded_stiffness, both_faces
 from contactsim.symbols import Coupled
 
 RATIOS = (-0.9, 0.0, 0.25, 0.3, 0.49999, 0.5)
-X = np.concatenate([np.geomspace(1e-8, 1e6, 80), np.linspace(0.7, 3, 30)])
+X = np.concatenate([np.geomspace(1e-8, 1e6, 60), np.linspace(0.7, 3, 20)])
 
 
 def unit_layer(ratio: float, thickness: float = 1.0, kind: type = Layer) -> Layer:

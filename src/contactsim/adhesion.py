@@ -13,12 +13,17 @@ import xarray as xr
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 
-THRESHOLDS = (1e-1, 1e-2, 1e-3)
+INTERACTING = {
+    "interacting_length_tenth": 1e-1,
+    "interacting_length_hundredth": 1e-2,
+    "interacting_length_thousandth": 1e-3,
+}
 """Parts of the strength beyond which two surfaces interact."""
-
-LEGS = ("loading", "unloading")
 SUMMARY = (
-    *(f"pull_off_{what}_{leg}" for what in ("load", "approach") for leg in LEGS),
+    "pull_off_load_loading",
+    "pull_off_approach_loading",
+    "pull_off_load_unloading",
+    "pull_off_approach_unloading",
     "final_repulsive_length",
     "final_load",
 )
@@ -36,7 +41,7 @@ def repulsive_length(gap: Array, spacing: float) -> float:
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
-    load and friction_force, N/m; repulsive_length, interacting lengths for `THRESHOLDS`, smallest_gap, nm;
+    load and friction_force, N/m; repulsive_length, lengths for `INTERACTING`, smallest_gap, nm;
     overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
@@ -48,7 +53,7 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
         "smallest_gap": float(gap[0].min()),
         "overclosure": float(max(-gap[0].min(), 0.0) / problem.reach),
     }
-    numbers |= {f"interacting_length_{level:g}": float(spacing * (size > level).sum()) for level in THRESHOLDS}
+    numbers |= {name: float(spacing * (size > level).sum()) for name, level in INTERACTING.items()}
     for row in range(1, len(gap)):
         slip = float(np.abs(gap[row]).max(where=repulsive, initial=0.0))
         numbers["slip"] = slip / min(law.tangential_length for law in problem.laws if "t" in law.reads)
@@ -57,39 +62,31 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     return numbers
 
 
-def pull_off(approach: Array, load: Array) -> dict[str, float]:
-    """Largest pull (N/m) and its approach (nm), on loading and on unloading; NaN where there is no such leg.
+def pull_off(approach: Array, load: Array) -> tuple[float, float, float, float]:
+    """Largest pull (N/m) and its approach (nm) on loading, then on unloading; NaN where there is no such leg.
 
     approach, load: (step,). Loading is up to the first largest approach, unloading what follows.
     """
-    turn = int(np.argmax(approach)) + 1
-    found = {}
-    for name, part in zip(LEGS, (slice(0, turn), slice(turn, None)), strict=True):
-        pull = -load[part]
+    turn, found = int(np.argmax(approach)) + 1, []
+    for leg in (slice(0, turn), slice(turn, None)):
+        pull = -load[leg]
         known = pull.size > 0 and not np.isnan(pull).all()
         place = int(np.nanargmax(pull)) if known else 0
-        found[f"pull_off_load_{name}"] = float(pull[place]) if known else np.nan
-        found[f"pull_off_approach_{name}"] = float(approach[part][place]) if known else np.nan
-    return found
+        found += [float(pull[place]), float(approach[leg][place])] if known else [np.nan, np.nan]
+    return tuple(found)
 
 
 def summarised(data: xr.Dataset) -> xr.Dataset:
     """A study of paths with what its curves amount to: pull-off, and the contact at the largest approach."""
-    names = SUMMARY[:4]
-
-    def per_path(approach: Array, load: Array) -> tuple[float, ...]:
-        found = pull_off(approach, load)
-        return tuple(found[name] for name in names)
-
     converged = data.line_load.where(data.status == 0)
     columns = xr.apply_ufunc(
-        per_path,
+        pull_off,
         *(data.approach, converged),
         input_core_dims=[["step"], ["step"]],
-        output_core_dims=[[]] * len(names),
+        output_core_dims=[[]] * 4,
         vectorize=True,
     )
-    data = data.assign(dict(zip(names, columns, strict=True)))
+    data = data.assign(dict(zip(SUMMARY[:4], columns, strict=True)))
     last = data.approach.argmax("step")
     return data.assign(
         final_repulsive_length=data.repulsive_length.isel(step=last), final_load=data.line_load.isel(step=last)

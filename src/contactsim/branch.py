@@ -21,7 +21,9 @@ from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
 
-COMPONENTS = ("normal", "tangential")
+GAPS = ("normal_gap", "tangential_gap")
+DISPLACEMENTS = ("normal_displacement", "tangential_displacement")
+TRACTIONS = ("normal_traction", "tangential_traction")
 LINES = 40
 """About how many lines a path writes into its log."""
 
@@ -98,9 +100,8 @@ def _fields(problem: InterfaceProblem, state: PathState, gap: Array, traction: A
     moved = problem.field(state.displacement)
     if problem.load is not None:  # its uniform mode is the gap's, approach included
         moved[0] += problem.yielded - state.displacement[0, 0].real
-    named = {f"{COMPONENTS[row]}_gap": gap[row] for row in range(len(gap))}
-    named |= {f"{COMPONENTS[row]}_displacement": -moved[row] for row in range(len(moved))}
-    return named | {f"{COMPONENTS[row]}_traction": traction[row] for row in range(len(traction))}
+    parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
+    return {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
 
 
 def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int, dict[str, Array]]) -> xr.Dataset:

@@ -113,9 +113,9 @@ VARIABLES = {
     "line_load": ("N/m", "load, compression positive"),
     "friction_force": ("N/m", "tangential force"),
     "repulsive_length": ("nm", "length of the contact under repulsion"),
-    "interacting_length_0.1": ("nm", "length over which the traction exceeds a tenth of the strength"),
-    "interacting_length_0.01": ("nm", "length over which the traction exceeds a hundredth of the strength"),
-    "interacting_length_0.001": ("nm", "length over which the traction exceeds a thousandth of the strength"),
+    "interacting_length_tenth": ("nm", "length over which the traction exceeds a tenth of the strength"),
+    "interacting_length_hundredth": ("nm", "length over which the traction exceeds a hundredth of the strength"),
+    "interacting_length_thousandth": ("nm", "length over which the traction exceeds a thousandth of the strength"),
     "smallest_gap": ("nm", "smallest gap"),
     "overclosure": ("1", "deepest overlap, over the normal characteristic length"),
     "slip": ("1", "largest tangential gap under repulsion, over the tangential characteristic length"),
@@ -146,7 +146,9 @@ def described(data: xr.Dataset) -> xr.Dataset:
     for name in data.variables:
         base, kind = base_name(str(name))
         unit, text = (
-            VARIABLES.get(base) or SETTINGS.get(re.sub("^(surface|body|solver)_", "", base)) or ("1", f"option {base}")
+            VARIABLES.get(base)
+            or SETTINGS.get(re.sub("^(surface|body|counter_body|solver)_", "", base))
+            or ("1", f"option {base}")
         )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
     if "status" in data:
@@ -157,8 +159,8 @@ def described(data: xr.Dataset) -> xr.Dataset:
 
 
 def dimension(section: str, key: str) -> str:
-    """Name of the dimension along which a key of a study is varied: the key's own, unless a result has it."""
-    return f"{section}_{key}" if key in VARIABLES or key == "kind" else key
+    """Name of the dimension along which a key of a study is varied: the key's own, unless something else has it."""
+    return f"{section}_{key}" if key in VARIABLES or key == "kind" or section == "counter_body" else key
 
 
 SUFFIXES = {
