@@ -13,9 +13,9 @@ from contactsim import dataset, provenance
 from contactsim.config import keys_of
 from contactsim.dataset import SETTINGS, SUFFIXES, VARIABLES, described, settings_of, stamped
 from contactsim.errors import SceneError
+from contactsim.schema import KINDS
 from contactsim.solvers import SOLVERS, solver_class
 from contactsim.solvers.base import Status
-from contactsim.schema import KINDS
 
 SOURCE = Path(contactsim.__file__).parent
 

@@ -170,7 +170,9 @@ def hard_scenes():
 HARD = dict(hard_scenes())
 
 
-@pytest.mark.parametrize("name", HARD)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "work ratio 100")) for name in HARD]
+)
 def test_hard_scenes_are_solved(name):
     found = walk(HARD[name], points=128)
     assert found.statuses == {"CONVERGED"}
