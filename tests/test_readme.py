@@ -14,8 +14,8 @@ from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.config import keys_of
 from contactsim.cost import CASE_KEYS, SETTING_KEYS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
+from contactsim.schema import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS, TIGHT_KEYS
 from contactsim.stability import STABILITY_KEYS
-from contactsim.study import COMPANION_KEYS, KINDS, LOADS, STUDY_KEYS, TIGHT_KEYS
 from contactsim.takes import FITTED, TAKES, needs
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
