@@ -109,7 +109,7 @@ def test_frictionless_is_the_limit_of_little_tangential_work():
 def test_a_stiff_body_carries_the_laws_traction_over_the_undeformed_parabola(name):
     law = LAWS[name]
     stiff = replace(LAYER, contact_modulus=1e9 * LAYER.contact_modulus)
-    places = [-3.0, -1.0, 0.5, 2.0]
+    places = [-3.0, -1.0, 0.0, 2.0]
     found = walk(scene_of(law, approach(places), stiff), points=4096)
 
     x = np.linspace(-LENGTH / 2, LENGTH / 2, 200001)

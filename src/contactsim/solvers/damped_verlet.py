@@ -7,9 +7,8 @@ proportion to its stiffness plus the largest tangent of the laws, all waves have
 steps depends on neither. Both end on the same equilibrium: mass and damping decide how fast it is reached, and from
 the last stable state there is but one to reach unless the surface is thrown over a barrier.
 
-The force of the laws is evaluated ahead of the step by their tangent (Eq. 2.14), T(g) + T'(g)(g - g⁻). That acts as
-damping where a law repels and feeds energy in where it softens, by up to φn/(e²δn²) in units of η: from φn/δn² of
-about 7 η on the uniform masses no longer come to rest.
+With nodes of one mass the force of the laws is evaluated ahead of the step by their tangent (Eq. 2.14),
+T(g) + T'(g)(g - g⁻), which adds to the damping where a law repels and takes from it where the law softens.
 """
 
 from __future__ import annotations
@@ -47,13 +46,12 @@ Mobility = Callable[[Array], Array]
 class DampedVerlet:
     """Unit mass on every node (Eqs 2.3-2.7), as the thesis has it.
 
-    time_step: δt and damping: η, in units in which nm, GPa and the mass are 1, text: 0.1 and about 1; ahead: whether
-    laws are evaluated ahead (Eq. 2.14); batch: steps between two checks of the residual; budget: most batches.
+    time_step: δt and damping: η, in units in which nm, GPa and the mass are 1, text: 0.1 and about 1; batch: steps
+    between two checks of the residual; budget: most batches.
     """
 
     time_step: float = 0.1
     damping: float = 1.0
-    ahead: bool = True
     batch: int = 50
     budget: int = 4000
     fields = 30
@@ -82,7 +80,7 @@ class DampedVerlet:
         def mobility(tangent: Tangent) -> Mobility:
             return lambda force: square * force
 
-        return _settle(problem, start, mobility, self.damping * square, self.ahead, self.batch, self.budget)
+        return _settle(problem, start, mobility, self.damping * square, True, self.batch, self.budget)
 
 
 @dataclass(frozen=True)
