@@ -212,6 +212,77 @@ def test_a_ratio_names_both_studies_and_asks_for_both():
     assert (row.value, row.study, row.over) == (pytest.approx(0.9), "rough_line", "rough_surface")
 
 
+# --- paths --------------------------------------------------------------------------------------------------------
+
+PATHS = {name: PLAN.studies[name] for name in ("indentation", "indentation_uncoupled", "pull_off")}
+PULL = VALUE | {"study": "indentation", "of": "pull_off_load_loading", "expect": 15.0, "within": 1.0}
+
+
+def path_claim(**changes):
+    section = {key: value for key, value in (PULL | changes).items() if value is not None}
+    return Claim.read("test", section, "ch4.yaml", PATHS).settings
+
+
+def paths(values, grid=0.0, increment=None, **places):
+    """A dataset of one path for each place, with a pull-off, its errors, and fields of a grid of its own."""
+    values = np.asarray(values, float)
+    variables = {
+        "pull_off_load_loading": ((*places, "member"), values[..., None]),
+        "pull_off_load_loading_grid_error": (tuple(places), np.full(values.shape, grid)),
+        "status": ((*places, "member", "step"), np.zeros((*values.shape, 1, 5), np.int8)),
+        "heights": ("x", np.zeros(int(values.size))),
+    }
+    if increment is not None:
+        variables["pull_off_load_loading_increment_error"] = (
+            (*places, "member"),
+            np.full((*values.shape, 1), increment),
+        )
+    settings = {"surface": {"kind": "cylinder"}, "thesis_points": 2048}
+    coordinates = places | {"x": np.linspace(0, 1, values.size)}
+    return xr.Dataset(variables, coordinates, {"settings": json.dumps(settings)})
+
+
+WORKS, RATIOS = [1.0, 2.0], [0.0, 0.5, 1.0]
+GRID = paths([[10.0, 12.0, 11.0], [20.0, 21.0, 30.0]], work_of_separation=WORKS, work_ratio=RATIOS)
+FOUND = {
+    "rise": ({"along": "work_ratio"}, (0.1 + 0.5) / 2),
+    "least_rise": ({"along": "work_ratio"}, 0.1),
+    "largest_rise": ({"along": "work_ratio"}, 0.5),
+    "rise_gain": ({"along": "work_ratio", "across": "work_of_separation"}, 0.4),
+    "shortfall": ({"along": "work_ratio"}, (1 / 11 + 1 / 3) / 2),
+    "largest_spread": ({"along": "work_ratio"}, 10 / (71 / 3)),
+    "least": ({}, 10.0),
+    "largest": ({}, 30.0),
+    "mean": ({}, 104 / 6),
+    "slope": ({"along": "work_of_separation", "against": "work_of_separation"}, np.log2([2, 21 / 12, 30 / 11]).mean()),
+}
+
+
+@pytest.mark.parametrize(("take", "uses", "value"), [(take, *found) for take, found in FOUND.items()], ids=FOUND)
+def test_a_path_is_reduced_by_hand(take, uses, value):
+    assert claims.find(path_claim(take=take, **uses), [GRID]).value == pytest.approx(value)
+
+
+def test_a_spread_of_negative_numbers_is_positive():
+    along = {"take": "largest_spread", "along": "work_ratio"}
+    assert claims.find(path_claim(**along), [GRID.assign(pull_off_load_loading=-GRID.pull_off_load_loading)]).value > 0
+
+
+def test_what_one_of_two_studies_varies_is_held_against_the_other_at_each_value():
+    uncoupled = paths([[5.0, 4.0], [10.0, 8.0]], poisson_ratio=[0.1, 0.3], work_of_separation=[2.0, 3.0])
+    over = {"over": "indentation_uncoupled", "take": "largest"}
+    assert claims.find(path_claim(**over), [GRID, uncoupled]).value == pytest.approx(30 / 5)
+    one = path_claim(**over, select={"poisson_ratio": [0.3, 0.3], "work_ratio": [0.0, 0.0]})
+    assert claims.find(one, [GRID, uncoupled]).value == pytest.approx(20 / 10)
+
+
+def test_a_path_has_no_ensemble_error_and_its_increments_count_with_its_grid():
+    found = claims.find(path_claim(), [GRID])
+    assert (found.ensemble_error, found.grid_error) == (0.0, 0.0)
+    data = paths([[10.0, 20.0]], grid=0.2, increment=0.3, work_of_separation=[1.0], work_ratio=[0.0, 1.0])
+    assert claims.find(path_claim(), [data]).grid_error == pytest.approx(0.5)
+
+
 # --- numbers ------------------------------------------------------------------------------------------------------
 
 
@@ -327,7 +398,7 @@ BAD = {
     "unknown against": ({"take": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
     "ratio to an unknown study": ({"over": "rough"}, "over", "rough", "rough_line_coarse, rough_surface"),
     "ratio to itself": ({"over": "rough_line"}, "over", "rough_line", "rough_line_coarse, rough_surface"),
-    "ratio to a study along others": ({"over": "smooth_line"}, "over", "smooth_line", "rough_surface"),
+    "ratio to a study loaded otherwise": ({"over": "smooth_line"}, "over", "smooth_line", "rough_surface"),
     "ratio of what both lack": (
         {"over": "rough_surface", "of": "half_width"},
         "of",
@@ -369,6 +440,6 @@ def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes,
 def test_the_plan_refuses_a_bad_claim(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         text = file.read_text(encoding="utf-8")
-        (tmp_path / file.name).write_text(text.replace("    take: fall\n", "    take: rise\n", 1), encoding="utf-8")
-    with pytest.raises(SceneError, match=r"ch3.yaml: claims.kappa_not_constant.take: got 'rise'; allowed: one of mean"):
+        (tmp_path / file.name).write_text(text.replace("    take: fall\n", "    take: sink\n", 1), encoding="utf-8")
+    with pytest.raises(SceneError, match=r"ch3.yaml: claims.kappa_not_constant.take: got 'sink'; allowed: one of mean"):
         Plan.read(tmp_path)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from contactsim import analytic, loading
@@ -64,8 +66,7 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
     """
     contact_modulus = elasticity.contact_modulus
     if "control" in settings["load"]:
-        control = Trait[settings["load"]["control"].upper()]
-        return LoadPath(tuple(LoadStep(control, value) for value in settings["load"]["values"]))
+        return _path(settings["load"]["control"], tuple(settings["load"]["values"]))
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -87,3 +88,9 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
         load = {1: analytic.cylinder_load, 2: analytic.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
     return loading.press([float(value) for value in values], labels)
+
+
+@lru_cache(maxsize=8)
+def _path(control: str, values: tuple[float, ...]) -> LoadPath:
+    """The same for all variants of a study, of which there may be many."""
+    return LoadPath(tuple(LoadStep(Trait[control.upper()], value) for value in values))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from contactsim import dataset
@@ -48,12 +49,12 @@ class Run:
     companion: bool
     tight: bool = False
 
-    @property
+    @cached_property
     def source(self) -> str:
         """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
         return digest(source_digest("contactsim.march", module_of(self.settings["solver"]["kind"])), versions())
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """Changes with the settings and with the code that computes the run."""
         return digest(self.settings, self.source)
@@ -125,6 +126,10 @@ class Study:
 
     def runs(self) -> list[Run]:
         """Every job of the study, in order: variants, then members; companions last."""
+        return list(self._runs)
+
+    @cached_property
+    def _runs(self) -> list[Run]:
         names = sorted(self.settings["vary"])
         variants = [
             dict(zip(names, values, strict=True))
