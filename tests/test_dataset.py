@@ -48,6 +48,7 @@ WRITERS = (
     "adhesion.py",
     "branch.py",
     "ladder.py",
+    "tabulate.py",
 )
 
 

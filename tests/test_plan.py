@@ -179,7 +179,8 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.results == Path("made/plain")
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
-    assert plan.figures["fig_3_1"].settings == FIGURE | {"panels": 1, "select": {}, "reference": {}, "beside": []}
+    unsaid = {"panels": 1, "select": {}, "reference": {}, "beside": [], "law": None}
+    assert plan.figures["fig_3_1"].settings == FIGURE | unsaid
     assert plan.dataset_name("smooth") == "ch3_smooth"
 
 
@@ -542,9 +543,11 @@ def edited(monkeypatch):
     ],
 )
 def test_an_edit_of_a_module_changes_exactly_what_its_code_makes(folder, edited, module, expected, runs):
-    plan = Plan.read(folder())
+    config = folder()
+    plan = Plan.read(config)
     before, before_runs = everything(plan), run_params(plan)
     edited(module)
+    plan = Plan.read(config)  # as the next command does
     after, after_runs = everything(plan), run_params(plan)
     assert {name for name in before if before[name] != after[name]} == expected
     assert {stem.split("/")[0] for stem in before_runs if before_runs[stem] != after_runs[stem]} == runs

@@ -166,7 +166,7 @@ def test_iterations_without_a_load_are_found():
         ({"hazards": ["flood"]}, "hazards", ["flood"], "tension"),
         ({"hazards": ["flat", "flat"]}, "hazards", ["flat", "flat"], "twice"),
         ({"solvers": {}}, "solvers", {}, "at least one"),
-        ({"solvers": {"newton": {}}}, "solvers.newton", {}, "active_set"),
+        ({"solvers": {"guess": {}}}, "solvers.guess", {}, "active_set"),
         ({"solvers": {"verlet": {"speed": 1}}}, "solvers.verlet.speed", 1, "time_step"),
         ({"solvers": {"verlet": {"time_step": 2.0}}}, "solvers.verlet.time_step", 2.0, "below 1"),
         ({"solvers": {"verlet": 3}}, "solvers.verlet", 3, "options"),

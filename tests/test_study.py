@@ -157,7 +157,7 @@ BAD = {
         {"solver": {"kind": "guess"}},
         "solver.kind",
         "guess",
-        "active_set, conjugate_gradients, newton, polonsky_keer, tamaas, verlet",
+        "active_set, conjugate_gradients, damped_verlet",
     ),
     "option of another solver": ({"solver": {"kind": "verlet", "reduction": 0.1}}, "solver.reduction", 0.1, "damping"),
     "private part of a solver": ({"solver": {"kind": "verlet", "_stiffness": 1}}, "solver._stiffness", 1, "damping"),

@@ -186,7 +186,7 @@ def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mappi
     """Every solver on one hazard at every severity: outcome, transforms and reason, by (solver, severity)."""
     cases = [HAZARDS[hazard](severity) for severity in severities]
     dimension = {1: Trait.LINE, 2: Trait.SURFACE}[cases[0].heights.ndim]
-    methods = {name: solver(name, **options) for name, options in solvers.items()}
+    methods = {name: solver(name, **solvers[name]) for name in sorted(solvers)}
     verdicts = []
     for name, method in methods.items():
         for severity, case in zip(severities, cases, strict=True):
