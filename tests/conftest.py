@@ -26,6 +26,21 @@ def solved(job: tuple) -> None:
     march.run(*job)
 
 
+def shown(plan: Plan, name: str) -> None:
+    """One figure, in a process of its own."""
+    names = [plan.dataset_name(study) for study in plan.figures[name].studies]
+    files = [[plan.results / kind.format(study) for study in names] for kind in ("datasets/{}.nc", "costs/{}.csv")]
+    targets = {kind: f"{plan.results}/figures/{name}.{kind}" for kind in ("png", "pdf", "csv")}
+    render(json.loads(json.dumps(plan.figure_settings(name))), *files, targets)
+
+
+def judged(plan: Plan, chapter: str) -> None:
+    """The claims of one chapter, in a process of its own."""
+    data = {study: plan.results / f"datasets/{chapter}_{study}.nc" for study in plan.claims_studies(chapter)}
+    targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in ("png", "pdf", "csv")}
+    render_claims(json.loads(json.dumps(plan.claims_settings(chapter))), data, targets)
+
+
 @pytest.fixture(scope="session")
 def made(tmp_path_factory) -> Path:
     """A folder in which `results/quick` holds everything of the quick tier."""
@@ -46,19 +61,12 @@ def made(tmp_path_factory) -> Path:
             dataset.write(data, plan.results / f"datasets/{name}.nc")
             costs.table(settings["runs"]).to_csv(plan.results / f"costs/{name}.csv", index=False)
         (plan.results / "figures").mkdir()
-        for figure in plan.figures.values():
-            names = [plan.dataset_name(study) for study in figure.studies]
-            files = [
-                [plan.results / f"{kind.format(name)}" for name in names] for kind in ("datasets/{}.nc", "costs/{}.csv")
-            ]
-            targets = {kind: f"{plan.results}/figures/{figure.name}.{kind}" for kind in ("png", "pdf", "csv")}
-            shown = json.loads(json.dumps(plan.figure_settings(figure.name)))
-            render(shown, *files, targets)
         (plan.results / "claims").mkdir()
-        for chapter in plan.claims:
-            data = {study: plan.results / f"datasets/{chapter}_{study}.nc" for study in plan.claims_studies(chapter)}
-            targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in ("png", "pdf", "csv")}
-            render_claims(json.loads(json.dumps(plan.claims_settings(chapter))), data, targets)
+        with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+            drawn = [pool.submit(shown, plan, figure) for figure in plan.figures]
+            drawn += [pool.submit(judged, plan, chapter) for chapter in plan.claims]
+            for job in drawn:
+                job.result()
     finally:
         os.chdir(before)
     return folder

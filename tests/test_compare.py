@@ -97,6 +97,8 @@ def quick():
 def test_the_figures_have_the_columns_that_they_compare_and_equal_themselves(made, quick, monkeypatch):
     monkeypatch.chdir(made)
     for name, table in compared(quick, quick).items():
+        if table is None:  # a figure without studies: tiers do not differ
+            continue
         assert list(table.column) == quick.figures[name].compare
         assert (table.rows == len(pd.read_csv(f"results/quick/figures/{name}.csv"))).all()
         assert (table.largest == 0).all()

@@ -246,10 +246,10 @@ def test_the_dataset_says_what_came_of_every_cell(drawn):
     assert failed.outcome == Outcome.FAILED.value[0]
     assert failed.transforms > 10_000
     assert "budget" in str(failed.reason.values)
-    assert data.taken.sel(hazard="low_spike").values.tolist() == [1, 1, 1, 0]
+    assert data.taken.sel(hazard="low_spike").values.tolist() == [1, 0, 1, 1]
     surfaces_only = data.sel(solver="conjugate_gradients")
     assert (surfaces_only.outcome == Outcome.REFUSED.value[0]).all()
-    data = data.isel(solver=slice(3))
+    data = data.drop_sel(solver="conjugate_gradients")
     spike = data.outcome.sel(hazard="low_spike")
     assert (spike.sel(severity=0) == Outcome.RIGHT.value[0]).all()
     assert (spike.sel(severity=100) == Outcome.CERTIFIED.value[0]).all()
@@ -313,7 +313,7 @@ def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
     assert "refused and left out, as their solver takes no lines or no surfaces: 9 ·" in footer(data)
     one = data.sel(hazard="low_spike")
     assert taken(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
-    alone = one.isel(solver=[3])
+    alone = one.sel(solver=["conjugate_gradients"])
     assert taken(alone).solver.values.tolist() == ["conjugate_gradients"]
 
 

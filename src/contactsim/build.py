@@ -11,7 +11,7 @@ from contactsim.elasticity import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
 from contactsim.laws import EFFECTS
-from contactsim.loading import LoadPath, LoadStep
+from contactsim.loading import LoadPath
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
@@ -66,7 +66,7 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
     """
     contact_modulus = elasticity.contact_modulus
     if "control" in settings["load"]:
-        return _path(settings["load"]["control"], tuple(settings["load"]["values"]))
+        return _path(settings["load"]["control"], tuple(settings["load"]["through"]), settings["load"]["increment"])
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -91,6 +91,6 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
 
 
 @lru_cache(maxsize=8)
-def _path(control: str, values: tuple[float, ...]) -> LoadPath:
+def _path(control: str, points: tuple[float, ...], increment: float) -> LoadPath:
     """The same for all variants of a study, of which there may be many."""
-    return LoadPath(tuple(LoadStep(Trait[control.upper()], value) for value in values))
+    return loading.through(Trait[control.upper()], points, increment)

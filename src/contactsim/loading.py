@@ -7,8 +7,10 @@ is then minus the largest height. Paths are joined with `>>`.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 
 from contactsim.errors import SceneError, is_number
 from contactsim.traits import Trait
@@ -68,3 +70,9 @@ def leg(control: Trait, begin: float, end: float, increment: float) -> LoadPath:
     """From a value, exclusive, to another, inclusive, in equal increments of about that size."""
     count = max(round(abs(end - begin) / increment), 1)
     return LoadPath(tuple(LoadStep(control, begin + (end - begin) * k / count) for k in range(1, count + 1)))
+
+
+def through(control: Trait, points: Sequence[float], increment: float) -> LoadPath:
+    """Through turning points, the first of which is not a step itself, in equal increments of about that size."""
+    legs = [leg(control, *ends, increment) for ends in itertools.pairwise(points)]
+    return reduce(LoadPath.__rshift__, legs)

@@ -101,11 +101,8 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     """
     begin = time.process_time()
     scene = scene_of(settings)
-    load, values = settings["load"]["name"], settings["load"]["values"]
-    path = "increments" in settings
-    places = enumerate(values) if path else values  # a path may come to the same value twice
-    names = [digest(settings | {"load": load}, place, source) for place in places]
-    earlier = {} if path else _earlier(target, costs)
+    names = [digest(_alone(settings), place, source) for place in _places(settings)]
+    earlier = {} if "increments" in settings else _earlier(target, costs)
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),
@@ -126,6 +123,17 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     write_text(json.dumps(price, indent=1), costs)
 
 
+def _places(settings: dict) -> list:
+    """Where a run's steps stand along its load; those of a path by their number, as it may come to a value twice."""
+    load = settings["load"]
+    return load["values"] if "values" in load else list(range(len(scene_of(settings).path.steps)))
+
+
+def _alone(settings: dict) -> dict:
+    """Settings of one point: loads solved on their own do not depend on the others, a path does."""
+    return settings | {"load": settings["load"]["name"]} if "values" in settings["load"] else settings
+
+
 def chosen(settings: dict) -> dict:
     """What a run's simulation is asked for, beside its grid and tolerance: fields to keep, or how a path is walked."""
     return options(settings) if "increments" in settings else {"keep": settings["keep"]}
@@ -138,8 +146,7 @@ def peak_memory() -> float:
 
 def labelled(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
     """A simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
-    load, values = settings["load"]["name"], settings["load"]["values"]
-    values = np.arange(len(values)) if load == "step" else values
+    load, values = settings["load"]["name"], _places(settings)
     data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
     return dataset.described(data.assign(seed=settings["seed"], point=(load, np.array(names, object))))
 

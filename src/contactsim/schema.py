@@ -121,8 +121,9 @@ def _path(section: dict, file: object, prefix: str) -> dict:
     if len(controls) != 1:
         raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
     points, control = section[controls[0]], Trait[controls[0].upper()]
-    legs = [loading.leg(control, *ends, section["increment"]) for ends in itertools.pairwise(points)]
-    return {"name": "step", "control": controls[0], "values": [step.value for leg in legs for step in leg.steps]}
+    path = loading.through(control, points, section["increment"])
+    given = {"control": controls[0], "through": points, "increment": section["increment"]}
+    return {"name": "step"} | given | {"values": [step.value for step in path.steps]}
 
 
 def usual_solver(settings: dict) -> str:

@@ -178,6 +178,8 @@ class Study:
         kept = "snapshots" if is_smooth(self.settings) else "keep"
         shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", kept)} | grid | change
         drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
+        if "through" in shared["load"]:  # says all, and is short
+            shared["load"] = {key: value for key, value in shared["load"].items() if key != "values"}
         settings = drawn | shared | parts
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])

@@ -248,10 +248,11 @@ def fig_3_5(
 
 def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Contact, pressure and gap of one rough surface at one load."""
+    one = of_dataset(fields)
     places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
     words = [f"{style.PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
     axes[0].text(1, -0.03, ", ".join(words), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")
-    return panels(of_dataset(fields), axes).assign(**places)
+    return panels(one, axes).assign(**places)
 
 
 def _constancy(data: xr.Dataset) -> str:
