@@ -31,6 +31,9 @@ DEEP = 40.0
 SWEEPS, SHRINKING = 400, 0.9
 """Most steps of the fixed point, and how much each must be smaller than the one before."""
 
+SLOWLY = "mass_weighted_verlet"
+"""The solver of smaller increments: not the usual one, and it moves as the surface itself would."""
+
 
 @dataclass(frozen=True)
 class PathCase:
@@ -138,14 +141,17 @@ class PathCase:
 
     @cached_property
     def branch(self) -> Array | None:
-        """Line loads (step,), N/m, of the usual solver in smaller increments, for the twin where there is one."""
+        """Line loads (step,), N/m, of damped dynamics in smaller increments, for the twin where there is one.
+
+        None where none is asked for, and where they do not come to rest.
+        """
         if not self.parts:
             return None
         ends = [step.value for step in self.steps]
         values = [np.linspace(a, b, self.parts + 1)[1:] for a, b in zip([self.begin, *ends], ends, strict=False)]
         path = LoadPath(tuple(LoadStep(self.steps[0].control, value) for value in np.concatenate(values)))
         slow = replace(self, scene=replace(self.scene, path=path, effects=self.twin or self.scene.effects))
-        states = slow.follow(solver("newton"))[1][self.parts - 1 :: self.parts]
+        states = slow.follow(solver(SLOWLY, budget=500))[1][self.parts - 1 :: self.parts]
         if any(state.status is not Status.CONVERGED for state in states):
             return None
         return np.array([slow.line_load(state.step, state.displacement) for state in states])
