@@ -104,7 +104,7 @@ def test_every_fault_of_a_state_is_found(case):
 
 def test_a_state_of_another_branch_is_found():
     # unloading, at -8 nm, is still in contact
-    there = replace(CASE, scene=replace(CASE.scene, path=along(-8.0, 0.0, 4.0) >> along(-4.0, -8.0, 4.0)), parts=0)
+    there = replace(CASE, scene=replace(CASE.scene, path=along(-8.0, 0.0, 4.0) >> along(-0.5, -8.0, 0.5)), parts=0)
     problem, states = there.follow(solver("newton"))
     verdict = path_faults(CASE, problem, [states[-1]])
     assert "smaller increments" in verdict

@@ -13,7 +13,7 @@ from contactsim.solvers.base import Status
 from contactsim.surface import Cylinder, Flat
 
 LENGTH, RADIUS, MODULUS, RATIO = 5000.0, 25000.0, 70.0, 0.3
-"""The cylinder of Chapter 4 on half its period, and Young's modulus and Poisson's ratio of the body below it; nm, GPa."""
+"""Chapter 4's cylinder on half its period; Young's modulus and Poisson's ratio of the body below it; nm, GPa."""
 STRESS = MODULUS / (1 - RATIO**2)
 BODY = Layer(STRESS, RATIO, LENGTH)
 
@@ -81,7 +81,7 @@ def incompressible_body(severity: float) -> PathCase:
 
 
 def layer_thickness(severity: float) -> PathCase:
-    """A layer gets thicker, from 1e-3 to 1e3 periods, from springs to a base that gives way: as in smaller increments."""
+    """A layer gets thicker, from 1e-3 to 1e3 periods: springs, then a base that gives way; as in small increments."""
     body = Layer(STRESS, RATIO, LENGTH * 10 ** (-3 + 6 * severity / 100))
     return PathCase(_cylinder(CohesiveZone(2.0), approach([0.0, 5.0]), body), parts=3)
 

@@ -92,7 +92,8 @@ class MassWeightedVerlet:
     """Masses in proportion to the stiffness of each wave plus the largest tangent of the laws.
 
     time_step: over the limit of stability 2/ω; damping: over the critical damping of the softest wave; batch: steps
-    between two checks of the residual, at which masses follow the laws, or at once where these stiffen; budget: most batches.
+    between two checks of the residual, at which masses follow the laws, and sooner where these stiffen; budget: most
+    batches.
     """
 
     time_step: float = 0.5
