@@ -17,7 +17,7 @@ from contactsim.config import Key, choice, keys_of, listed, mapping, number, rea
 from contactsim.errors import SceneError
 from contactsim.hazards import HAZARDS, first_line
 from contactsim.hazards.cases import Case
-from contactsim.hazards.paths import PathCase
+from contactsim.hazards.paths import SLOWLY, PathCase
 from contactsim.path_verdicts import judge_path
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.solvers import SOLVERS, module_of, solver, solver_class
@@ -79,7 +79,7 @@ def read_settings(section: object, file: object) -> dict:
 
 def job_settings(settings: Mapping, hazard: str) -> dict:
     """What the cells of one hazard depend on."""
-    modules = [module_of(name) for name in settings["solvers"]]
+    modules = [module_of(name) for name in (*settings["solvers"], SLOWLY)]
     return {
         "hazard": hazard,
         "severities": settings["severities"],

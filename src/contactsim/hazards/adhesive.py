@@ -107,7 +107,7 @@ def past_pull_off(severity: float) -> PathCase:
 
 
 def overpowering_load(severity: float) -> PathCase:
-    """A load pulls at bodies in contact with 1.1 to 1e4 times what the law could carry everywhere: they come apart."""
+    """A load pulls with 1.1 to 1e4 times what the law could carry everywhere: bodies in contact come apart."""
     law = CohesiveZone(2.0, 1.0)
     path = press([0.02, -1.1 * law.strength * (1e4 / 1.1) ** (severity / 100)])
     return PathCase(_cylinder(law, path), ends=Status.PULLED_OFF)
