@@ -25,9 +25,10 @@ from contactsim.scene import Body, Scene, pose
 from contactsim.solvers import solver, solver_class
 from contactsim.solvers.active_set import ActiveSet, BlockStiffness, Continuation
 from contactsim.solvers.base import Status, require, solve
-from contactsim.stability import Outcome, judge
+from contactsim.stability import judge
 from contactsim.surface import Flat, Sinusoid
 from contactsim.traits import Trait
+from contactsim.verdicts import Outcome
 
 UNIAXIAL = 0.7**2 / 0.4
 """C11 at E* = 1 and ν = 0.3."""

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 
 from contactsim import dataset
 from contactsim.figures import style
-from contactsim.stability import Outcome
+from contactsim.verdicts import Outcome
 
 COLOURS = {
     Outcome.RIGHT: "#56b4e9",
@@ -53,7 +53,7 @@ def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 
 
 def taken(one: xr.Dataset) -> xr.Dataset:
-    """One hazard without the solvers that take no lines, or no surfaces, at all; whole if that would leave none."""
+    """One hazard without the solvers that do not take its kind of case at all; whole if that would leave none."""
     takes = one.taken.values > 0
     return one.isel(solver=takes) if takes.any() else one
 
@@ -128,5 +128,5 @@ def footer(data: xr.Dataset) -> str:
     settings = dataset.settings_of(data)
     bad = [int((data.outcome == outcome.value[0]).sum()) for outcome in (Outcome.WRONG, Outcome.NON_FINITE)]
     left_out = int((data.taken == 0).sum()) * data.severity.size
-    beside = f" · refused and left out, as their solver takes no lines or no surfaces: {left_out}" * bool(left_out)
+    beside = f" · refused and left out, as their solver does not take the kind of case: {left_out}" * bool(left_out)
     return f"{settings['tier']} tier · {data.outcome.size} cells{beside} · {bad[0]} wrong, {bad[1]} not finite"

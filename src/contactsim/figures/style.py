@@ -31,6 +31,9 @@ PLACES = {"hurst": "$H$", "reduced_pressure": "$p^*$", "mean_pressure": "$p$ (GP
 SOLVERS = {
     "active_set": "active set",
     "conjugate_gradients": "conjugate gradients",
+    "energy_minimisation": "energy minimisation",
+    "mass_weighted_verlet": "mass-weighted Verlet",
+    "newton": "Newton–Krylov",
     "polonsky_keer": "Polonsky–Keer",
     "tamaas": "tamaas",
     "verlet": "Verlet",

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contactsim.grid import Array
+from contactsim.traits import Trait
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,11 @@ class Case:
     mirror: int | tuple[int, int] | None = None
     thickness: float | None = None
     poisson_ratio: float | None = None
+
+    @property
+    def kind(self) -> frozenset[Trait]:
+        """What a solver must take to take such cases at all."""
+        return frozenset({Trait.WALL, {1: Trait.LINE, 2: Trait.SURFACE}[self.heights.ndim]})
 
     @property
     def spacings(self) -> Array:

@@ -38,6 +38,8 @@ ACCEPTS = frozenset(
 )
 LEAST = 0.01
 """Least tangential tangent that a mass allows for, over the laws' largest."""
+OUTGROWN = 2.0
+"""How many times as stiff as the masses were made for a law may become before they are made anew, at rest."""
 
 Mobility = Callable[[Array], Array]
 
@@ -88,7 +90,8 @@ class MassWeightedVerlet:
     """Masses in proportion to the stiffness of each wave plus the largest tangent of the laws.
 
     time_step: over the limit of stability 2/ω; damping: over the critical damping of the softest wave; batch: steps
-    between two checks of the residual, at which masses follow the laws; budget: most batches.
+    between two checks of the residual, at which masses follow the laws, and sooner where these stiffen; budget: most
+    batches.
     """
 
     time_step: float = 0.5
@@ -153,10 +156,13 @@ def _settle(
             status = judged(worst, problem)
             if status is not Status.BUDGET or count == budget:
                 break
-            move = mobility(tangent)
+            move, stiffest = mobility(tangent), max(problem.softening, np.abs(tangent.values).max())
             for _ in range(batch):
                 gap = problem.gap(displacement)
                 traction, tangent = problem.tangent(gap)
+                if np.abs(tangent.values).max() > OUTGROWN * stiffest:  # than the masses hold
+                    move, stiffest = mobility(tangent), np.abs(tangent.values).max()
+                    change = np.zeros_like(start)
                 if ahead and before is not None:
                     traction += contracted(tangent.values, gap - before)
                 before = gap
