@@ -321,7 +321,8 @@ def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
 
 
 def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):
-    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough").isel(solver=slice(3))
+    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough")
+    one = one.sel(solver=["active_set", "polonsky_keer", "verlet"])
     refused = Outcome.REFUSED.value[0]
     one["outcome"].values[:2] = [[refused, refused, 0], [refused, 0, refused]]
     one["reason"].values[:2] = [["a: b", "c: b", ""], ["b", "", "c"]]
