@@ -347,7 +347,8 @@ def test_every_claim_of_the_config_is_judged_and_drawn(made, chapter, unanswered
     assert rows.verdict.isin(COLOURS).all()
     answered = rows.study.notna()
     assert rows.claim[~answered].tolist() == unanswered
-    assert np.isfinite(rows[answered][["value", "ensemble_error"]]).all(axis=None)
+    decided = rows[answered & (rows.verdict != NOT_DECIDABLE)]  # a tier may lack what a claim asks for
+    assert np.isfinite(decided[["value", "ensemble_error"]]).all(axis=None)
     assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
     assert (folder / f"{chapter}.png").read_bytes().startswith(b"\x89PNG")
     assert (folder / f"{chapter}.pdf").read_bytes().startswith(b"%PDF")
