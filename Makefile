@@ -18,7 +18,7 @@ $(READY): environment.txt pyproject.toml
 	touch $@
 
 test: $(READY)
-	.venv/bin/python -m pytest
+	.venv/bin/python -m pytest --numprocesses $(CORES) --dist worksteal
 
 Makefile environment.txt pyproject.toml: ;
 %: $(READY) FORCE

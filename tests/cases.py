@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -56,3 +57,17 @@ def refusal(key: str, file: object, call: Callable[[], object]) -> SceneError:
     assert str(error).startswith(f"{file}: {key}: got ")
     assert str(error).endswith(f"allowed: {error.allowed}")
     return error
+
+
+def navier(ratio: float) -> mpmath.matrix:
+    """Navier's equations in plane strain for q = 1, μ = 1: what u_x, u_z, σ_xz, σ_zz change by along z."""
+    nu, one = mpmath.mpf(ratio), mpmath.mpc(0, 1)
+    side = nu / (1 - nu)
+    return mpmath.matrix(
+        [
+            [0, -one, 1, 0],
+            [-side * one, 0, 0, (1 - 2 * nu) / (2 * (1 - nu))],
+            [2 / (1 - nu), 0, 0, -one * side],
+            [0, 0, -one, 0],
+        ]
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import math
 import os
@@ -43,8 +44,20 @@ def judged(plan: Plan, chapter: str) -> None:
 
 @pytest.fixture(scope="session")
 def made(tmp_path_factory) -> Path:
-    """A folder in which `results/quick` holds everything of the quick tier."""
-    folder = tmp_path_factory.mktemp("made")
+    """A folder in which `results/quick` holds everything of the quick tier, made by the first worker that needs it."""
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "made"
+    folder.mkdir(exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (folder / "done").exists():
+            make_quick_tier(folder)
+            (folder / "done").touch()
+    return folder
+
+
+def make_quick_tier(folder: Path) -> None:
+    """Runs, datasets, tables of costs, figures and claims of the quick tier."""
     before, jobs = Path.cwd(), []
     os.chdir(folder)
     try:
@@ -69,4 +82,3 @@ def made(tmp_path_factory) -> Path:
                 job.result()
     finally:
         os.chdir(before)
-    return folder

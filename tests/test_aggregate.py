@@ -8,17 +8,10 @@ import xarray as xr
 from scipy.stats import t as student
 
 from contactsim import aggregate, analytic, dataset
-from contactsim.aggregate import (
-    AVERAGED,
-    WEIGHTINGS,
-    departure,
-    fit_line_area,
-    fits,
-    left_out,
-    load_name,
-    relative_change,
-)
+from contactsim.aggregate import AVERAGED, load_name
+from contactsim.ensemble import departure, left_out, relative_change
 from contactsim.errors import SceneError
+from contactsim.fits import WEIGHTINGS, fit_line_area, fits
 from contactsim.solvers.base import Status
 
 PRESSURES = [0.01, 0.1, 0.3]

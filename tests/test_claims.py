@@ -337,6 +337,9 @@ UNANSWERED = {
     "ch5": ["error_bars"],
 }
 
+LACKING = {"ch3": [], "ch4": ["compressible_curves_weak"], "ch5": []}
+"""Claims on works of separation that the quick tier leaves out."""
+
 
 @pytest.mark.parametrize(("chapter", "unanswered"), UNANSWERED.items())
 def test_every_claim_of_the_config_is_judged_and_drawn(made, chapter, unanswered):
@@ -347,8 +350,9 @@ def test_every_claim_of_the_config_is_judged_and_drawn(made, chapter, unanswered
     assert rows.verdict.isin(COLOURS).all()
     answered = rows.study.notna()
     assert rows.claim[~answered].tolist() == unanswered
-    decided = rows[answered & (rows.verdict != NOT_DECIDABLE)]  # a tier may lack what a claim asks for
-    assert np.isfinite(decided[["value", "ensemble_error"]]).all(axis=None)
+    known = np.isfinite(rows[["value", "ensemble_error"]]).all(axis=1)
+    assert rows.claim[answered & ~known].tolist() == LACKING[chapter]
+    assert (rows.verdict[answered & ~known] == NOT_DECIDABLE).all()
     assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
     assert (folder / f"{chapter}.png").read_bytes().startswith(b"\x89PNG")
     assert (folder / f"{chapter}.pdf").read_bytes().startswith(b"%PDF")

@@ -56,6 +56,49 @@ def test_a_run_keeps_what_its_scene_file_says_and_its_fields_can_be_mapped(scene
     assert image.get_array().mean() == stored.relative_contact_area[-1]
 
 
+ADHESIVE = """
+surface: {kind: cylinder, radius: 25000.0, length: 10000.0}
+body: {kind: layer, youngs_modulus: 70.0, poisson_ratio: 0.3, thickness: 5000.0}
+effects: [cohesive_zone]
+cohesive_zone: {work_of_separation: 2.0}
+path: {approach: [-10.0, -4.0], increment: 0.5}
+points: 128
+tolerance: 1.0e-7
+"""
+
+
+def test_a_scene_of_smooth_laws_is_run_along_its_path(scene_file, capsys):
+    scene_file.write_text(ADHESIVE)
+    cli.main(["run", str(scene_file)])
+    told = capsys.readouterr().out
+    assert "line_load" in told and "relative_contact_area" not in told
+    stored = dataset.read(scene_file.with_suffix(".nc"))
+    assert np.allclose(stored.approach, np.arange(-9.5, -3.9, 0.5))
+    assert stored.line_load.min() < -200 and (stored.jump > 1).sum() == 1
+    assert not [name for name in stored if name.startswith("tangential_traction")]
+
+
+def test_a_frictionless_law_is_explained_as_one_field_that_another_follows(scene_file, capsys):
+    scene_file.write_text(ADHESIVE)
+    cli.main(["explain", str(scene_file)])
+    told = capsys.readouterr().out
+    assert "128 at each of 12 load steps" in told
+    assert "tangential displacement" in told and "tangential traction" not in told
+    assert "it follows the normal displacement, wave by wave" in told
+    assert "energy_minimisation: does not take a law without a potential" in told
+    scene_file.write_text(ADHESIVE.replace("2.0}", "2.0, work_ratio: 0.5}"))
+    cli.main(["explain", str(scene_file)])
+    assert "256 at each of 12 load steps" in capsys.readouterr().out
+
+
+def test_a_wall_that_is_to_pull_is_refused_when_its_scene_is_read(scene_file):
+    scene_file.write_text(
+        SCENE.replace("load: {mean_pressure: [0.01, 0.1]}", "path: {mean_pressure: [0.1, -0.1], increment: 0.1}")
+    )
+    with pytest.raises(SystemExit, match="without adhesion nothing can pull"):
+        cli.main(["run", str(scene_file)])
+
+
 def test_a_scene_file_is_explained_and_drawn(scene_file, tmp_path, capsys):
     cli.main(["explain", str(scene_file), "--draw", str(tmp_path / "wave.png")])
     said = capsys.readouterr().out

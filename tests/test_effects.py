@@ -109,7 +109,7 @@ from contactsim.surface import Flat, SelfAffine, generator
 def peak():  # of this program alone: what getrusage tells begins with its parent's
     return float(open("/proc/self/status").read().partition("VmHWM:")[2].split()[0])
 
-for points in (64, 2048):
+for points in (256, 2048):  # the smaller one makes the threads and their buffers
     rough = SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(1, 0.8), dimensions=2)
     path = loading.press([1e-3, 1e-2])
     scene = Scene(Body(Flat.facing(rough), HalfSpace(1.0)), Body(rough), (HardWall(),), path)
@@ -126,7 +126,7 @@ def test_a_run_of_a_surface_never_holds_more_than_the_fields_that_are_explained(
     command = [sys.executable, "-c", PRESS_A_SURFACE, str(threads)]
     peak = float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     told = solver("conjugate_gradients").fields
-    assert 0.8 * told < peak < 1.05 * told  # doubles a point; the rest is buffers of the threads and the libraries
+    assert 0.8 * told < peak < told  # doubles a point, of the whole process, the libraries' own memory included
 
 
 @pytest.mark.parametrize("name", ALL)

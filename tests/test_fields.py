@@ -9,6 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from cases import navier
 from contactsim import analytic
 from contactsim.elasticity import FreeLayer, HalfSpace, Layer, relative_compliance
 from contactsim.errors import SceneError
@@ -44,16 +45,7 @@ def along_x(values: np.ndarray, grid: Grid = LINE) -> np.ndarray:
 def integrated(x: float, ratio: float, heights: list, traction: list) -> np.ndarray:
     """u_n, u_t, σ_xx, σ_zz, σ_xz at heights above the base, q = 1, μ = 1, from the tractions (T_n, T_t)."""
     nu, one = mpmath.mpf(ratio), mpmath.mpc(0, 1)
-    side = nu / (1 - nu)
-    navier = mpmath.matrix(
-        [
-            [0, -one, 1, 0],
-            [-side * one, 0, 0, (1 - 2 * nu) / (2 * (1 - nu))],
-            [2 / (1 - nu), 0, 0, -one * side],
-            [0, 0, -one, 0],
-        ]
-    )
-    up = [mpmath.expm(navier * height, method="taylor")[:, 2:4] for height in [mpmath.mpf(x), *heights]]
+    up = [mpmath.expm(navier(ratio) * height, method="taylor")[:, 2:4] for height in [mpmath.mpf(x), *heights]]
     base = up[0][2:4, 0:2] ** -1 * mpmath.matrix([traction[1], traction[0]])
     states = [through * base for through in up[1:]]
     values = [[u_z, u_x, (nu * zz + 2 * one * u_x) / (1 - nu), zz, xz] for u_x, u_z, xz, zz in states]

@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from cases import navier
 from contactsim.elasticity import FreeLayer, HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.plane_strain import bonded_stiffness, both_faces
@@ -31,17 +32,7 @@ def integrated(x: float, ratio: float) -> mpmath.matrix:
 
     The order is normal and along x of the upper, then of the lower face; tractions are those from outside.
     """
-    nu, one = mpmath.mpf(ratio), mpmath.mpc(0, 1)
-    side = nu / (1 - nu)
-    navier = mpmath.matrix(
-        [
-            [0, -one, 1, 0],
-            [-side * one, 0, 0, (1 - 2 * nu) / (2 * (1 - nu))],
-            [2 / (1 - nu), 0, 0, -one * side],
-            [0, 0, -one, 0],
-        ]
-    )
-    through = mpmath.expm(navier * mpmath.mpf(x), method="taylor")
+    through = mpmath.expm(navier(ratio) * mpmath.mpf(x), method="taylor")
     uu, us, su, ss = (through[i : i + 2, j : j + 2] for i in (0, 2) for j in (0, 2))
     inverse = us**-1
     blocks = [[ss * inverse, su - ss * inverse * uu], [-inverse, inverse * uu]]

@@ -12,6 +12,7 @@ import xarray as xr
 
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
+from contactsim.solvers.base import Status
 
 INTERACTING = {
     "interacting_length_tenth": 1e-1,
@@ -119,10 +120,11 @@ def summarised(data: xr.Dataset) -> xr.Dataset:
     names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
 
     def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
+        """What one path amounts to, in the order of `names`."""
         found = pull_off(approach, load) | largest_jumps(approach, jump)
         return tuple(found[name] for name in names)
 
-    converged = data.status == 0
+    converged = data.status == Status.CONVERGED.value[0]
     columns = xr.apply_ufunc(
         per_path,
         *(data.approach, data.line_load.where(converged), data.jump.where(converged)),

@@ -46,10 +46,10 @@ def simulate_path(
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_interface(scene, heights, tolerance, threads)
     kept = {_nearest(steps, value): value for value in snapshots or ()}
-    rows, fields, begin, total, seconds = [], {}, time.process_time(), 0.0, []
+    rows, fields, begin, total, marks = [], {}, time.process_time(), 0.0, [0.0]
     for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
         total += state.transforms
-        seconds.append(time.process_time() - begin - sum(seconds))
+        marks.append(time.process_time() - begin)
         here = problem.at(state.step)
         gap = here.gap(state.displacement)
         traction = here.traction(gap)
@@ -65,7 +65,7 @@ def simulate_path(
                 state.status.sentence,
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
-    return _collected(scene, heights, rows, fields).assign(seconds=("step", seconds))
+    return _collected(scene, heights, rows, fields).assign(seconds=("step", np.diff(marks)))
 
 
 def options(settings: dict) -> dict:

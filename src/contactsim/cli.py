@@ -18,7 +18,7 @@ from contactsim.compare import compared, is_within, summary
 from contactsim.config import load_yaml, whole
 from contactsim.errors import SceneError
 from contactsim.explain import explain
-from contactsim.march import simulate
+from contactsim.march import chosen, simulate
 from contactsim.plan import Plan
 from contactsim.scene import Scene
 from contactsim.solvers import solver
@@ -67,6 +67,13 @@ def first_scene(study: Study) -> tuple[Scene, dict, int]:
     return scene, settings, points_of(settings, scene.upper.surface)
 
 
+SHOWN = (
+    *("mean_pressure", "relative_contact_area", "mean_gap", "non_uniformity"),
+    *("approach", "line_load", "repulsive_length", "residual", "jump", "transforms", "status"),
+)
+"""What is printed of a simulation, as far as its scene has it."""
+
+
 def explain_scene(options: argparse.Namespace) -> None:
     """Print what a scene does and costs; draw it if asked to."""
     if options.draw and Path(options.draw).suffix not in DRAWN:
@@ -95,12 +102,12 @@ def run_scene(options: argparse.Namespace) -> None:
         tolerance=settings["tolerance"],
         method=solver(**settings["solver"]),
         threads=options.threads,
-        keep=settings["keep"],
+        **chosen(settings),
     )
     run = study.runs()[0]
     stamped = dataset.stamped(data.drop_vars("seconds"), study.settings["title"], run.settings, run.source)
     dataset.write(stamped, target)
-    columns = ["mean_pressure", "relative_contact_area", "mean_gap", "non_uniformity", "transforms", "status"]
+    columns = [name for name in SHOWN if name in data]
     names = {status.value[0]: status.name.lower() for status in Status}
     rows = data[columns].to_dataframe().assign(status=[names[int(status)] for status in data.status])
     sys.stdout.write(rows.to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")

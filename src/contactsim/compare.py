@@ -22,7 +22,7 @@ SAME = 1e-6
 """Relative difference up to which two numbers of a key column are the same."""
 
 FIT_DIMENSIONS = ("fitted", "weighting", "fit_limit")
-"""Dimensions of what `aggregate.fits` returns."""
+"""Dimensions of what `contactsim.fits.fits` returns."""
 
 
 def joined(a: pd.DataFrame, b: pd.DataFrame, keys: list[str]) -> pd.DataFrame:

@@ -35,6 +35,7 @@ class _Loader(yaml.SafeLoader):
     """Safe YAML in which a key given twice is an error."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
+        """The mapping, unless a key stands in it twice."""
         own = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:merge"]
         keys = [self.construct_object(key, deep=True) for key in own]
         for key in keys:
@@ -117,6 +118,7 @@ def whole(least: int) -> Callable[[object], int]:
     """A whole number of at least `least`."""
 
     def kind(value: object) -> int:
+        """The value, if it is such a number."""
         if isinstance(value, bool) or not isinstance(value, int) or value < least:
             raise ValueError
         return value
@@ -135,6 +137,7 @@ def choice(options: Mapping[str, object] | tuple[str, ...]) -> Callable[[object]
     """One of the names in `options`."""
 
     def kind(value: object) -> str:
+        """The value, if it is one of the options."""
         if value not in tuple(options):
             raise ValueError
         return value
@@ -153,6 +156,7 @@ def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
     """A list with at least one entry, each of the given kind, none twice."""
 
     def whole_list(value: object) -> list:
+        """The entries, each converted."""
         if not isinstance(value, list) or not value:
             raise ValueError
         entries = [kind(entry) for entry in value]

@@ -238,13 +238,6 @@ def relative_compliance(
     return reduce(operator.add, symbols)
 
 
-def relative_stiffness(
-    lower: Elasticity | None, upper: Elasticity | None, grid: Grid, components: tuple[str, ...]
-) -> Symbol:
-    """Inverse of `relative_compliance`, GPa/nm; held modes are zero."""
-    return relative_compliance(lower, upper, grid, components).inverse()
-
-
 def _symbol(body: Elasticity, grid: Grid, components: tuple[str, ...], turned: bool) -> Symbol:
     """Compliance on a grid; turned: of a body upside down."""
     if components == Normal.components:

@@ -69,10 +69,10 @@ def explain(scene: Scene, points: int, method: str) -> Explanation:
         fields=tuple(
             f"{COMPONENTS[component]} {field}"
             for component in scene.components
-            for field in ("displacement", "traction")
+            for field in ("displacement", *["traction"] * (component in scene.exerted))
         ),
         left_out=_left_out(scene),
-        unknowns=size * len(scene.components),
+        unknowns=size * len(scene.exerted),
         steps=len(scene.path.steps),
         transforms=chosen.transforms(points),
         megabytes=chosen.fields * len(scene.components) * size * 8 / 1e6,
@@ -113,6 +113,11 @@ def _left_out(scene: Scene) -> dict[str, str]:
         f"{COMPONENTS[component]} displacement and traction": "no effect reads or exerts them"
         for component in COMPONENTS
         if component not in scene.components
+    }
+    out |= {
+        f"{COMPONENTS[component]} unknowns": "no effect exerts it: it follows the normal displacement, wave by wave"
+        for component in scene.components
+        if component not in scene.exerted
     }
     for side in ("upper", "lower"):
         if getattr(scene, side).elasticity is None:

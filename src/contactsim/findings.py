@@ -59,6 +59,7 @@ def find(claim: Mapping, data: Sequence[xr.Dataset], condition: Mapping | None =
 
 def _number(claim: Mapping, data: Sequence[xr.Dataset]) -> float:
     def ask(name: str) -> xr.DataArray:
+        """The quantity of that name; of two studies, the ratio."""
         return functools.reduce(operator.truediv, [quantity(one, name) for one in data])
 
     given = {"against": ask, "along": str, "across": str}

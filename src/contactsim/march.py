@@ -67,15 +67,13 @@ def simulate(
     Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
     reproducible.
     """
-    if Trait.SMOOTH in scene.traits:
-        method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
-        require(method, scene)
-        points = points or scene.upper.surface.points
-        return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
-    known = known or {}
-    heights = scene.heights(points or scene.upper.surface.points)
     method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
     require(method, scene)
+    points = points or scene.upper.surface.points
+    if Trait.SMOOTH in scene.traits:
+        return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
+    known = known or {}
+    heights = scene.heights(points)
     steps, found, spent = scene.path.steps, [], []
     for count, step in enumerate(steps):
         if count in known:

@@ -34,7 +34,7 @@ FLATTEST = 1e-10
 """Smallest grid step told from rounding, over p·spacing/E* or the approach: below it the latter counts as length."""
 
 
-SAMPLE = 2**22
+SAMPLE = 2**18
 """Points of a surface, in whole rows, that are enough to say what is typical."""
 STEEPEST = 1e-9
 """Height differences below it, over the rms of all, count as none when the typical one is sought."""
@@ -62,6 +62,9 @@ class Scene:
             raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not self.effects:
             raise SceneError("effects", self.effects, "at least one, which resists overlap")
+        for step in self.path.steps if Trait.WALL in self.traits else ():
+            if step.control is Trait.MEAN_PRESSURE and step.value < 0:
+                raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise SceneError("length", lengths, "the same periods for both surfaces")
@@ -260,8 +263,6 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     """The problem that a scene poses at one load step on the grid of `heights`, nm; and its units."""
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
-    if step.control is Trait.MEAN_PRESSURE and step.value < 0:
-        raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     overlap = step.value + highest  # beyond first touch, if it is an approach

@@ -14,7 +14,9 @@ import xarray as xr
 
 from contactsim import analytic
 from contactsim.adhesion import FINAL, SUMMARY
-from contactsim.aggregate import AVERAGED, converged, fit_line_area
+from contactsim.aggregate import AVERAGED
+from contactsim.ensemble import converged
+from contactsim.fits import fit_line_area
 from contactsim.laws import EFFECTS
 from contactsim.study import Study
 

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from contactsim import cost, dataset, precision
-from contactsim.aggregate import converged
+from contactsim.ensemble import converged
 from contactsim.figures import style
 from contactsim.figures.render import framed, move, save
 from contactsim.precision import ROUNDING

@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import aggregate, analytic
+from contactsim import analytic, ensemble
 from contactsim.figures import resolution, style
 from contactsim.figures.maps import of_dataset, panels
 from contactsim.grid import Array
@@ -226,7 +226,7 @@ def fig_3_5(
         for value in surface.hurst.values:
             one, two = shared.sel(hurst=value), surface.sel(hurst=value)
             for quantity, color in colours.items():
-                found = aggregate.ratio_of_means(one, two, quantity)
+                found = ensemble.ratio_of_means(one, two, quantity)
                 bars = found.error if np.isfinite(found.error).any() else None
                 look = style.hurst(value) | {"color": color, "elinewidth": 0.8, "capsize": 1.5}
                 panel.errorbar(found.reduced_pressure, found.value, bars, **look)
@@ -261,7 +261,7 @@ def _constancy(data: xr.Dataset) -> str:
         return ""
     lines = []
     for along, text, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst", "$H$", "$p^*$")):
-        found = aggregate.departure(data, "kappa_r", along)
+        found = ensemble.departure(data, "kappa_r", along)
         first, second = (place[along] for place in found.places)
         (at,) = (value for name, value in found.places[0].items() if name != along)
         lines.append(rf"{text} from {first:g} to {second:g} at {other} = {at:g}: $\kappa_r$ changes")

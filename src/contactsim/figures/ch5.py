@@ -13,7 +13,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim.aggregate import relative_change
+from contactsim.ensemble import relative_change
 from contactsim.figures import style
 
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_bond", "reduced_pressure_contact")

@@ -10,7 +10,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
-from contactsim import aggregate, dataset
+from contactsim import dataset, ensemble
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, verdicts
 from contactsim.figures import style
 from contactsim.figures.render import LINE_INCHES, move
@@ -161,7 +161,7 @@ def made_text(data: Mapping[str, xr.Dataset]) -> str:
     settings = {study: dataset.settings_of(one) for study, one in data.items()}
     parts = [f"{tier} tier" for tier in sorted({one["tier"] for one in settings.values()})]
     for study, one in data.items():
-        lost, total = aggregate.left_out(one)
+        lost, total = ensemble.left_out(one)
         members = f"{one.member.size} members" if one.member.size > 1 else "1 member"
         points = style.points_text(settings[study], int(one.points))
         parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")

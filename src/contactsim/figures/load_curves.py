@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from contactsim import dataset
 from contactsim.adhesion import LEGS, legs
-from contactsim.aggregate import converged
+from contactsim.ensemble import converged
 from contactsim.grid import Array
 
 THICKNESS, WORK_UNIT = 1000.0, 1.0

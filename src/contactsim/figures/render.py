@@ -13,7 +13,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
-from contactsim import aggregate, dataset
+from contactsim import dataset, ensemble
 from contactsim.figures import style
 from contactsim.tabulate import tabulated
 
@@ -73,7 +73,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     """Tier, grid, members, and of the loads shown unconverged solutions and largest errors; the study's time."""
     settings = dataset.settings_of(data)
-    lost, total = aggregate.left_out(data)
+    lost, total = ensemble.left_out(data)
     members = data.member.size
     parts = [
         f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from contactsim import aggregate, dataset
+from contactsim import dataset, ensemble
 from contactsim.figures import style
 
 QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
@@ -47,7 +47,7 @@ def table(data: xr.Dataset, finer: xr.Dataset) -> pd.DataFrame:
     for name in QUANTITIES:
         found = {}
         for column, reference in (("above_common", settled), ("above_finest", finest)):
-            apart = aggregate.difference(grids, name, "points", reference)
+            apart = ensemble.difference(grids, name, "points", reference)
             found[column], found[f"{column}_standard_error"] = apart.values()
         means = common[f"{name}_mean"].sel(points=settled, drop=True) + found["above_common"]
         errors = common[f"{name}_standard_error"].reindex(points=grids.points)
@@ -130,11 +130,11 @@ def in_words(shown: pd.DataFrame, quantity: str, grid: str) -> str:
 def ratios(lines: xr.Dataset, surfaces: xr.Dataset) -> pd.DataFrame:
     """Lines over surfaces at equal points per shortest wavelength, and in the limit, one row each.
 
-    value and its standard `error`; in the limit also the `spread` of `contactsim.aggregate.ratio_limits`.
+    value and its standard `error`; in the limit also the `spread` of `contactsim.ensemble.ratio_limits`.
     """
     rows = []
     for name in QUANTITIES:
-        found = aggregate.ratio_limits(per_wavelength(lines), per_wavelength(surfaces), name)
+        found = ensemble.ratio_limits(per_wavelength(lines), per_wavelength(surfaces), name)
         on_grid = found[["ratio", "ratio_standard_error"]].rename(ratio="value", ratio_standard_error="error")
         limit = found.drop_vars(["ratio", "ratio_standard_error", "spread_standard_error", "points"])
         limit = limit.rename(limit="value", limit_standard_error="error")

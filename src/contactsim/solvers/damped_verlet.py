@@ -22,20 +22,9 @@ from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, Tangent, contracted
 from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import Equilibrium, apart, judged, moved
+from contactsim.solvers.equilibrium import SMOOTH_PATHS, Equilibrium, apart, judged, moved
 from contactsim.traits import Trait
 
-ACCEPTS = frozenset(
-    {
-        Trait.LINE,
-        Trait.SMOOTH,
-        Trait.NON_CONSERVATIVE,
-        Trait.HALF_SPACE,
-        Trait.LAYER,
-        Trait.APPROACH,
-        Trait.MEAN_PRESSURE,
-    }
-)
 LEAST = 0.01
 """Least tangential tangent that a mass allows for, over the laws' largest."""
 OUTGROWN = 2.0
@@ -44,8 +33,25 @@ OUTGROWN = 2.0
 Mobility = Callable[[Array], Array]
 
 
+class _Dynamics:
+    """What both have in common: from rest at the last state, whatever lies ahead."""
+
+    fields = 30
+    predicts = False
+    trusted = 0.0
+    accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE}
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of a time step and unknown component."""
+        return 2.0
+
+    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+        """The equilibrium reached from a guess."""
+        return self.flow(problem, guess)
+
+
 @dataclass(frozen=True)
-class DampedVerlet:
+class DampedVerlet(_Dynamics):
     """Unit mass on every node (Eqs 2.3-2.7), as the thesis has it.
 
     time_step: δt and damping: η, in units in which nm, GPa and the mass are 1, text: 0.1 and about 1; batch: steps
@@ -56,21 +62,9 @@ class DampedVerlet:
     damping: float = 1.0
     batch: int = 50
     budget: int = 4000
-    fields = 30
-    predicts = False
-    trusted = 0.0
-    accepts = ACCEPTS
 
     def __post_init__(self) -> None:
         _check(self, "time_step", "damping")
-
-    def transforms(self, points: int) -> float:
-        """Real transforms of a time step and unknown component."""
-        return 2.0
-
-    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
-        """The equilibrium reached from a guess."""
-        return self.flow(problem, guess)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
@@ -80,13 +74,14 @@ class DampedVerlet:
             raise SceneError("time_step", self.time_step, f"below {2 / np.sqrt(highest):.3g}, the limit of stability")
 
         def mobility(tangent: Tangent) -> Mobility:
+            """Displacement for a force: the same for all waves."""
             return lambda force: square * force
 
         return _settle(problem, start, mobility, self.damping * square, True, self.batch, self.budget)
 
 
 @dataclass(frozen=True)
-class MassWeightedVerlet:
+class MassWeightedVerlet(_Dynamics):
     """Masses in proportion to the stiffness of each wave plus the largest tangent of the laws.
 
     time_step: over the limit of stability 2/ω; damping: over the critical damping of the softest wave; batch: steps
@@ -98,23 +93,11 @@ class MassWeightedVerlet:
     damping: float = 1.0
     batch: int = 20
     budget: int = 10000
-    fields = 30
-    predicts = False
-    trusted = 0.0
-    accepts = ACCEPTS
 
     def __post_init__(self) -> None:
         _check(self, "time_step", "damping")
         if not self.time_step < 1:
             raise SceneError("time_step", self.time_step, "above 0 and below 1, the limit of stability")
-
-    def transforms(self, points: int) -> float:
-        """Real transforms of a time step and unknown component."""
-        return 2.0
-
-    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
-        """The equilibrium reached from a guess."""
-        return self.flow(problem, guess)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
@@ -125,6 +108,7 @@ class MassWeightedVerlet:
         friction = min(2 * self.damping * np.sqrt(square * soft / (soft + problem.softening)), 1.0)
 
         def mobility(tangent: Tangent) -> Mobility:
+            """Displacement for a force: less for waves that the body or the laws hold more stiffly."""
             largest = max(problem.softening, np.abs(tangent.values[0]).max())
             sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
             inverse = problem.supported.inverse(np.array([largest, sideways][:rows]))

@@ -17,8 +17,7 @@ from scipy.optimize import minimize
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import Equilibrium, apart, judged, moved
-from contactsim.traits import Trait
+from contactsim.solvers.equilibrium import SMOOTH_PATHS, Equilibrium, apart, judged, moved
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,7 @@ class EnergyMinimisation:
     fields = 80
     predicts = False
     trusted = 0.0
-    accepts = frozenset({Trait.LINE, Trait.SMOOTH, Trait.HALF_SPACE, Trait.LAYER, Trait.APPROACH, Trait.MEAN_PRESSURE})
+    accepts = SMOOTH_PATHS
 
     def transforms(self, points: int) -> float:
         """Real transforms of a step and unknown component."""

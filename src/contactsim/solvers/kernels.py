@@ -54,6 +54,7 @@ class Rows:
         sums = np.zeros((len(self.bounds), SUMS + MOST))
 
         def block(place: int) -> None:
+            """One block of rows, and its sums."""
             kernel(*self.bounds[place], self.width, *arguments, sums[place])
 
         list((self._pool.map if self._pool else map)(block, range(len(self.bounds))))

@@ -22,7 +22,7 @@ from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import Equilibrium, apart, judged, moved
+from contactsim.solvers.equilibrium import SMOOTH_PATHS, Equilibrium, apart, judged, moved
 from contactsim.solvers.krylov import gmres
 from contactsim.solvers.zone import ZonePreconditioner
 from contactsim.traits import Trait
@@ -54,17 +54,7 @@ class NewtonKrylov:
     trusted: float = 0.1
     fields = 40
     predicts = True
-    accepts = frozenset(
-        {
-            Trait.LINE,
-            Trait.SMOOTH,
-            Trait.NON_CONSERVATIVE,
-            Trait.HALF_SPACE,
-            Trait.LAYER,
-            Trait.APPROACH,
-            Trait.MEAN_PRESSURE,
-        }
-    )
+    accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE}
 
     def __post_init__(self) -> None:
         for name in ("flow_step", "trusted"):
@@ -130,6 +120,7 @@ class NewtonKrylov:
         forcing: float,
     ) -> Array:
         def product(change: Array) -> Array:
+            """(K + T' + s) times a change of the displacement."""
             out = tangent(change)
             if shift:
                 out += shift * change

@@ -60,9 +60,11 @@ class Tamaas:
                 self.iterations = 0
 
             def computeF(self, *_: object) -> float:  # noqa: N802 - tamaas's name
+                """No energy."""
                 return 0.0
 
             def computeGradF(self, *_: object) -> None:  # noqa: N802 - tamaas's name
+                """No gradient, but one iteration more."""
                 self.iterations += 1
 
         tamaas.set_log_level(tamaas.LogLevel.error)
