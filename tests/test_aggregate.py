@@ -439,7 +439,8 @@ def test_a_hurst_exponent_that_never_converged_has_no_fit_and_spoils_no_other():
 
 
 def test_the_jackknife_of_a_mean_is_the_confidence_interval_of_a_mean(monkeypatch):
-    monkeypatch.setattr(aggregate, "fit_line_area", lambda pressure, area, weighting: (area.mean(), -2 * area.mean()))
+    mean = "contactsim.fits.fit_line_area"
+    monkeypatch.setattr(mean, lambda pressure, area, weighting: (area.mean(), -2 * area.mean()))
     data = line(members=7, noise=0.1)
     found = fits(data, [1.0]).sel(fitted="0.8", weighting="area", fit_limit=1.0)
     means = data.relative_contact_area.sel(hurst=0.8).mean("reduced_pressure").values

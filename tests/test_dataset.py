@@ -44,6 +44,7 @@ WRITERS = (
     "study.py",
     "march.py",
     "aggregate.py",
+    "fits.py",
     "stability.py",
     "adhesion.py",
     "branch.py",

@@ -45,7 +45,7 @@ SUMMARY = (
 
 def repulsive_length(gap: Array, spacing: float) -> float:
     """Length, nm, over which the normal gap (n,), nm, is negative; its ends lie between nodes, to second order."""
-    after = np.roll(gap, -1)
+    after = np.concatenate((gap[1:], gap[:1]))
     inside, crossing = (gap < 0) & (after < 0), (gap < 0) != (after < 0)
     ends = np.minimum(gap, after)[crossing]
     return float(spacing * (inside.sum() + (ends / (ends - np.maximum(gap, after)[crossing])).sum()))

@@ -51,8 +51,7 @@ def simulate_path(
         total += state.transforms
         marks.append(time.process_time() - begin)
         here = problem.at(state.step)
-        gap = here.gap(state.displacement)
-        traction = here.traction(gap)
+        gap, traction = state.fields(here)
         rows.append(_numbers(here, state, gap, traction))
         if count in kept:
             fields[count] = _fields(here, state, gap, traction)

@@ -8,11 +8,13 @@ laid over a study before it is read, so they are checked by the same table.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import sys
 import typing
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import yaml
@@ -194,7 +196,8 @@ _TYPES = {
 }
 
 
-def keys_of(kind: type) -> dict[str, Key]:
+@functools.cache
+def keys_of(kind: type) -> Mapping[str, Key]:
     """The keys of a dataclass: those of its fields that a config can give, with their types and defaults."""
     hints = typing.get_type_hints(kind)
     keys = {}
@@ -203,7 +206,7 @@ def keys_of(kind: type) -> dict[str, Key]:
             convert, allowed = _TYPES[hints[entry.name]]
             default = REQUIRED if entry.default is dataclasses.MISSING else entry.default
             keys[entry.name] = Key(convert, allowed, default)
-    return keys
+    return MappingProxyType(keys)
 
 
 def overlaid(base: dict, over: dict) -> dict:

@@ -36,7 +36,7 @@ class PathState:
     """One state of the path: its load step, displacement (exerted, m), coefficients, and how it was found.
 
     residual: over the laws' strength, NaN where interpolated; jump: how far (nm) the surface jumped since the state
-    before; iterations and transforms: spent since the state before.
+    before; iterations and transforms: spent since the state before; found: the solution, unless interpolated.
     """
 
     step: LoadStep
@@ -46,6 +46,14 @@ class PathState:
     jump: float
     iterations: int
     transforms: float
+    found: Equilibrium | None = field(default=None, repr=False)
+
+    def fields(self, problem: InterfaceProblem) -> tuple[Array, Array]:
+        """Gap (read, n), nm, and traction (exerted, n), GPa, in the problem posed at this step."""
+        if self.found is not None:
+            return self.found.gap, self.found.traction
+        gap = problem.gap(self.displacement)
+        return gap, problem.traction(gap)
 
 
 class Walk:
@@ -55,6 +63,7 @@ class Walk:
         self.problem, self.solver = problem, solver
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
+        self._memory = solver.begin_walk()
         self._pace: float | None = None
 
     def at(self, step: LoadStep) -> InterfaceProblem:
@@ -67,7 +76,7 @@ class Walk:
 
     def near(self, step: LoadStep) -> Equilibrium:
         """The state by continuation alone."""
-        return self.solver.near(self.at(step), self.guess(step.value))
+        return self.solver.near(self.at(step), self.guess(step.value), self._memory)
 
     def flow(self, step: LoadStep) -> Equilibrium:
         """The state by flow from the last stable one."""
@@ -116,10 +125,8 @@ class Requested:
                 jump = walk.accept(step, found, flowed)
             else:
                 broken = found.displacement
-            cost = problem.tally.transforms - before
-            yield PathState(
-                step, found.displacement, found.status, found.residual, jump, spent + found.iterations, cost
-            )
+            spent, cost = spent + found.iterations, problem.tally.transforms - before
+            yield PathState(step, found.displacement, found.status, found.residual, jump, spent, cost, found)
 
 
 @dataclass

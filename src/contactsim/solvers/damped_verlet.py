@@ -45,7 +45,10 @@ class _Dynamics:
         """Real transforms of a time step and unknown component."""
         return 2.0
 
-    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+    def begin_walk(self) -> None:
+        """Nothing is kept."""
+
+    def near(self, problem: InterfaceProblem, guess: Array, memory: None) -> Equilibrium:
         """The equilibrium reached from a guess."""
         return self.flow(problem, guess)
 
@@ -153,7 +156,7 @@ def _settle(
                 change = (1 - friction) * change - move(problem.residual(displacement, traction))
                 displacement = displacement + change
         distance = moved(problem, displacement - start)
-    return Equilibrium(displacement, status, worst, distance, count * batch)
+    return Equilibrium(displacement, gap, traction, status, worst, distance, count * batch)
 
 
 def _check(method: object, *names: str) -> None:

@@ -40,7 +40,10 @@ class EnergyMinimisation:
         """Real transforms of a step and unknown component."""
         return 2.0
 
-    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+    def begin_walk(self) -> None:
+        """Nothing is kept."""
+
+    def near(self, problem: InterfaceProblem, guess: Array, memory: None) -> Equilibrium:
         """The minimum below a guess."""
         return self.flow(problem, guess)
 
@@ -57,12 +60,13 @@ class EnergyMinimisation:
                 place, count = found.x, count + found.nit
                 displacement = descent.displacement(place)
                 gap = problem.gap(displacement)
-                worst = problem.size(problem.residual(displacement, problem.traction(gap)))
+                traction = problem.traction(gap)
+                worst = problem.size(problem.residual(displacement, traction))
                 status = Status.PULLED_OFF if apart(problem, gap) else judged(worst, problem)
                 if status is not Status.BUDGET or count >= self.budget or not found.nit:
                     break
             distance = moved(problem, displacement - start)
-        return Equilibrium(displacement, status, worst, distance, count)
+        return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
 
 NEVER = {"ftol": 0.0, "gtol": 0.0}

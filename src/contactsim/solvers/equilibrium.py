@@ -22,11 +22,13 @@ APART = 40.0
 class Equilibrium:
     """A state of the interface: its displacement (exerted, m), coefficients, and how good it is.
 
-    residual: largest at any point, over the laws' strength; moved: largest change (nm) from where it was looked for;
-    iterations: steps of the method.
+    gap (read, n), nm; traction (exerted, n), GPa; residual: largest at any point, over the laws'
+    strength; moved: largest change (nm) from where it was looked for; iterations: steps of the method.
     """
 
     displacement: Array = field(repr=False)
+    gap: Array = field(repr=False)
+    traction: Array = field(repr=False)
     status: Status
     residual: float
     moved: float
@@ -55,7 +57,11 @@ class PathSolver(Protocol):
         """Real transforms of an iteration, for each unknown component."""
         ...
 
-    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+    def begin_walk(self) -> object:
+        """What `near` keeps between the states of one walk."""
+        ...
+
+    def near(self, problem: InterfaceProblem, guess: Array, memory: object) -> Equilibrium:
         """The equilibrium near a guess."""
         ...
 

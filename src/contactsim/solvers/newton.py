@@ -20,7 +20,7 @@ import numpy as np
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.interface import InterfaceProblem
+from contactsim.interface import InterfaceProblem, Tangent
 from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import SMOOTH_PATHS, Equilibrium, apart, judged, moved
 from contactsim.solvers.krylov import gmres
@@ -36,6 +36,29 @@ FIRST, RETURN, DROP = 0.3, 0.02, 1e-3
 
 STRAYED = 1e3
 """Newton is given up once it has moved this many times as far as is trusted."""
+OFTEN, HARD = 10, 5
+"""A preconditioner is made anew after so many linear solves, or after one that took more iterations than this."""
+
+
+class Memory:
+    """The preconditioner of the last states of a walk, which serves the next ones nearly as well."""
+
+    def __init__(self) -> None:
+        self._kept: ZonePreconditioner | None = None
+        self._uses, self._held = 0, b""
+
+    def preconditioner(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
+        """The one kept, or a new one for this tangent."""
+        held = problem.held.tobytes()
+        if self._kept is None or self._uses == OFTEN or self._held != held:
+            self._kept, self._uses, self._held = ZonePreconditioner(problem, tangent), 0, held
+        self._uses += 1
+        return self._kept
+
+    def learn(self, iterations: int) -> None:
+        """Drop it if it served badly."""
+        if iterations > HARD:
+            self._kept = None
 
 
 @dataclass(frozen=True)
@@ -65,11 +88,16 @@ class NewtonKrylov:
         """Real transforms of a Krylov iteration and unknown component."""
         return 2.5
 
-    def near(self, problem: InterfaceProblem, guess: Array) -> Equilibrium:
+    def begin_walk(self) -> Memory:
+        """What is kept between the states of one walk."""
+        return Memory()
+
+    def near(self, problem: InterfaceProblem, guess: Array, memory: Memory) -> Equilibrium:
         """Newton's method from a guess."""
         displacement, far, strayed = guess, STRAYED * self.trusted * problem.reach, 0.0
         for count in range(self.newton_budget + 1):
-            traction, tangent = problem.tangent(problem.gap(displacement))
+            gap = problem.gap(displacement)
+            traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
             worst = problem.size(residual)
             if count:
@@ -77,9 +105,11 @@ class NewtonKrylov:
             if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
                 break
             forcing = max(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST)
-            precondition = ZonePreconditioner(problem, tangent)
-            displacement = displacement + self._solve(problem, tangent, precondition, residual, 0.0, forcing)
-        return Equilibrium(displacement, judged(worst, problem), worst, strayed, count)
+            precondition = memory.preconditioner(problem, tangent)
+            change, iterations = self._solve(problem, tangent, precondition, residual, 0.0, forcing)
+            memory.learn(iterations)
+            displacement = displacement + change
+        return Equilibrium(displacement, gap, traction, judged(worst, problem), worst, strayed, count)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
@@ -99,7 +129,7 @@ class NewtonKrylov:
                 break
             forcing = np.clip(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST, ROUGH)
             precondition = ZonePreconditioner(problem, tangent, shift)
-            change = self._solve(problem, tangent, precondition, residual, shift, forcing)
+            change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
             move = float(np.abs(problem.field(change)[: len(change)]).max())
             downhill = -np.vdot(change, residual).real > 0
             if not (downhill and move <= 2 * most):
@@ -108,7 +138,8 @@ class NewtonKrylov:
             displacement = displacement + change
             shift /= 3 if move < 0.3 * most else 1.5 if move < most else 1
             shift = shift if shift > DROP * problem.softening else 0.0
-        return Equilibrium(displacement, status, worst, moved(problem, displacement - start), count)
+        distance = moved(problem, displacement - start)
+        return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
     def _solve(
         self,
@@ -118,7 +149,7 @@ class NewtonKrylov:
         residual: Array,
         shift: float,
         forcing: float,
-    ) -> Array:
+    ) -> tuple[Array, int]:
         def product(change: Array) -> Array:
             """(K + T' + s) times a change of the displacement."""
             out = tangent(change)
@@ -127,4 +158,5 @@ class NewtonKrylov:
             return problem.balanced(out, change)
 
         unit = problem.strength  # squares of a weak law's tractions would underflow
-        return unit * gmres(product, precondition, residual / -unit, forcing, self.krylov_budget)[0]
+        change, iterations = gmres(product, precondition, residual / -unit, forcing, self.krylov_budget)
+        return unit * change, iterations

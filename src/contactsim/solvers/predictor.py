@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,11 +15,9 @@ POINTS = 4
 
 def lagrange(places: Sequence[float], states: Sequence[Array], place: float) -> Array:
     """The polynomial through (place, state) pairs, evaluated at `place`; places differ from each other."""
-    known = np.asarray(places, float)
     out = np.zeros_like(states[0])
-    for index, state in enumerate(states):
-        others = np.delete(known, index)
-        out += np.prod((place - others) / (known[index] - others)) * state
+    for own, state in zip(places, states, strict=True):
+        out += math.prod((place - other) / (own - other) for other in places if other != own) * state
     return out
 
 
