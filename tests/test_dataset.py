@@ -190,7 +190,8 @@ def test_a_reader_never_sees_a_file_that_is_being_written(data, tmp_path, monkey
 
 @pytest.mark.parametrize("share", [0.0, 0.01, 0.3, 0.6, 0.9, 0.999])
 def test_a_truncated_file_is_an_error_that_names_it(data, tmp_path, share):
-    path = tmp_path / "data.nc"
+    path = tmp_path / ("far" * 30) / "data.nc"
+    path.parent.mkdir()
     dataset.write(data, path)
     content = path.read_bytes()
     path.write_bytes(content[: int(share * len(content))])

@@ -250,7 +250,7 @@ def read(path: str | Path) -> xr.Dataset:
     try:
         return xr.load_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError, ValueError) as error:
-        raise SceneError("dataset", str(path), f"a readable netCDF file ({error})") from error
+        raise SceneError("dataset", Path(path), f"a readable netCDF file ({error})") from error
 
 
 def settings_of(data: xr.Dataset) -> dict:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from numbers import Real
+from pathlib import PurePath
 
 
 class SceneError(ValueError):
@@ -34,7 +35,9 @@ def is_number(value: object) -> bool:
 
 
 def shown(value: object) -> str:
-    """A short form of any value for a message: long ones are cut, arrays give their shape."""
+    """A short form of any value for a message: long ones but paths are cut, arrays give their shape."""
+    if isinstance(value, PurePath):
+        return repr(str(value))
     shape = getattr(value, "shape", None)
     if shape:
         return f"array of shape {tuple(shape)}"
