@@ -8,7 +8,8 @@ import numpy as np
 
 from contactsim.adhesion import state_observables
 from contactsim.elasticity import Elasticity, Layer
-from contactsim.follow import PathState, Requested
+from contactsim.follow import Requested
+from contactsim.walk import PathState
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.laws import CohesiveZone, Law, NormalCohesiveZone
 from contactsim.loading import LoadPath, approach

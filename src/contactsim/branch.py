@@ -11,13 +11,14 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.adhesion import state_observables
-from contactsim.follow import INCREMENTS, PathState, Requested
+from contactsim.follow import INCREMENTS, Requested
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.loading import LoadStep
 from contactsim.scene import Scene
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.traits import Trait
+from contactsim.walk import PathState
 
 logger = logging.getLogger(__name__)
 
@@ -80,14 +81,15 @@ def _nearest(steps: Sequence[LoadStep], value: float) -> int:
 
 def _numbers(problem: InterfaceProblem, state: PathState, gap: Array, traction: Array) -> dict[str, float]:
     """What a step says: its datum, observables, and how it was found."""
-    approach = state.step.value
-    if problem.load is not None:
+    approach = problem.approach
+    if approach is None:
         approach = problem.yielded - float(state.displacement[0, 0].real)
     return {
         "approach": approach,
         **state_observables(problem, gap, traction),
         "residual": state.residual,
         "status": state.status.value[0],
+        "solved_points": state.points,
         "jump": state.jump,
         "iterations": state.iterations,
         "transforms": state.transforms,
@@ -104,7 +106,7 @@ def _fields(problem: InterfaceProblem, state: PathState, gap: Array, traction: A
 
 
 def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int, dict[str, Array]]) -> xr.Dataset:
-    kinds = {"status": np.int8, "iterations": np.int32}
+    kinds = {"status": np.int8, "iterations": np.int32, "solved_points": np.int32}
     variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
     coordinates = {}
     if fields:
@@ -118,6 +120,7 @@ def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int,
     variables |= {
         "points": heights.size,
         "length": scene.length,
+        "approach_first_touch": -float(heights.max()),
         "contact_modulus": scene.contact_modulus,
         "control": scene.path.steps[0].control.name.lower(),
         "strength": sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits),

@@ -66,7 +66,8 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
     """
     contact_modulus = elasticity.contact_modulus
     if "control" in settings["load"]:
-        return _path(settings["load"]["control"], tuple(settings["load"]["through"]), settings["load"]["increment"])
+        load = settings["load"]
+        return _path(load["control"], tuple(load["through"]), load["increment"], load.get("origin") == "first_touch")
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -91,6 +92,6 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
 
 
 @lru_cache(maxsize=8)
-def _path(control: str, points: tuple[float, ...], increment: float) -> LoadPath:
+def _path(control: str, points: tuple[float, ...], increment: float, from_touch: bool) -> LoadPath:
     """The same for all variants of a study, of which there may be many."""
-    return loading.through(Trait[control.upper()], points, increment)
+    return loading.through(Trait[control.upper()], points, increment, from_touch)

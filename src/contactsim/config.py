@@ -192,6 +192,7 @@ _TYPES = {
     str: (text, "text"),
     float | None: (number, "a number, or leave the key out"),
     float | list[float] | None: (each_way, "a positive number or a list of two, for y and x, or leave the key out"),
+    list[float]: (listed(number), "a list of numbers, none twice"),
     str | None: (text, "text, or leave the key out"),
 }
 

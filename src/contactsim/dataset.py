@@ -130,6 +130,7 @@ VARIABLES = {
     "overclosure": ("1", "deepest overlap, over the normal characteristic length"),
     "slip": ("1", "largest tangential gap under repulsion, over the tangential characteristic length"),
     "residual": ("1", "largest residual traction, over the strength of the laws (recomputed; none if interpolated)"),
+    "solved_points": ("1", "grid points on which the state is a solution"),
     "jump": ("nm", "how far the surface jumped since the step before"),
     "control": ("1", "what the path prescribes"),
     "strength": ("GPa", "strength of the laws"),

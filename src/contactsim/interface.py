@@ -61,7 +61,8 @@ class InterfaceProblem:
 
     shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
     derived: factor (m,) by which the tangential displacement follows the normal one, where it is read but not exerted;
-    approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work.
+    approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work;
+    origin: approach (nm) at which those of load steps are zero.
     """
 
     grid: Grid
@@ -73,6 +74,7 @@ class InterfaceProblem:
     tally: Tally
     approach: float | None = 0.0
     load: float | None = None
+    origin: float = 0.0
 
     @property
     def unknowns(self) -> tuple[int, int]:
@@ -119,8 +121,25 @@ class InterfaceProblem:
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The same scene at another load step."""
         if step.control is Trait.APPROACH:
-            return replace(self, approach=step.value)
+            return replace(self, approach=step.value + self.origin)
         return replace(self, approach=None, load=step.value)
+
+    def coarser(self, points: int, tolerance: float) -> InterfaceProblem:
+        """The same scene on fewer points, an even number: without the waves that these cannot carry, in heights too."""
+        grid, count = self.grid.coarser((points,)), points // 2 + 1
+        shape = self.grid.forward(self.shape[0])[:count]
+        shape[-1] = 0
+        gap = np.zeros((len(self.shape), points))
+        gap[0] = grid.backward(shape)
+        derived = None if self.derived is None else np.where(np.arange(count) < count - 1, self.derived[:count], 0)
+        stiffness = self.stiffness.coarser(count)
+        return replace(self, grid=grid, shape=gap, stiffness=stiffness, derived=derived, tolerance=tolerance)
+
+    def refined(self, displacement: Array) -> Array:
+        """A displacement of a coarser grid (exerted, m), on this one; its shortest wave is left out."""
+        out = np.zeros(self.unknowns, complex)
+        out[:, : displacement.shape[1] - 1] = displacement[:, :-1]
+        return out
 
     def field(self, coefficients: Array) -> Array:
         """Values (components, n) of a displacement (exerted, m), with the derived component."""
@@ -223,4 +242,7 @@ def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int 
         derived, compliance = compliance.slip(), compliance.without_shear()
     shape = np.zeros((len(scene.components), grid.size))
     shape[0] = -heights
-    return InterfaceProblem(grid, shape, scene.effects, compliance.inverse(), derived, tolerance, Tally(grid.size))
+    origin = scene.path.origin(heights)
+    return InterfaceProblem(
+        grid, shape, scene.effects, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin
+    )

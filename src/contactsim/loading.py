@@ -2,7 +2,7 @@
 
 A step prescribes the mean pressure (GPa) or the approach (nm). Approach is measured from the position in which the
 undeformed mean plane of the elastic surface and height zero of the counter-body coincide; the approach of first touch
-is then minus the largest height. Paths are joined with `>>`.
+is then minus the largest height. A path may count from there instead. Paths are joined with `>>`.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import reduce
 
 from contactsim.errors import SceneError, is_number
+from contactsim.grid import Array
 from contactsim.traits import Trait
 
 
@@ -41,12 +42,19 @@ class LoadStep:
 
 @dataclass(frozen=True)
 class LoadPath:
-    """Load steps in the order in which they are visited."""
+    """Load steps in the order in which they are visited; from_touch: their approaches count from first touch."""
 
     steps: tuple[LoadStep, ...]
+    from_touch: bool = False
 
     def __rshift__(self, later: LoadPath) -> LoadPath:
-        return LoadPath(self.steps + later.steps)
+        if later.from_touch is not self.from_touch:
+            raise SceneError("from_touch", later.from_touch, "the same for all parts of a path")
+        return LoadPath(self.steps + later.steps, self.from_touch)
+
+    def origin(self, heights: Array) -> float:
+        """Approach (nm), from where the mean planes meet, at which those of the steps are zero."""
+        return -float(heights.max()) if self.from_touch else 0.0
 
     @property
     def traits(self) -> frozenset[Trait]:
@@ -72,7 +80,7 @@ def leg(control: Trait, begin: float, end: float, increment: float) -> LoadPath:
     return LoadPath(tuple(LoadStep(control, begin + (end - begin) * k / count) for k in range(1, count + 1)))
 
 
-def through(control: Trait, points: Sequence[float], increment: float) -> LoadPath:
+def through(control: Trait, points: Sequence[float], increment: float, from_touch: bool = False) -> LoadPath:
     """Through turning points, the first of which is not a step itself, in equal increments of about that size."""
     legs = [leg(control, *ends, increment) for ends in itertools.pairwise(points)]
-    return reduce(LoadPath.__rshift__, legs)
+    return LoadPath(reduce(LoadPath.__rshift__, legs).steps, from_touch)

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from contactsim.adhesion import state_observables
-from contactsim.follow import PathState
+from contactsim.walk import PathState
 from contactsim.grid import Array
 from contactsim.hazards.cases import mirrored
 from contactsim.hazards.paths import PathCase

@@ -265,7 +265,8 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
-    overlap = step.value + highest  # beyond first touch, if it is an approach
+    asked = step.value + scene.path.origin(heights)
+    overlap = asked + highest  # beyond first touch, if it is an approach
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
     # A profile that is flat but for rounding has no grid step of its own: what the load moves takes its place.
     with np.errstate(over="ignore"):  # refused below
@@ -275,10 +276,10 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     approach = None if pressure is not None else overlap / unit
     symbol = _without_units(scene, grid, heights, unit, pressure or 0.0)
     uniform = float(symbol.flat[0])
-    if uniform == 0 and approach is not None and approach > 0 and step.value >= -heights.mean():
+    if uniform == 0 and approach is not None and approach > 0 and asked >= -heights.mean():
         limit = 0.0 if abs(heights.mean()) < 1e-12 * np.abs(heights).max() else -heights.mean()
         allowed = f"below {limit:.17g}, full contact: the mean displacement is zero, {_why_zero(scene)}"
-        raise SceneError("approach", step.value, allowed)
+        raise SceneError("approach", asked, allowed)
     scale = Scale(unit, unit / flexibility, highest)
     load = None if pressure is None else pressure / scale.pressure
     if load is not None:  # a uniform displacement leaves the gaps alone, and would only add its rounding to them

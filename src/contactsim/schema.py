@@ -31,6 +31,8 @@ def turning(value: object) -> list[float]:
     return numbers
 
 
+ORIGINS = ("mean_plane", "first_touch")
+"""Where approach is zero: see `contactsim.loading`."""
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
 KINDS: dict[str, tuple[Mapping[str, object], Callable[[str], type]]] = {
     "surface": (SURFACES, SURFACES.__getitem__),
@@ -80,6 +82,7 @@ PATH_KEYS = {
     "approach": Key(turning, "a list of turning points in nm, two or more", None),
     "mean_pressure": Key(turning, "a list of turning points in GPa, two or more", None),
     "increment": Key(positive, "a positive number"),
+    "origin": Key(choice(ORIGINS), f"one of {', '.join(ORIGINS)}", ORIGINS[0]),
 }
 COMPANION_KEYS = {
     "points": Key(whole(2), "a whole number of grid points, fewer than the study's"),
@@ -123,6 +126,10 @@ def _path(section: dict, file: object, prefix: str) -> dict:
     points, control = section[controls[0]], Trait[controls[0].upper()]
     path = loading.through(control, points, section["increment"])
     given = {"control": controls[0], "through": points, "increment": section["increment"]}
+    if section["origin"] != ORIGINS[0]:
+        if control is not Trait.APPROACH:
+            raise SceneError(f"{prefix}.origin", section["origin"], "left out, for pressure has none", file)
+        given["origin"] = section["origin"]
     return {"name": "step"} | given | {"values": [step.value for step in path.steps]}
 
 

@@ -66,6 +66,10 @@ class Normal:
         """The part for some of the wavenumbers of a line."""
         return Normal(self.diagonal[:, chosen])
 
+    def coarser(self, count: int) -> Normal:
+        """The same on a line of fewer points, an even number, with `count` wavenumbers."""
+        return self.modes(slice(0, count))
+
     def mirrored(self) -> Normal:
         """The same body turned upside down, in the frame of the one that it faces."""
         return self
@@ -121,6 +125,11 @@ class Coupled:
     def modes(self, chosen: slice) -> Coupled:
         """The part for some of the wavenumbers."""
         return Coupled(self.diagonal[:, chosen], self.coupling[chosen])
+
+    def coarser(self, count: int) -> Coupled:
+        """The same on a line of fewer points, an even number, with `count` wavenumbers; the last is not coupled."""
+        part = self.modes(slice(0, count))
+        return Coupled(part.diagonal, np.where(np.arange(count) < count - 1, part.coupling, 0.0))
 
     def mirrored(self) -> Coupled:
         """The same body turned upside down, in the frame of the one that it faces: its coupling changes sign."""

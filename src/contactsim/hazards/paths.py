@@ -15,7 +15,8 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.elasticity import Elasticity, HalfSpace, Layer
-from contactsim.follow import PathState, Requested
+from contactsim.follow import Requested
+from contactsim.walk import PathState
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.laws import CohesiveZone, Law, NormalCohesiveZone

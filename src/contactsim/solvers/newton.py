@@ -29,9 +29,9 @@ from contactsim.traits import Trait
 
 TIGHTEST = 1e-5
 """Smallest relative residual asked of a linear solve."""
-ROUGH = 1e-3
+ROUGH = 3e-2
 """The same for a step of the flow: its direction need not be exact."""
-FIRST, RETURN, DROP = 0.3, 0.02, 1e-3
+FIRST, RETURN, DROP = 0.03, 0.02, 1e-3
 """Shift over the laws' largest tangent: at the start, at least after a refusal, and below which it is zero."""
 
 STRAYED = 1e3

@@ -24,7 +24,7 @@ SHIFT, LEAST = 0.3, 0.01
 """Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
 NEGLIGIBLE = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
-MOST = 1500
+MOST = 400
 """Entries of the zone beyond which its factorisation would cost more than it saves: the coarse grid gets coarser."""
 
 
@@ -35,15 +35,17 @@ class ZonePreconditioner:
         self._problem = problem
         rows, modes = problem.unknowns
         ratio = RATIO
-        while np.count_nonzero(self._acting(tangent.values[..., ::ratio])) * len(problem.shape) > MOST:
+        values = _averaged(tangent.values, ratio)
+        while np.count_nonzero(self._acting(values)) * len(problem.shape) > MOST:
             ratio *= 2
-        self._nodes = max(problem.grid.size // ratio, 2)
+            values = _averaged(tangent.values, ratio)
+        self._nodes = values.shape[-1]
         self._low = min(self._nodes // 2, modes)
         sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
         extra = shift + SHIFT * np.array([problem.softening, sideways][:rows])
         self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
         self._compliance = problem.supported.modes(slice(0, self._low)).inverse(shift)
-        self._factor(tangent.values[..., :: problem.grid.size // self._nodes][..., : self._nodes], rows)
+        self._factor(values, rows)
 
     def _acting(self, values: Array) -> Array:
         """Points where the tangent is not negligible, bool."""
@@ -93,3 +95,12 @@ class ZonePreconditioner:
             self._problem.tally.add(len(free) + len(residual), self._nodes)
         out[:, : self._low] = long
         return out
+
+
+def _averaged(values: Array, ratio: int) -> Array:
+    """Means over `ratio` points (…, n // ratio), but at least two, of values (…, n), each about every ratio-th point."""
+    size = values.shape[-1]
+    ratio = min(ratio, size // 2)
+    cells = size // ratio
+    shifted = np.concatenate((values[..., size - ratio // 2 :], values[..., : size - ratio // 2]), -1)
+    return shifted[..., : cells * ratio].reshape(*values.shape[:-1], cells, ratio).mean(-1)

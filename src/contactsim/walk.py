@@ -1,0 +1,115 @@
+"""A walk along a load path: each state starts from the one before, since the past decides.
+
+The branch is that of a slow experiment: the equilibrium that the overdamped flow reaches from the last stable state.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from contactsim.grid import Array
+from contactsim.interface import InterfaceProblem
+from contactsim.loading import LoadStep
+from contactsim.solvers.base import Status
+from contactsim.solvers.equilibrium import Equilibrium, PathSolver, moved
+from contactsim.solvers.predictor import History
+from contactsim.traits import Trait
+
+SUDDEN, STEADY = 0.1, 5.0
+"""A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
+is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
+
+
+@dataclass(frozen=True)
+class PathState:
+    """One state of the path: its load step, displacement (exerted, m), coefficients, and how it was found.
+
+    residual: over the laws' strength, NaN where interpolated; jump: how far (nm) the surface jumped since the state
+    before; iterations and transforms: spent since the state before; points: of the grid that it is a solution on;
+    found: the solution, unless that is to be read on another grid or was interpolated.
+    """
+
+    step: LoadStep
+    displacement: Array = field(repr=False)
+    status: Status
+    residual: float
+    jump: float
+    iterations: int
+    transforms: float
+    points: int
+    found: Equilibrium | None = field(default=None, repr=False)
+
+    def fields(self, problem: InterfaceProblem) -> tuple[Array, Array]:
+        """Gap (read, n), nm, and traction (exerted, n), GPa, in the problem posed at this step."""
+        if self.found is not None:
+            return self.found.gap, self.found.traction
+        gap = problem.gap(self.displacement)
+        return gap, problem.traction(gap)
+
+
+class Walk:
+    """Where a path stands: the last stable state, and the history that predicts the next."""
+
+    def __init__(self, problem: InterfaceProblem, solver: PathSolver) -> None:
+        self.problem, self.solver = problem, solver
+        self.history = History()
+        self.last = np.zeros(problem.unknowns, complex)
+        self.broken: Array | None = None
+        self._memory = solver.begin_walk()
+        self._pace: float | None = None
+
+    def at(self, step: LoadStep) -> InterfaceProblem:
+        """The problem at a load step."""
+        return self.problem.at(step)
+
+    def guess(self, place: float) -> Array:
+        """Where the state is expected."""
+        return self.history.guess(place) if self.solver.predicts and self.history.places else self.last
+
+    def near(self, step: LoadStep) -> Equilibrium:
+        """The state by continuation alone."""
+        return self.solver.near(self.at(step), self.guess(step.value), self._memory)
+
+    def flow(self, step: LoadStep) -> Equilibrium:
+        """The state by flow from the last stable one."""
+        return self.solver.flow(self.at(step), self.last)
+
+    def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> float:
+        """Move on to a state; how far the surface jumped to it."""
+        taken = abs(step.value - self.history.places[-1]) if self.history.places else np.inf
+        expected = np.inf if taken == np.inf else STEADY * self._length(step, taken)
+        jump = found.moved if flowed and found.moved > max(SUDDEN * self.problem.reach, expected) else 0.0
+        if step.control is Trait.MEAN_PRESSURE and not jump and 0 < taken < np.inf:
+            self._pace = moved(self.problem, found.displacement - self.last) / taken
+        if jump:
+            self.history.restart(step.value, found.displacement)
+        else:
+            self.history.add(step.value, found.displacement)
+        self.last = found.displacement
+        return jump
+
+    def advance(self, step: LoadStep) -> PathState:
+        """The state at the next step: by continuation, or where that is not to be trusted by flow."""
+        tally, size = self.problem.tally, self.problem.grid.size
+        if self.broken is not None:
+            return PathState(step, self.broken, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0, size)
+        before = tally.transforms
+        found, spent, flowed = self.near(step) if self.solver.predicts else None, 0, False
+        if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
+            spent, flowed = found.iterations if found else 0, True
+            found = self.flow(step)
+        jump = 0.0
+        if found.settled:
+            jump = self.accept(step, found, flowed)
+        else:
+            self.broken = found.displacement
+        spent, cost = spent + found.iterations, tally.transforms - before
+        return PathState(step, found.displacement, found.status, found.residual, jump, spent, cost, size, found)
+
+    def _length(self, step: LoadStep, taken: float) -> float:
+        """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""
+        if step.control is Trait.APPROACH:
+            return taken
+        return np.inf if self._pace is None else self._pace * taken
