@@ -76,13 +76,13 @@ def test_pull_off_on_loading_is_that_of_chapter_4(law, pull_off):
 @pytest.mark.parametrize("name", LAWS)
 def test_adaptive_increments_give_the_curve_of_the_requested_ones_for_less(name):
     scene = scene_of(LAWS[name], along(-10, 10, 0.02))
-    asked, adaptive = walk(scene), walk(scene, increments=Adaptive())
+    asked, adaptive = walk(scene, points=2048), walk(scene, points=2048, increments=Adaptive())
     assert asked.statuses == adaptive.statuses == {"CONVERGED"}
     assert adaptive.jumps == asked.jumps
     assert len(asked.jumps) == 1
     assert np.abs(adaptive.load - asked.load).max() <= 1e-3 * -asked.load.min()
-    # measured: 3.7 to 5; the jump costs both the same
-    assert asked.transforms >= 3.5 * adaptive.transforms
+    # measured: 4.4 to 4.9; the jump costs both the same, and more of the whole on coarser grids
+    assert asked.transforms >= 4 * adaptive.transforms
 
 
 def test_a_finer_path_jumps_within_the_increment_of_the_coarse_one():

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.branch import options, simulate_path
@@ -71,7 +72,8 @@ def simulate(
     require(method, scene)
     points = points or scene.upper.surface.points
     if Trait.SMOOTH in scene.traits:
-        return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
+        with threadpool_limits(threads, "blas"):  # on small dense systems more threads would only wait for each other
+            return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
     known = known or {}
     heights = scene.heights(points)
     steps, found, spent = scene.path.steps, [], []

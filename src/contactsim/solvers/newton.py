@@ -27,7 +27,7 @@ from contactsim.solvers.krylov import gmres
 from contactsim.solvers.zone import ZonePreconditioner
 from contactsim.traits import Trait
 
-TIGHTEST = 1e-5
+TIGHTEST = 1e-3
 """Smallest relative residual asked of a linear solve."""
 ROUGH = 3e-2
 """The same for a step of the flow: its direction need not be exact."""

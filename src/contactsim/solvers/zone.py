@@ -18,8 +18,8 @@ from scipy.linalg import lu_factor, lu_solve
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, Tangent, contracted
 
-RATIO = 8
-"""Points of the grid to one on which long waves are solved for."""
+RATIO, NODES = 8, 128
+"""Points of the grid to one on which long waves are solved for, unless these would be fewer than so many."""
 SHIFT, LEAST = 0.3, 0.01
 """Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
 NEGLIGIBLE = 1e-3
@@ -34,7 +34,7 @@ class ZonePreconditioner:
     def __init__(self, problem: InterfaceProblem, tangent: Tangent, shift: float = 0.0) -> None:
         self._problem = problem
         rows, modes = problem.unknowns
-        ratio = RATIO
+        ratio = min(RATIO, max(problem.grid.size // NODES, 1))
         values = _averaged(tangent.values, ratio)
         while np.count_nonzero(self._acting(values)) * len(problem.shape) > MOST:
             ratio *= 2
