@@ -9,13 +9,13 @@ import numpy as np
 from contactsim.adhesion import state_observables
 from contactsim.elasticity import Elasticity, Layer
 from contactsim.follow import Requested
-from contactsim.walk import PathState
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.laws import CohesiveZone, Law, NormalCohesiveZone
 from contactsim.loading import LoadPath, approach
 from contactsim.scene import Body, Scene
 from contactsim.solvers import solver
 from contactsim.surface import Cylinder, Flat, Surface
+from contactsim.walk import PathState
 
 LENGTH, RADIUS = 10000.0, 25000.0
 LAYER = Layer(70.0 / (1 - 0.3**2), 0.3, 5000.0)
@@ -76,9 +76,7 @@ def walk(
     states = list((increments or Requested()).follow(problem, method, scene.path.steps))
     load = []
     for state in states:
-        here = problem.at(state.step)
-        gap = here.gap(state.displacement)
-        load.append(state_observables(here, gap, here.traction(gap))["line_load"])
+        load.append(state_observables(state.problem, *state.fields())["line_load"])
     return Walked(problem, states, np.array(load))
 
 

@@ -61,16 +61,16 @@ class Adaptive:
         walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
             end = _turn(steps, begin)
-            leg, spent, size = steps[begin:end], problem.tally.transforms, problem.grid.size
+            leg, spent = steps[begin:end], problem.tally.transforms
             iterations, stretches, status = self._walk(walk, leg)
             spent = problem.tally.transforms - spent
             for count, step in enumerate(leg):
-                shared = (iterations, spent, size) if count == 0 else (0, 0.0, size)
-                yield self._state(step, leg, stretches, status, shared)
+                shared = (iterations, spent) if count == 0 else (0, 0.0)
+                yield self._state(problem.at(step), step, leg, stretches, status, shared)
             begin = end
             if status is not Status.CONVERGED:
                 for step in steps[end:]:
-                    yield PathState(step, walk.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0, problem.grid.size)
+                    yield PathState(step, walk.at(step), walk.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
                 return
 
     def _walk(self, walk: Walk, leg: Sequence[LoadStep]) -> tuple[int, list[Stretch], Status]:
@@ -115,7 +115,13 @@ class Adaptive:
         return iterations, stretches, Status.CONVERGED
 
     def _state(
-        self, step: LoadStep, leg: Sequence[LoadStep], stretches: list[Stretch], status: Status, spent: tuple
+        self,
+        problem: InterfaceProblem,
+        step: LoadStep,
+        leg: Sequence[LoadStep],
+        stretches: list[Stretch],
+        status: Status,
+        spent: tuple,
     ) -> PathState:
         """The state asked for, from the stretch that holds it; between two, the end of the earlier."""
         sign = 1 if leg[-1].value >= leg[0].value else -1
@@ -123,7 +129,7 @@ class Adaptive:
         stretch = reached[-1] if reached else stretches[0]
         beyond = sign * (step.value - stretch.places[-1]) > 0
         if beyond and stretch is stretches[-1] and status is not Status.CONVERGED:
-            return PathState(step, stretch.states[-1], status, np.nan, 0.0, *spent)
+            return PathState(step, problem, stretch.states[-1], status, np.nan, 0.0, *spent)
         place = stretch.places[-1] if beyond else step.value
         earlier = [other.value for other in leg if sign * (step.value - other.value) > 0]
         jumped = sum(
@@ -131,7 +137,7 @@ class Adaptive:
             for item in reached
             if not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0
         )
-        return PathState(step, stretch.near(place), Status.CONVERGED, np.nan, jumped, *spent)
+        return PathState(step, problem, stretch.near(place), Status.CONVERGED, np.nan, jumped, *spent)
 
 
 def _towards(place: float, end: float, increment: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -51,11 +52,9 @@ def simulate_path(
     for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        here = problem.at(state.step)
-        gap, traction = state.fields(here)
-        rows.append(_numbers(here, state, gap, traction))
+        rows.append(_numbers(state))
         if count in kept:
-            fields[count] = _fields(here, state, gap, traction)
+            fields[count] = _fields(problem.at(state.step), state)
         if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
             spent = time.process_time() - begin
             logger.info(
@@ -79,14 +78,15 @@ def _nearest(steps: Sequence[LoadStep], value: float) -> int:
     return int(np.argmin(np.round([abs(step.value - value) for step in steps], 9)))
 
 
-def _numbers(problem: InterfaceProblem, state: PathState, gap: Array, traction: Array) -> dict[str, float]:
+def _numbers(state: PathState) -> dict[str, float]:
     """What a step says: its datum, observables, and how it was found."""
+    problem = state.problem
     approach = problem.approach
     if approach is None:
         approach = problem.yielded - float(state.displacement[0, 0].real)
     return {
         "approach": approach,
-        **state_observables(problem, gap, traction),
+        **state_observables(problem, *state.fields()),
         "residual": state.residual,
         "status": state.status.value[0],
         "solved_points": state.points,
@@ -96,8 +96,11 @@ def _numbers(problem: InterfaceProblem, state: PathState, gap: Array, traction: 
     }
 
 
-def _fields(problem: InterfaceProblem, state: PathState, gap: Array, traction: Array) -> dict[str, Array]:
-    """Gap, traction and displacement by component, each (n,)."""
+def _fields(problem: InterfaceProblem, state: PathState) -> dict[str, Array]:
+    """Gap, traction and displacement by component, each (n,), read on the whole grid."""
+    if state.points < problem.grid.size:
+        state = replace(state, problem=problem, displacement=problem.refined(state.displacement), found=None)
+    gap, traction = state.fields()
     moved = problem.field(state.displacement)
     if problem.load is not None:  # its uniform mode is the gap's, approach included
         moved[0] += problem.yielded - state.displacement[0, 0].real

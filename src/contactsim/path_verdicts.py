@@ -12,7 +12,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from contactsim.adhesion import state_observables
-from contactsim.walk import PathState
 from contactsim.grid import Array
 from contactsim.hazards.cases import mirrored
 from contactsim.hazards.paths import PathCase
@@ -22,6 +21,7 @@ from contactsim.solvers import solver
 from contactsim.solvers.base import Status, require
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.verdicts import Outcome, Verdict
+from contactsim.walk import PathState
 
 ROUNDING = 1e-8
 """Of the largest traction: what solving a nearly incompressible layer, wave by wave, loses."""

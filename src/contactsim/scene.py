@@ -202,14 +202,18 @@ class WallProblem:
         gap = self.compliance(pressure)
         gap -= self.heights
         contact = pressure > 0
+        touching = gap[contact]
         approach = self.approach
         if approach is None:
-            approach = float(gap.mean(where=contact)) if contact.any() else 0.0
+            approach = float(touching.mean()) if touching.size else 0.0
         gap -= approach
-        widest, deepest = (float(pick(gap, where=contact, initial=0.0)) for pick in (np.max, np.min))
+        touching -= approach
+        gap[contact] = 0.0  # to find the deepest overlap elsewhere
+        lowest = float(gap.min())
+        gap[contact] = touching
         certificate = Certificate(
-            non_uniformity=max(widest, -deepest),
-            penetration=0.0 - float(np.min(gap, where=~contact, initial=0.0)),
+            non_uniformity=float(np.abs(touching, out=touching).max(initial=0.0)),
+            penetration=0.0 - min(lowest, 0.0),
             smallest_pressure=float(pressure.min()),
             load_error=0.0 if not self.load else float(abs(pressure.mean() / self.load - 1)),
             approach=approach,

@@ -24,29 +24,33 @@ is a length or, under a load, the length that the step before moved the surface 
 
 @dataclass(frozen=True)
 class PathState:
-    """One state of the path: its load step, displacement (exerted, m), coefficients, and how it was found.
+    """One state of the path: its load step, the problem there, its coefficients (exerted, m), and how it was found.
 
     residual: over the laws' strength, NaN where interpolated; jump: how far (nm) the surface jumped since the state
-    before; iterations and transforms: spent since the state before; points: of the grid that it is a solution on;
-    found: the solution, unless that is to be read on another grid or was interpolated.
+    before; iterations and transforms: spent since the state before; found: the solution, unless interpolated.
     """
 
     step: LoadStep
+    problem: InterfaceProblem = field(repr=False)
     displacement: Array = field(repr=False)
     status: Status
     residual: float
     jump: float
     iterations: int
     transforms: float
-    points: int
     found: Equilibrium | None = field(default=None, repr=False)
 
-    def fields(self, problem: InterfaceProblem) -> tuple[Array, Array]:
-        """Gap (read, n), nm, and traction (exerted, n), GPa, in the problem posed at this step."""
+    @property
+    def points(self) -> int:
+        """Of the grid that it is a solution on."""
+        return self.problem.grid.size
+
+    def fields(self) -> tuple[Array, Array]:
+        """Gap (read, n), nm, and traction (exerted, n), GPa."""
         if self.found is not None:
             return self.found.gap, self.found.traction
-        gap = problem.gap(self.displacement)
-        return gap, problem.traction(gap)
+        gap = self.problem.gap(self.displacement)
+        return gap, self.problem.traction(gap)
 
 
 class Walk:
@@ -92,9 +96,9 @@ class Walk:
 
     def advance(self, step: LoadStep) -> PathState:
         """The state at the next step: by continuation, or where that is not to be trusted by flow."""
-        tally, size = self.problem.tally, self.problem.grid.size
+        tally, here = self.problem.tally, self.at(step)
         if self.broken is not None:
-            return PathState(step, self.broken, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0, size)
+            return PathState(step, here, self.broken, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
         before = tally.transforms
         found, spent, flowed = self.near(step) if self.solver.predicts else None, 0, False
         if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
@@ -106,7 +110,7 @@ class Walk:
         else:
             self.broken = found.displacement
         spent, cost = spent + found.iterations, tally.transforms - before
-        return PathState(step, found.displacement, found.status, found.residual, jump, spent, cost, size, found)
+        return PathState(step, here, found.displacement, found.status, found.residual, jump, spent, cost, found)
 
     def _length(self, step: LoadStep, taken: float) -> float:
         """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""

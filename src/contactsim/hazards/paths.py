@@ -16,7 +16,6 @@ import numpy as np
 
 from contactsim.elasticity import Elasticity, HalfSpace, Layer
 from contactsim.follow import Requested
-from contactsim.walk import PathState
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.laws import CohesiveZone, Law, NormalCohesiveZone
@@ -26,6 +25,7 @@ from contactsim.solvers import solver
 from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.traits import Trait
+from contactsim.walk import PathState
 
 DEEP = 40.0
 """|q|h from which on a layer is a half-space to all digits."""

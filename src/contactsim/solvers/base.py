@@ -143,7 +143,7 @@ def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> 
     """
     for count in range(1, budget + 1):
         following = solver.step(problem, state)
-        if not np.isfinite(following.pressure).all():
+        if not (np.isfinite(following.pressure.sum()) or np.isfinite(following.pressure).all()):
             return state, count, False
         state = following
         if state.done:

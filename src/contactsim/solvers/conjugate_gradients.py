@@ -184,7 +184,8 @@ class _Spread:
         if problem.approach is not None:
             level = problem.approach
         else:
-            level = float(gap.mean(where=contact) if contact.any() else gap.min())
+            touching = gap[contact]
+            level = float(touching.mean() if touching.size else gap.min())
         np.subtract(gap, level, out=out, casting="same_kind")
         self.change[:] = 0
 
@@ -198,7 +199,7 @@ class NestedConjugateGradients(ConjugateGradients):
     """
 
     coarsest: int = 64
-    coarse_tolerance: float = 0.03
+    coarse_tolerance: float = 0.1
     coarse_budget: int = 15
 
     def __post_init__(self) -> None:

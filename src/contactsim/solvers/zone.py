@@ -98,7 +98,7 @@ class ZonePreconditioner:
 
 
 def _averaged(values: Array, ratio: int) -> Array:
-    """Means over `ratio` points (…, n // ratio), but at least two, of values (…, n), each about every ratio-th point."""
+    """Means over `ratio` points about every ratio-th, at least two of them (…, n // ratio), of values (…, n)."""
     size = values.shape[-1]
     ratio = min(ratio, size // 2)
     cells = size // ratio
