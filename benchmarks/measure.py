@@ -24,7 +24,7 @@ from contactsim.solvers.base import solve
 
 CAP = 120
 """CPU seconds that one solution may take."""
-LONG = 5.0
+LONG = 20.0
 """CPU seconds above which a solution is not repeated."""
 
 
