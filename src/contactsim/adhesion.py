@@ -18,8 +18,15 @@ INTERACTING = {
     "interacting_length_tenth": 1e-1,
     "interacting_length_hundredth": 1e-2,
     "interacting_length_thousandth": 1e-3,
+    "interacting_length_millionth": 1e-6,
 }
 """Parts of the strength beyond which two surfaces interact."""
+CRITERION = "interacting_length_hundredth"
+"""The one of Chapter 5, where it says no more than that the threshold approaches zero."""
+AREAS = {"relative_repulsive_area": "repulsive_length", "relative_interacting_area": CRITERION}
+"""Parts of the period, and the lengths that they come from."""
+OPENINGS, PULLS = np.linspace(-3.0, 12.0, 61), np.linspace(-6.0, 1.0, 71)
+"""Edges of histograms: gaps in the laws' length, normal tractions in their strength; the ends hold what lies beyond."""
 FINAL = {
     "final_repulsive_length": "repulsive_length",
     "final_load": "line_load",
@@ -54,9 +61,10 @@ def repulsive_length(gap: Array, spacing: float) -> float:
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
-    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; repulsive_length, lengths for
-    `INTERACTING`, smallest_gap, nm; largest_pressure and largest_pull: normal traction where it is largest, GPa;
-    overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the laws' lengths.
+    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; repulsive_length,
+    lengths for `INTERACTING`, mean_gap, smallest_gap, nm; largest_pressure and largest_pull: normal traction at its
+    largest, GPa; overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the
+    laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength
@@ -65,6 +73,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
         "line_load": float(-traction[0].mean() * length),
         "repulsive_load": float(-np.minimum(traction[0], 0.0).mean() * length),
         "adhesive_load": float(np.maximum(traction[0], 0.0).mean() * length),
+        "mean_pressure": float(-traction[0].mean()),
+        "mean_gap": float(gap[0].mean()),
         "repulsive_length": repulsive_length(gap[0], spacing),
         "smallest_gap": float(gap[0].min()),
         "largest_pressure": float(max(-traction[0].min(), 0.0)),
@@ -78,6 +88,31 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     for row in range(1, len(traction)):
         numbers["friction_force"] = float(traction[row].mean() * length)
     return numbers
+
+
+def gradients(square: Array, problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
+    """Rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
+
+    square: local mean squares of the slopes (n,), as of `contactsim.roughness.local_squares`. NaN without contact.
+    """
+    chosen = {
+        "rms_gradient_repulsive": square[gap[0] < 0],
+        "rms_gradient_interacting": square[np.abs(traction[0]) > INTERACTING[CRITERION] * problem.strength],
+    }
+    found = {name: float(np.sqrt(values.mean())) if values.size else np.nan for name, values in chosen.items()}
+    return found | {"rms_gradient": float(np.sqrt(square.mean()))}
+
+
+def histograms(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, Array]:
+    """Share of the points by normal gap, bins of `OPENINGS`, and by normal traction, bins of `PULLS`."""
+    kinds = {
+        "normal_gap_share": (gap[0] / problem.reach, OPENINGS),
+        "normal_traction_share": (traction[0] / problem.strength, PULLS),
+    }
+    return {
+        name: np.histogram(np.clip(values, edges[0], edges[-1]), edges)[0] / values.size
+        for name, (values, edges) in kinds.items()
+    }
 
 
 def pull_off(approach: Array, load: Array) -> dict[str, float]:

@@ -7,13 +7,13 @@ that remains, for a higher order generously so. The tolerance error is the chang
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import xarray as xr
 
 from contactsim import analytic, dataset, extrapolation
-from contactsim.adhesion import SUMMARY, summarised
+from contactsim.adhesion import AREAS, SUMMARY, summarised
 from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fits
 from contactsim.observables import proportionality
@@ -31,6 +31,16 @@ AVERAGED = (
     "reduced_pressure_contact",
     "mean_gap",
 )
+ALONG_PATHS = (
+    "mean_pressure",
+    "normalised_pressure",
+    "relative_repulsive_area",
+    "relative_interacting_area",
+    "gradient_ratio_repulsive",
+    "gradient_ratio_interacting",
+    "mean_gap",
+)
+"""What is averaged over members state by state."""
 ROUND = {
     False: ("half_width_exact", analytic.cylinder_rms_gradient),
     True: ("contact_radius_exact", analytic.sphere_rms_gradient),
@@ -83,14 +93,27 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     """Paths with what they amount to, and its change on halving the grid and on solving more tightly."""
     if "line_load" not in fine:  # a hard wall pressed through given approaches
-        return fine
-    data = summarised(fine)
+        data = fine.assign(normalised_pressure=fine.mean_pressure / fine.contact_modulus)
+        return data.merge(_ensemble(data, (*AVERAGED, "normalised_pressure"))) if data.member.size > 1 else data
+    data = _of_states(summarised(fine))
+    if data.member.size > 1:
+        data = data.merge(_ensemble(data, ALONG_PATHS))
     for suffix, other in _others(runs):
-        other = summarised(other)
+        other = _of_states(summarised(other))
         same = data.sel(member=other.member)
         changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY if name in other}
         data = data.assign({f"{name}{suffix}": change for name, change in changes.items()})
+        if data.member.size > 1:
+            data = data.merge(_change(data, other, suffix, ALONG_PATHS))
     return data
+
+
+def _of_states(data: xr.Dataset) -> xr.Dataset:
+    """With what the numbers of states are as parts of the whole."""
+    ratios = {name: data[length] / data.length for name, length in AREAS.items()}
+    for part in ("repulsive", "interacting"):
+        ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
+    return data.assign(ratios, normalised_pressure=data.mean_pressure / data.contact_modulus)
 
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
@@ -126,9 +149,9 @@ def _derived(data: xr.Dataset) -> xr.Dataset:
     return data
 
 
-def _ensemble(data: xr.Dataset) -> xr.Dataset:
+def _ensemble(data: xr.Dataset, names: Sequence[str] = AVERAGED) -> xr.Dataset:
     found = {}
-    for name in AVERAGED:
+    for name in names:
         if name in data:
             values = converged(data[name], data)
             count = values.notnull().sum("member")
@@ -138,13 +161,13 @@ def _ensemble(data: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(found)
 
 
-def _change(fine: xr.Dataset, coarse: xr.Dataset, suffix: str) -> xr.Dataset:
+def _change(fine: xr.Dataset, coarse: xr.Dataset, suffix: str, names: Sequence[str] = AVERAGED) -> xr.Dataset:
     """How far the means move between two datasets, over the members that both have."""
     same = fine.sel(member=coarse.member)
     return xr.Dataset(
         {
             f"{name}{suffix}": abs((converged(same[name], same) - converged(coarse[name], coarse)).mean("member"))
-            for name in AVERAGED
+            for name in names
             if name in fine
         }
     )

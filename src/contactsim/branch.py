@@ -11,11 +11,12 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.adhesion import state_observables
+from contactsim.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
 from contactsim.follow import INCREMENTS, Requested
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.loading import LoadStep
+from contactsim.roughness import local_squares
 from contactsim.scene import Scene
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.traits import Trait
@@ -26,6 +27,8 @@ logger = logging.getLogger(__name__)
 GAPS = ("normal_gap", "tangential_gap")
 DISPLACEMENTS = ("normal_displacement", "tangential_displacement")
 TRACTIONS = ("normal_traction", "tangential_traction")
+BINS = {"normal_gap_share": ("normal_gap_bin", OPENINGS), "normal_traction_share": ("normal_traction_bin", PULLS)}
+"""Dimension of each histogram, and the edges of its bins."""
 LINES = 40
 """About how many lines a path writes into its log."""
 
@@ -39,22 +42,24 @@ def simulate_path(
     threads: int = 1,
     increments: object = None,
     snapshots: Sequence[float] | None = None,
+    keep_fields: bool = True,
 ) -> xr.Dataset:
     """Follow a scene's load path and return one dataset with dimension `step`.
 
     tolerance: in parts of the laws' strength; increments: of `follow.INCREMENTS`, as requested where None; snapshots:
-    approaches (nm) or mean pressures (GPa) whose first steps near them keep their fields.
+    approaches (nm) or mean pressures (GPa) whose first steps near them keep histograms and, unless told not to, fields.
     """
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_interface(scene, heights, tolerance, threads)
     kept = {_nearest(steps, value): value for value in snapshots or ()}
+    slopes: dict[int, Array] = {}
     rows, fields, begin, total, marks = [], {}, time.process_time(), 0.0, [0.0]
     for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        rows.append(_numbers(state))
+        rows.append(_numbers(state, slopes))
         if count in kept:
-            fields[count] = _fields(problem.at(state.step), state)
+            fields[count] = _fields(problem.at(state.step), state, keep_fields)
         if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
             spent = time.process_time() - begin
             logger.info(
@@ -68,9 +73,10 @@ def simulate_path(
 
 
 def options(settings: dict) -> dict:
-    """Increments and snapshots of a run's settings."""
+    """Increments, and what is kept at which states, of a run's settings."""
     given = dict(settings["increments"])
-    return {"increments": INCREMENTS[given.pop("kind")](**given), "snapshots": settings["snapshots"]}
+    increments = INCREMENTS[given.pop("kind")](**given)
+    return {"increments": increments} | {name: settings[name] for name in ("snapshots", "keep_fields")}
 
 
 def _nearest(steps: Sequence[LoadStep], value: float) -> int:
@@ -78,15 +84,18 @@ def _nearest(steps: Sequence[LoadStep], value: float) -> int:
     return int(np.argmin(np.round([abs(step.value - value) for step in steps], 9)))
 
 
-def _numbers(state: PathState) -> dict[str, float]:
-    """What a step says: its datum, observables, and how it was found."""
-    problem = state.problem
+def _numbers(state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
+    """What a step says: its datum, observables, how it was found; slopes: squares by grid, kept for later steps."""
+    problem, (gap, traction) = state.problem, state.fields()
+    if state.points not in slopes:
+        slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
     approach = problem.approach
     if approach is None:
         approach = problem.yielded - float(state.displacement[0, 0].real)
     return {
         "approach": approach,
-        **state_observables(problem, *state.fields()),
+        **state_observables(problem, gap, traction),
+        **gradients(slopes[state.points], problem, gap, traction),
         "residual": state.residual,
         "status": state.status.value[0],
         "solved_points": state.points,
@@ -96,16 +105,19 @@ def _numbers(state: PathState) -> dict[str, float]:
     }
 
 
-def _fields(problem: InterfaceProblem, state: PathState) -> dict[str, Array]:
-    """Gap, traction and displacement by component, each (n,), read on the whole grid."""
+def _fields(problem: InterfaceProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
+    """Histograms and, if kept, gap, traction and displacement by component, each (n,), read on the whole grid."""
     if state.points < problem.grid.size:
         state = replace(state, problem=problem, displacement=problem.refined(state.displacement), found=None)
     gap, traction = state.fields()
+    shares = histograms(problem, gap, traction)
+    if not keep_fields:
+        return shares
     moved = problem.field(state.displacement)
     if problem.load is not None:  # its uniform mode is the gap's, approach included
         moved[0] += problem.yielded - state.displacement[0, 0].real
     parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
-    return {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
+    return shares | {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
 
 
 def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int, dict[str, Array]]) -> xr.Dataset:
@@ -114,12 +126,13 @@ def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int,
     coordinates = {}
     if fields:
         for name in next(iter(fields.values())):
-            variables[name] = (("snapshot", "x"), np.stack([one[name] for one in fields.values()]))
-        variables["heights"] = ("x", heights)
-        coordinates = {
-            "snapshot": np.array([scene.path.steps[count].value for count in fields]),
-            "x": np.arange(heights.size) * scene.length / heights.size,
-        }
+            across = BINS[name][0] if name in BINS else "x"
+            variables[name] = (("snapshot", across), np.stack([one[name] for one in fields.values()]))
+        coordinates = {"snapshot": np.array([scene.path.steps[count].value for count in fields])}
+        coordinates |= {name: (edges[1:] + edges[:-1]) / 2 for name, edges in BINS.values()}
+        if GAPS[0] in variables:
+            variables["heights"] = ("x", heights)
+            coordinates["x"] = np.arange(heights.size) * scene.length / heights.size
     variables |= {
         "points": heights.size,
         "length": scene.length,

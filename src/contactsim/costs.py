@@ -15,20 +15,15 @@ def table(runs: list[dict]) -> pd.DataFrame:
 
     runs: path, costs, coordinates, member and companion of each, as `Plan.study_settings` lists them.
     """
-    rows = []
-    for run in runs:
-        data = dataset.read(run["path"])
-        spent = json.loads(Path(run["costs"]).read_text())
-        load = data.status.dims[0]
-        for row in range(data.status.size):
-            here = data.isel({load: row})
-            rows.append(
-                {"run": run["path"], **run["coordinates"], "member": run["member"], "companion": run["companion"]}
-                | {load: here[load].item(), "points": here.points.item(), "transforms": here.transforms.item()}
-                | {
-                    "seconds": spent["seconds"][str(here.point.item())],
-                    "memory_mib": spent["peak_memory_of_last_run"],
-                    "status": here.status.item(),
-                }
-            )
-    return pd.DataFrame(rows)
+    return pd.concat([_of_run(run) for run in runs], ignore_index=True)
+
+
+def _of_run(run: dict) -> pd.DataFrame:
+    data = dataset.read(run["path"])
+    spent = json.loads(Path(run["costs"]).read_text())
+    load = data.status.dims[0]
+    told = {"run": run["path"], **run["coordinates"], "member": run["member"], "companion": run["companion"]}
+    told |= {load: data[load].values, "points": data.points.item(), "transforms": data.transforms.values}
+    seconds = [spent["seconds"][str(name)] for name in data.point.values]
+    told |= {"seconds": seconds, "memory_mib": spent["peak_memory_of_last_run"], "status": data.status.values}
+    return pd.DataFrame(told)

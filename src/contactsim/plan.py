@@ -223,6 +223,10 @@ def _stability(folder: Path, over: dict, tier: str) -> dict | None:
     return stability.read_settings(overlaid(load_yaml(file), over), source)
 
 
+RESCALED = ("hurst", "rms_height", "rms_gradient", "shortest_wavelength")
+"""What leaves the random waves of a self-affine surface the same, but for their size and how many there are."""
+
+
 def _check_surfaces(studies: dict[str, Study]) -> None:
     """A study that presses another's surfaces must describe them as the other does, which has its own."""
     for study in studies.values():
@@ -233,8 +237,10 @@ def _check_surfaces(studies: dict[str, Study]) -> None:
         if other is None or other.settings["surfaces_of"] is not None:
             known = ", ".join(one for one, its in studies.items() if its.settings["surfaces_of"] is None)
             raise SceneError(key, name, f"one of {known}", study.file)
-        if other.settings["surface"] != study.settings["surface"] or study.settings["surface"]["kind"] != "self_affine":
-            raise SceneError(key, name, "a study with the same `surface`, self_affine", study.file)
+        one, two = ({k: v for k, v in its.settings["surface"].items() if k not in RESCALED} for its in (study, other))
+        if one != two or one["kind"] != "self_affine":
+            allowed = f"a study with the same `surface`, self_affine, but for {', '.join(RESCALED)}"
+            raise SceneError(key, name, allowed, study.file)
 
 
 def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:

@@ -60,6 +60,12 @@ def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array 
     return float(np.sqrt(np.sum(total / count))) if count else float("nan")
 
 
+def local_squares(heights: Array, spacing: float) -> Array:
+    """Mean of the two squared slopes at each point of a line (Eq. 3.8), (n,); heights and spacing in one unit."""
+    after = (np.roll(heights, -1) - heights) / spacing
+    return 0.5 * (after**2 + np.roll(after, 1) ** 2)
+
+
 def rms_gradient_bonds(heights: Array, spacing: float | Sequence[float], where: Array) -> float:
     """Root-mean-square slope over neighbouring pairs with both ends in `where`; NaN without such a pair.
 

@@ -175,8 +175,11 @@ class Study:
                 raise SceneError(f"studies.{self.name}.vary", name, allowed, self.file)
             sections[head] = sections[head] | {tail: value}
         parts = {name: self._part(name, section) for name, section in sections.items()}
-        kept = "snapshots" if is_smooth(self.settings) else "keep"
+        smooth = is_smooth(self.settings)
+        kept = "snapshots" if smooth else "keep"
         shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", kept)} | grid | change
+        if smooth:
+            shared["keep_fields"] = member < (self.settings["snapshot_members"] or self.settings["members"])
         drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
         if "through" in shared["load"]:  # says all, and is short
             shared["load"] = {key: value for key, value in shared["load"].items() if key != "values"}
