@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -200,10 +202,33 @@ def test_a_process_zone_below_the_grid_ends_honestly():
 @pytest.mark.parametrize("kind", PATH)
 def test_a_spent_budget_is_told_and_the_path_breaks_off(kind):
     short = {"newton": {"newton_budget": 1, "flow_budget": 1}}.get(kind, {"budget": 1})
-    found = walk(scene_of(LAWS["uncoupled"], along(-5.5, -5, 0.25)), method=solver(kind, **short))
-    assert [state.status for state in found.states] == [Status.BUDGET, Status.BROKEN_OFF, Status.BROKEN_OFF]
+    found = walk(scene_of(LAWS["uncoupled"], along(-5.5, -4.5, 0.25)), method=solver(kind, **short))
+    assert [state.status for state in found.states] == [Status.BUDGET] * 3 + [Status.BROKEN_OFF] * 2
     assert found.states[0].residual > 1e-7
-    assert np.isnan(found.states[1].residual)
+    assert np.isnan(found.states[3].residual)
+
+
+class Refusing(NewtonKrylov):
+    """Newton's method that finds nothing at some approaches."""
+
+    refused = (-4.75, -4.5)
+
+    def near(self, problem, guess, memory):
+        return self._spoiled(problem, super().near(problem, guess, memory))
+
+    def flow(self, problem, start):
+        return self._spoiled(problem, super().flow(problem, start))
+
+    def _spoiled(self, problem, found):
+        return replace(found, status=Status.BUDGET) if problem.approach in self.refused else found
+
+
+def test_a_path_goes_on_from_the_last_stable_state_where_a_step_has_no_solution():
+    scene = scene_of(LAWS["uncoupled"], along(-5.5, -4, 0.25))
+    found, whole = walk(scene, method=Refusing()), walk(scene)
+    lost = [state.step.value in Refusing.refused for state in found.states]
+    assert [state.status is Status.BUDGET for state in found.states] == lost
+    assert np.abs(found.load - whole.load)[~np.array(lost)].max() <= 1e-5 * np.abs(whole.load).max()
 
 
 def test_dynamics_that_diverge_are_told():

@@ -8,6 +8,7 @@ reports as overclosure, is a failure.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import takewhile
 
 import numpy as np
 
@@ -36,7 +37,7 @@ def judge_path(case: PathCase, method: str | PathSolver) -> Verdict:
     require(method, case.scene)
     problem, states = case.follow(method)
     spent = problem.tally.transforms
-    fit = [state for state in states if state.status is Status.CONVERGED]
+    fit = list(takewhile(lambda state: state.status is Status.CONVERGED, states))
     fault = path_faults(case, problem, fit)
     failed = next((state for state in states if state.status not in (Status.CONVERGED, case.ends)), None)
     if fault:

@@ -21,6 +21,9 @@ SUDDEN, STEADY = 0.1, 5.0
 """A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
 is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
 
+PATIENCE = 3
+"""Steps in a row without a solution, each sought from the last stable state, after which a path breaks off."""
+
 
 @dataclass(frozen=True)
 class PathState:
@@ -60,7 +63,7 @@ class Walk:
         self.problem, self.solver = problem, solver
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
-        self.broken: Array | None = None
+        self._failed = 0
         self._memory = solver.begin_walk()
         self._pace: float | None = None
 
@@ -97,18 +100,16 @@ class Walk:
     def advance(self, step: LoadStep) -> PathState:
         """The state at the next step: by continuation, or where that is not to be trusted by flow."""
         tally, here = self.problem.tally, self.at(step)
-        if self.broken is not None:
-            return PathState(step, here, self.broken, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
+        if self._failed == PATIENCE:
+            return PathState(step, here, self.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
         before = tally.transforms
         found, spent, flowed = self.near(step) if self.solver.predicts else None, 0, False
         if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
             spent, flowed = found.iterations if found else 0, True
             found = self.flow(step)
-        jump = 0.0
-        if found.settled:
-            jump = self.accept(step, found, flowed)
-        else:
-            self.broken = found.displacement
+        jump = self.accept(step, found, flowed) if found.settled else 0.0
+        lost = found.status in (Status.PULLED_OFF, Status.NON_FINITE)  # nothing comes after that
+        self._failed = 0 if found.settled else PATIENCE if lost else self._failed + 1
         spent, cost = spent + found.iterations, tally.transforms - before
         return PathState(step, here, found.displacement, found.status, found.residual, jump, spent, cost, found)
 
