@@ -9,14 +9,17 @@ from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
 from contactsim import analytic, loading
-from contactsim.adhesion import FINAL, SUMMARY, largest_jumps, legs, pull_off, summarised
+from contactsim.adhesion import FINAL, SUMMARY, gradients, histograms, largest_jumps, legs, pull_off, summarised
 from contactsim.elasticity import HalfSpace
+from contactsim.interface import pose_interface
 from contactsim.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.march import simulate
+from contactsim.roughness import local_squares, rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.surface import Cylinder, Flat
 from contactsim.tabulate import tabulated
 from contactsim.traits import Trait
+from smooth import LAWS, LENGTH, along, scene_of
 
 APPROACH = np.array([-3.0, -2.0, -1.0, 0.0, -1.0, -2.0, -3.0])
 LOAD = np.array([-0.1, -5.0, -4.5, 2.0, -4.5, -6.0, -0.1])  # jumps to -2 on loading, from -2 on unloading
@@ -101,3 +104,44 @@ def test_a_tabulated_law_peaks_at_its_strengths():
     assert np.allclose(data.tangential_traction.max("slip_gap"), tangential, rtol=1e-3)
     assert np.allclose(data.tangential_traction, -data.tangential_traction[:, ::-1])
     assert abs(normal[0] - CohesiveZone(2.0, 0.5, 1.5, 0.8).strength) < 1e-15
+
+
+def test_local_squares_give_the_gradient_over_any_part():
+    heights = np.random.default_rng(3).normal(size=50)
+    where = heights > 0.3
+    square = local_squares(heights, 0.7)
+    assert np.sqrt(square.mean()) == pytest.approx(rms_gradient(heights, 0.7), rel=1e-12)
+    assert np.sqrt(square[where].mean()) == pytest.approx(rms_gradient(heights, 0.7, where), rel=1e-12)
+
+
+def test_gradients_follow_both_criteria_and_are_none_without_contact():
+    problem = pose_interface(scene_of(LAWS["uncoupled"]), np.zeros(8), 1e-7)
+    square = np.arange(8.0) ** 2
+    gap = np.array([[-0.5, -0.1, 0.2, 1.0, 30.0, 30.0, 30.0, 30.0]])
+    found = gradients(square, problem, gap, problem.traction(gap))
+    assert found["rms_gradient_repulsive"] == pytest.approx(np.sqrt(0.5))
+    assert found["rms_gradient_interacting"] == pytest.approx(np.sqrt(3.5))  # four points
+    assert found["rms_gradient"] == pytest.approx(np.sqrt(17.5))
+    apart = np.full((1, 8), 40.0)
+    assert np.isnan(gradients(square, problem, apart, problem.traction(apart))["rms_gradient_repulsive"])
+
+
+def test_histograms_hold_every_point_and_their_ends_what_lies_beyond():
+    problem = pose_interface(scene_of(LAWS["uncoupled"]), np.zeros(4), 1e-7)
+    gap = np.array([[-100.0, 0.1, 0.1, 100.0]])
+    shares = histograms(problem, gap, problem.traction(gap))
+    assert shares["normal_gap_share"][[0, 12, -1]].tolist() == [0.25, 0.5, 0.25]
+    assert shares["normal_gap_share"].sum() == shares["normal_traction_share"].sum() == 1.0
+    assert shares["normal_traction_share"][0] == 0.25  # the strongest push
+
+
+def test_fields_of_some_members_alone_are_kept_and_histograms_of_all():
+    scene = scene_of(LAWS["uncoupled"], along(-1.0, 0.0, 0.5))
+    kept, left = (
+        simulate(scene, points=64, tolerance=1e-6, snapshots=[0.0], keep_fields=keep) for keep in (True, False)
+    )
+    assert {"normal_gap", "heights", "x"} <= {*kept.variables}
+    assert not {"normal_gap", "heights", "x"} & {*left.variables}
+    assert left.normal_gap_share.dims == ("snapshot", "normal_gap_bin")
+    assert np.allclose(left.normal_gap_share.sum("normal_gap_bin"), 1.0)
+    assert left.mean_pressure[-1] == pytest.approx(float(left.line_load[-1]) / LENGTH)
