@@ -88,6 +88,13 @@ def test_one_member_is_no_ensemble():
     assert set(table.knob) == {"points"}
 
 
+def test_the_cost_at_an_error_is_that_of_the_cheapest_setting_where_larger_errors_cost_more():
+    table = rows([0.5, 0.1, 0.02], [9.0, 2.0, 4.0])
+    assert precision.cost_at(table, "error", 0.3, "work") == pytest.approx(2.0)
+    assert precision.cost_at(table, "error", 0.05, "work") == pytest.approx(2.0 * 2 ** (np.log(2) / np.log(5)))
+    assert np.isnan(precision.cost_at(table, "error", 0.6, "work"))
+
+
 def test_the_observed_order_and_the_cost_at_an_error_are_those_planted():
     points = np.array([100, 200, 400, 800])
     table = rows(5.0 * points**-1.5, 7.0 * points, points=points)

@@ -97,13 +97,15 @@ def front(table: pd.DataFrame, quantity: str, cost: str) -> pd.DataFrame:
 
 
 def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
-    """Least cost at which the error is met, on straight lines between the points of a curve; NaN if it is not."""
+    """Least cost at which the error is met, on straight lines between the points of a curve; NaN outside its errors.
+
+    Where larger errors cost more, it is that of the cheapest setting.
+    """
     curve = table.sort_values(cost)
-    lowest = np.minimum.accumulate(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
-    errors, costs = np.log(lowest), np.log(curve[cost])
-    if not (errors.min() <= np.log(error) <= errors.max()):
+    found = np.log(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
+    if not (found.min() <= np.log(error) <= found.max()):
         return float("nan")
-    return float(np.exp(np.interp(-np.log(error), -errors, costs)))
+    return float(np.exp(np.interp(-np.log(error), -np.minimum.accumulate(found), np.log(curve[cost]))))
 
 
 def compared(
