@@ -137,7 +137,8 @@ def ticks(axis: Axis, low: float, high: float) -> None:
     """Ticks and labels inside the range only: decades, of small ranges their halves and fifths too."""
     decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     steps = np.outer(decades, np.arange(1, 10))
-    kept = (1, 2, 5) if high / low < 20 else (1,)
+    few = high / low < 20 or ((low <= decades) & (decades <= high)).sum() < 2
+    kept = (1, 2, 5) if few else (1,)
     thin = -(-len(decades) // 7)
     major, minor = np.outer(decades[::thin], kept).ravel(), steps.ravel()
     axis.set_major_locator(FixedLocator([at for at in major if low <= at <= high]))
