@@ -24,13 +24,31 @@ SYMBOLS = {
     "kappa_r": r"$\kappa_r$",
     "kappa_r_bond": r"$\kappa_r$ of pairs",
     "relative_contact_area": r"$a_{\mathrm{rel}}$",
+    "rms_gradient_contact": "gradient in contact",
+    "rms_gradient_contact_bond": "gradient of pairs",
+    "reduced_pressure_contact": r"$p_r^*$",
+    "mean_gap": "mean gap",
+    "pull_off_load_loading": "pull-off on loading",
+    "pull_off_load_unloading": "pull-off on unloading",
+    "pull_off_approach_loading": "approach of pull-off on loading",
+    "pull_off_approach_unloading": "approach of pull-off on unloading",
+    "largest_jump_loading": "jump on loading",
+    "largest_jump_unloading": "jump on unloading",
+    "final_repulsive_length": "contact length",
+    "final_load": "final load",
+    "final_repulsive_load": "final push",
+    "final_adhesive_load": "final pull",
+    "final_pressure": "final pressure",
+    "final_pull": "final traction",
+    "final_slip": "final slip",
 }
-"""Symbols of quantities."""
+"""Symbols of quantities, or a few words."""
 PLACES = {"hurst": "$H$", "reduced_pressure": "$p^*$", "mean_pressure": "$p$ (GPa)", "contact_ratio": "$c/R$"}
 """Symbols of dimensions."""
 SOLVERS = {
     "active_set": "active set",
     "conjugate_gradients": "conjugate gradients",
+    "damped_verlet": "damped Verlet",
     "energy_minimisation": "energy minimisation",
     "mass_weighted_verlet": "mass-weighted Verlet",
     "newton": "Newton–Krylov",
