@@ -8,11 +8,12 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from contactsim import dataset, precision
 from contactsim.adhesion import SUMMARY
 from contactsim.aggregate import AVERAGED
-from contactsim.figures import accuracy, style
+from contactsim.figures import accuracy, knobs, style
 from contactsim.figures.render import framed
 from prices import LOADS, PATH_REFERENCE, REFERENCE, job, path_job, path_study, study
 
@@ -321,6 +322,16 @@ def test_names_of_rings_close_to_each_other_are_lines_of_one():
     assert len(rings(axes[0, 0])) == 2
     assert [text.get_text() for text in axes[0, 0].texts] == ["quick\nfull"]
     assert [text.get_text() for text in drawn(PATH_JOBS, 1, PATH_PLAN)[0][0, 0].texts] == ["full", "quick"]
+
+
+def test_names_of_rings_are_as_wide_as_their_lines():
+    panel = Figure().subplots()
+    panel.set(xscale="log", xlim=(1, 10))
+    wide = 10**knobs.NEAR
+    found = [(1.0, 1.0, "a"), (wide**0.9, 1.0, "b"), (wide**2.8, 1.0, "c"), (wide**5.9, 1.0, "d")]
+    knobs._rings(panel, found[::-1])
+    assert [text.get_text() for text in panel.texts] == ["a\nb\nc", "d"]  # of two lines, of three
+    assert len(rings(panel)) == 4
 
 
 def test_entries_are_put_on_as_many_lines_as_they_need():

@@ -24,8 +24,8 @@ LOOKS = {
     "damped_verlet": ("^", "#8c6d31"),
 }
 MARGIN, FOOT, NEAR = 0.1, 0.33, 0.05
-"""Parts of a panel: the margin of errors that have no logarithm, the foot with the names of the marks, and how close to
-each other these are written as one."""
+"""Parts of a panel: the margin of errors that have no logarithm, the foot with the names of the marks, and the
+width of a line of these."""
 
 
 def named(marks: Mapping[str, Mapping[str, float]], knob: str) -> dict[float, str]:
@@ -100,11 +100,11 @@ def _rings(axes: Axes, rings: list[tuple[float, float, str]]) -> None:
     for x, y, _ in rings:
         axes.plot([x], [y], "o", markersize=9, markerfacecolor="none", color=style.EXACT)
         axes.plot([x, x], [axes.get_ylim()[0], y], color=style.EXACT, lw=0.5, ls=(0, (2, 3)), zorder=0.6)
-    reach, last, lines = NEAR * float(np.diff(np.log(axes.get_xlim()))[0]), 0.0, {}
+    line, names = NEAR * float(np.diff(np.log(axes.get_xlim()))[0]), []
     for x, _, name in sorted(rings):
-        before = lines.pop(last) if lines and np.log(x / last) < reach else []
-        lines[x] = [*before, name.replace(", ", ",\n", 1) if len(name) > 16 else name]
-        last = x
+        own = name.replace(", ", ",\n", 1).split("\n") if len(name) > 16 else [name]
+        close = bool(names) and np.log(x / names[-1][0]) < line * len(names[-1][1])
+        names.append((x, [*names.pop()[1], *own] if close else own))
     look = {"rotation": 90, "fontsize": 6.5, "va": "bottom", "textcoords": "offset points"}
-    for x, names in lines.items():
-        axes.annotate("\n".join(names), (x, 0), (1.5, 4), axes.get_xaxis_transform(), **look)
+    for x, lines in names:
+        axes.annotate("\n".join(lines), (x, 0), (1.5, 4), axes.get_xaxis_transform(), **look)
