@@ -37,5 +37,38 @@ def study(members: int = 3, points: int = 64) -> xr.Dataset:
     return xr.Dataset(variables, {"member": range(members), "reduced_pressure": LOADS})
 
 
+def path_job(settings: Sequence[tuple], values: Sequence, transforms: Sequence | float = 1.0) -> xr.Dataset:
+    """A job's dataset on a path of one member: settings as (knob, points, tolerance, increment), one value each."""
+    dims, shape = ("setting", "member"), (len(settings), 1)
+    spent = np.broadcast_to(np.reshape(transforms, (-1, 1)), shape).astype(float)
+    variables = {
+        "pull_off_load_loading": (dims, np.reshape(values, shape).astype(float)),
+        "transforms": (dims, spent),
+        "status": (dims, np.zeros(shape, np.int8)),
+    }
+    for name, column in zip(("knob", "points", "tolerance", "increment"), zip(*settings, strict=True), strict=True):
+        variables[name] = ("setting", list(column))
+    return xr.Dataset(variables, {"member": [0]})
+
+
+def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
+    """A study's dataset of paths of three steps, 10 transforms each; the largest pull of each member, N/m."""
+    shape = (len(pulls), 3)
+    load = np.zeros(shape)
+    load[:, 1] = -np.asarray(pulls)
+    dims = ("member", "step")
+    states = {"line_load": load, "approach": np.broadcast_to([-1.0, 0.0, 1.0], shape)}
+    states |= {name: np.ones(shape) for name in ("repulsive_length", "repulsive_load", "adhesive_load")}
+    states |= {name: np.ones(shape) for name in ("largest_pressure", "largest_pull", "jump")}
+    states |= {"transforms": np.full(shape, 10.0), "status": np.zeros(shape, np.int8)}
+    variables = {name: (dims, value) for name, value in states.items()} | {"points": points}
+    return xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)})
+
+
 REFERENCE = job([("points", 1024, 1e-6), ("tolerance", 32, 1e-6)], [2.0, 4.0])
 """The two references differ, so that errors against the wrong one are found out."""
+PATH_SETTINGS = {"load": None, "quantities": ["pull_off_load_loading"]}
+PATH_REFERENCE = path_job(
+    [("points", 1024, 1e-6, 0.5), ("tolerance", 32, 1e-6, 0.5), ("increment", 32, 1e-3, 0.02)], [200.0, 100.0, 50.0]
+)
+"""So do the three of a path."""

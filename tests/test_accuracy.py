@@ -8,11 +8,14 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from contactsim import dataset, precision
-from contactsim.figures import accuracy, style
+from contactsim.adhesion import SUMMARY
+from contactsim.aggregate import AVERAGED
+from contactsim.figures import accuracy, knobs, style
 from contactsim.figures.render import framed
-from prices import LOADS, REFERENCE, job, study
+from prices import LOADS, PATH_REFERENCE, REFERENCE, job, path_job, path_study, study
 
 MARKS = {
     "quick": {"points": 32, "tolerance": 0.1, "members": 2},
@@ -49,8 +52,35 @@ PLAN = {
     "tier": "quick",
     "default": "active_set",
     "selection": {},
+    "loads": {"reduced_pressure": LOADS},
+    "units": {},
     "surface": False,
-    "load": "reduced_pressure",
+}
+PATH_TURNED = [
+    *(("points", points, 1e-3, 0.5) for points in POINTS),
+    *(("tolerance", 32, tolerance, 0.5) for tolerance in TOLERANCES),
+    *(("increment", 32, 1e-3, increment) for increment in (1.0, 0.5, 0.1)),
+]
+PATH_JOBS = {
+    "reference": PATH_REFERENCE,
+    "newton": path_job(PATH_TURNED, [220, 210, 204, 120, 105, 101, 60, 55, 51], [9, 8, 7, 5, 6, 7, 4, 5, 9]),
+    "damped_verlet": path_job(PATH_TURNED[6:8], [61.0, 55.0], [900.0, 990.0]),
+}
+PATH_PLAN = PLAN | {
+    "settings": SETTINGS
+    | {
+        "size": [13.6, 6.6],
+        "load": None,
+        "quantities": ["pull_off_load_loading"],
+        "settled": {"increment": 0.5, "points": 32, "tolerance": 1e-3},  # in the order of JSON
+        "reference": {"increment": 0.02, "points": 1024, "tolerance": 1e-6},
+        "levels": {"increment": [0.12]},
+    },
+    "jobs": [*PATH_JOBS],
+    "marks": {"quick": {"points": 32}, "full": {"points": 64, "increment": 0.1}, "thesis": {"increment": 0.02}},
+    "default": "newton",
+    "loads": {},
+    "units": {"increment": "nm"},
 }
 
 
@@ -74,15 +104,17 @@ def render(folder, plan=PLAN, jobs=JOBS, members=3):
     return pd.read_csv(folder / "shown.csv"), pd.read_csv(folder / "equal.csv")
 
 
-def drawn(jobs=JOBS, members=3, marks=MARKS, default="active_set"):
+def drawn(jobs=JOBS, members=3, plan=PLAN):
     """The panels of a case, drawn in full, with seconds a thousandth of the work; the table."""
-    table = precision.table(SETTINGS, jobs, study(members), default)
+    settings = plan["settings"]
+    ensemble = study(members) if settings["load"] else path_study([200.0] * members)
+    table = precision.table(settings, jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
     columns = len(accuracy.turned(table)) + 1
-    figure, panels = framed(SETTINGS | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
+    figure, panels = framed(settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
     axes = np.reshape(panels, (2, columns))
-    equal = precision.compared(table, "kappa_r", SETTINGS["levels"], accuracy.COSTS)
-    accuracy.draw(table, equal, jobs[default], axes, "kappa_r", marks)
+    equal = precision.compared(table, settings["quantities"][0], settings["levels"], accuracy.COSTS)
+    accuracy.draw(table, equal, jobs[plan["default"]], axes, plan)
     FigureCanvasAgg(figure).draw()
     return axes, table
 
@@ -160,7 +192,7 @@ def test_the_values_of_the_tiers_and_of_the_thesis_are_ringed_on_every_curve():
     assert np.allclose(rings(axes[0, 1]), tolerance.loc[[0.1], ["kappa_r", "work"]])
     assert len(rings(axes[0, 2])) == 2
     names = [[text.get_text() for text in panel.texts] for panel in axes[1, :3]]
-    assert names == [["quick", "thesis"], ["0", "all tiers"], ["quick", "full, thesis"]]
+    assert names == [["thesis", "quick"], ["0", "all tiers"], ["full, thesis", "quick"]]  # the smallest error first
 
 
 def test_a_setting_that_did_not_converge_is_a_cross_and_has_no_ring():
@@ -236,7 +268,7 @@ def test_the_table_of_costs_fits_its_cells_and_lies_under_nothing():
 def test_on_a_surface_its_own_solver_is_the_measure_and_points_are_those_of_a_side():
     jobs = {name: data.assign(points_y=data.points) for name, data in JOBS.items()}
     jobs["conjugate_gradients"] = jobs.pop("active_set")
-    axes, table = drawn(jobs, default="conjugate_gradients")
+    axes, table = drawn(jobs, plan=PLAN | {"default": "conjugate_gradients", "surface": True})
     assert axes[0, 0].get_title() == "grid points a side"
     assert axes[0, -1].get_xlabel() == "grid points a side"
     assert "over that of conjugate gradients" in axes[1, -1].texts[0].get_text()
@@ -244,6 +276,84 @@ def test_on_a_surface_its_own_solver_is_the_measure_and_points_are_those_of_a_si
     text = accuracy.footer_text(table, PLAN | {"surface": True})
     assert "reference 1024 × 1024 points at tolerance 1e-06" in text
     assert "curve of conjugate gradients" in text
+
+
+def test_a_path_has_a_column_for_its_increment_and_shows_its_first_quantity_against_the_grid():
+    axes, table = drawn(PATH_JOBS, 1, PATH_PLAN)
+    assert [panel.get_title() for panel in axes[0]] == ["grid points", "tolerance", "increment (nm)", ""]
+    assert axes[1, 2].get_xlabel() == "relative error of pull-off on loading"
+    own = table[(table.knob == "increment") & table.own]
+    assert own.pull_off_load_loading.to_numpy() == pytest.approx([0.2, 0.1, 0.02])
+    assert curve(axes[0, 2], "Newton–Krylov") == pytest.approx(own[["pull_off_load_loading", "work"]].to_numpy().T)
+    assert np.allclose(rings(axes[0, 2]), own[["pull_off_load_loading", "work"]].iloc[-1:])
+    assert axes[0, 3].get_ylabel() == "pull-off on loading (N/m)"
+    assert axes[0, 3].lines[0].get_xydata().tolist() == [[16, 220], [32, 210], [64, 204]]
+    assert axes[0, 3].get_legend().get_texts() == []
+    assert "Observed order in grid points: pull-off on loading" in axes[1, 3].texts[0].get_text()
+
+
+def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers_have_no_increment():
+    text = accuracy.footer_text(drawn(PATH_JOBS, 1, PATH_PLAN)[1], PATH_PLAN)
+    for part in (
+        "points turned at tolerance 0.001 and increment 0.5 nm, reference 1024 points at tolerance 1e-06 · tolerance",
+        "tolerance turned at 32 points and increment 0.5 nm, reference tolerance 1e-06 · increment",
+        "increment turned at 32 points and tolerance 0.001, reference increment 0.02 nm",
+        "without a ring: thesis, with increment 0.02 nm",
+        "increments that adapt, so without a ring: quick",
+    ):
+        assert part in text
+    assert "adapt" not in accuracy.footer_text(drawn()[1], PLAN)
+
+
+def test_the_words_beside_a_path_s_table_fit_their_column():
+    axes, _ = drawn(PATH_JOBS, 1, PATH_PLAN)
+    renderer, (table,) = axes[0, 0].figure.canvas.get_renderer(), axes[1, -1].tables
+    edge, (words,) = axes[1, -1].get_window_extent(renderer), axes[1, -1].texts
+    assert words.get_window_extent(renderer).x1 <= edge.x1
+    assert words.get_window_extent(renderer).y0 > table.get_window_extent(renderer).y1
+    heads = [cell.get_text() for (row, _), cell in table.get_celld().items() if row == 0]
+    assert [head.get_text() for head in heads] == ["", "error", "damped\nVerlet"]
+
+
+def test_names_of_rings_close_to_each_other_are_lines_of_one():
+    jobs = PATH_JOBS | {"newton": PATH_JOBS["newton"].copy(deep=True)}
+    jobs["newton"]["pull_off_load_loading"][2, 0] = 210.2  # at 64 points nearly the error at 32
+    axes, _ = drawn(jobs, 1, PATH_PLAN)
+    assert len(rings(axes[0, 0])) == 2
+    assert [text.get_text() for text in axes[0, 0].texts] == ["quick\nfull"]
+    assert [text.get_text() for text in drawn(PATH_JOBS, 1, PATH_PLAN)[0][0, 0].texts] == ["full", "quick"]
+
+
+def test_names_of_rings_are_as_wide_as_their_lines():
+    panel = Figure().subplots()
+    panel.set(xscale="log", xlim=(1, 10))
+    wide = 10**knobs.NEAR
+    found = [(1.0, 1.0, "a"), (wide**0.9, 1.0, "b"), (wide**2.8, 1.0, "c"), (wide**5.9, 1.0, "d")]
+    knobs._rings(panel, found[::-1])
+    assert [text.get_text() for text in panel.texts] == ["a\nb\nc", "d"]  # of two lines, of three
+    assert len(rings(panel)) == 4
+
+
+def test_entries_are_put_on_as_many_lines_as_they_need():
+    long = [f"pull-off on unloading {count}.00" for count in range(4)]
+    lines = accuracy._filled("Observed order in grid points: ", long).split("\n")
+    assert [line.count("pull") for line in lines] == [1, 2, 1]
+    assert max(map(len, lines)) <= accuracy.LETTERS
+    symbols = [rf"$\kappa_{{{name}}}$ 1.00" for name in ("rough", "whole", "pairs", "other")]
+    assert "\n" not in accuracy._filled("Orders: ", symbols)
+
+
+def test_everything_that_can_be_priced_has_a_symbol():
+    assert {*AVERAGED, *SUMMARY} <= {*style.SYMBOLS}
+
+
+def test_proportionality_is_shown_by_the_definitions_that_were_measured():
+    pairs = {name: data.assign(kappa_r_bond=0.9 * data.kappa_r) for name, data in JOBS.items()}
+    for jobs, names in ((JOBS, ["Eq. 3.8"]), (pairs, ["Eq. 3.8", "pairs in contact"])):
+        panel = drawn(jobs)[0][0, -1]
+        assert [text.get_text() for text in panel.get_legend().get_texts()] == names
+        assert panel.lines[0].get_ydata().tolist() == pytest.approx([2.2, 2.1, 2.05])
+        assert panel.get_ylabel() == style.SYMBOLS["kappa_r"]
 
 
 def test_solvers_have_the_names_of_the_literature():

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -8,8 +10,12 @@ import yaml
 from conftest import ROOT
 from contactsim import cost, precision
 from contactsim import solvers as solver_registry
+from contactsim.build import scene_of
 from contactsim.errors import SceneError
+from contactsim.march import simulate
 from contactsim.plan import Plan
+from contactsim.solvers.base import Status
+from contactsim.study import Study
 
 CASE = {
     "title": "Case",
@@ -28,12 +34,51 @@ CASE = {
     "repeats": 2,
 }
 VARY = "quick.case.vary.surface.hurst"
+ASPERITY = {
+    "title": "Asperity",
+    "surface": {"kind": "cylinder", "radius": 25000.0, "length": 10000.0},
+    "body": {"kind": "layer", "youngs_modulus": 70.0, "poisson_ratio": 0.3, "thickness": 5000.0},
+    "effects": ["cohesive_zone"],
+    "cohesive_zone": {"work_of_separation": 2.0, "work_ratio": 0.5},
+    "path": {"approach": [-8.0, -4.0, -9.0], "increment": 0.1},  # into contact by a jump, and out of it
+    "increments": {"kind": "adaptive"},
+    "snapshots": [-5.0],
+    "points": 64,
+    "tolerance": 1.0e-3,
+}
+PATH_CASE = {name: CASE[name] for name in ("title", "caption", "size")} | {
+    "study": "asperity",
+    "quantities": ["pull_off_load_loading", "final_repulsive_length"],
+    "thesis_increment": 0.02,
+    "settled": {"points": 64, "tolerance": 1.0e-4, "increment": 0.5},
+    "reference": {"points": 256, "tolerance": 1.0e-7, "increment": 0.05},
+    "levels": {"increment": [0.01]},
+    "solvers": {
+        "newton": {"points": [64, 128], "tolerance": [1.0e-2], "increment": [1.0, 0.2]},
+        "mass_weighted_verlet": {"increment": [1.0]},
+    },
+}
+WALL_ON_A_PATH = ASPERITY | {
+    "effects": ["hard_wall"],
+    "body": {"kind": "half_space", "contact_modulus": 70.0},
+    "path": {"approach": [0.0, 1.0], "increment": 0.5},
+}
+for _key in ("cohesive_zone", "increments", "snapshots"):
+    del WALL_ON_A_PATH[_key]
 PLAN = Plan.read(ROOT / "config", "quick")
+OWN = {name: Study.read(name, own, "own.yaml", 1) for name, own in (("asperity", ASPERITY), ("wall", WALL_ON_A_PATH))}
+PLAN = replace(PLAN, studies=PLAN.studies | OWN)
 
 
-def case(tmp_path, **changes):
-    (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {"case": CASE | changes}}))
+def case(tmp_path, base=CASE, **changes):
+    (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {"case": base | changes}}))
     return cost.read_cases(tmp_path, PLAN)["case"]
+
+
+@pytest.fixture(scope="module")
+def followed(tmp_path_factory):
+    one = case(tmp_path_factory.mktemp("path"), PATH_CASE)
+    return one, {job: one.measure(job) for job in one.jobs()}
 
 
 @pytest.fixture(scope="module")
@@ -114,6 +159,77 @@ def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
     assert one.selection == {"hurst": [0.8]}
 
 
+def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_path):
+    one = case(tmp_path, PATH_CASE)
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned("newton")]
+    assert numbers == [
+        ("points", 64, 1e-4, 0.5),
+        ("points", 128, 1e-4, 0.5),
+        ("tolerance", 64, 1e-2, 0.5),
+        ("increment", 64, 1e-4, 1.0),
+        ("increment", 64, 1e-4, 0.2),
+    ]
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(cost.REFERENCE)]
+    assert numbers == [
+        ("points", 256, 1e-7, 0.5),
+        ("tolerance", 64, 1e-7, 0.5),
+        ("increment", 64, 1e-4, 0.05),
+    ]
+
+
+def test_a_path_is_solved_at_every_increment_asked_for_whatever_the_study_does(tmp_path):
+    one = case(tmp_path, PATH_CASE)
+    settings = one.job_settings("newton")["runs"][0]
+    assert settings["increments"] == {"kind": "requested"}
+    assert settings["snapshots"] is None
+    assert settings["load"] == {"name": "step", "control": "approach", "through": [-8.0, -4.0, -9.0], "increment": 0.5}
+    assert one.job_settings("newton")["settings"]["load"] is None
+
+
+def test_a_path_is_measured_whole(followed):
+    one, jobs = followed
+    data, seconds = jobs["newton"]
+    assert dict(data.sizes) == {"setting": 5, "member": 1}
+    assert len(seconds) == 5
+    last = one.turned("newton")[-1]
+    (run,) = one._study(last, "newton").runs()
+    alone = simulate(scene_of(run.settings), points=64, tolerance=1e-4, method="newton")
+    assert alone.step.size == 45  # 4 nm there and 5 nm back, in increments of 0.2
+    assert data.increment.values[-1] == 0.2
+    assert data.transforms.values[-1, 0] == alone.transforms.sum()
+    loading = alone.line_load.values[: int(np.argmax(alone.approach.values)) + 1]
+    assert data.pull_off_load_loading.values[-1, 0] == -loading.min()
+    assert (data.status == 0).all()
+
+
+def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_the_same_by_another_solver(followed):
+    one, jobs = followed
+    jobs = {job: data for job, (data, _) in jobs.items()}
+    study = jobs["newton"].isel(setting=0)  # one member: no ensemble
+    table = precision.table(one.settings, jobs, study, one.default).query("knob == 'increment'")
+    by_hand = jobs["newton"].pull_off_load_loading.values[3:, 0] / jobs["reference"].pull_off_load_loading.values[2, 0]
+    own = table[table.own]
+    assert own.increment.tolist() == [1.0, 0.2]
+    assert own.pull_off_load_loading.to_numpy() == pytest.approx(abs(by_hand - 1))
+    assert own.pull_off_load_loading.iloc[1] < own.pull_off_load_loading.iloc[0]
+    assert own.work.tolist() == (jobs["newton"].transforms.values[3:, 0] * 64).tolist()
+    slow = table[table.solver == "mass_weighted_verlet"]
+    assert slow.pull_off_load_loading.iloc[0] == pytest.approx(own.pull_off_load_loading.iloc[0], rel=0.02)
+
+
+@pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])
+def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, monkeypatch, place, share):
+    one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
+    data = cost.simulated(one._study(one.turned("newton")[0], "newton").runs()[0].settings)
+    if place is not None:
+        data["status"][place] = Status.BUDGET.value[0]
+        data["status"][place:][1:] = Status.BROKEN_OFF.value[0]
+    monkeypatch.setattr(cost, "simulated", lambda settings: data)
+    found, _ = one.measure("newton")
+    assert float(precision._unconverged(found)) == share
+    assert found.status.item() == (0 if place is None else Status.BUDGET.value[0])
+
+
 def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
     one, jobs = measured
     data, seconds = jobs["polonsky_keer"]
@@ -143,6 +259,9 @@ def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
     assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set", "tamaas"]
 
 
+NO_INCREMENTS = "loads are solved on their own, without increments"
+
+
 @pytest.mark.parametrize(
     ("changes", "key", "allowed"),
     [
@@ -168,6 +287,14 @@ def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
         ({"repeats": 0}, "quick.case.repeats", "1 or more"),
         ({"thesis_members": 0}, "quick.case.thesis_members", "1 or more"),
         ({"speed": 1}, "quick.case.speed", "no such key"),
+        ({"settled": CASE["settled"] | {"increment": 0.1}}, "quick.case.settled.increment", NO_INCREMENTS),
+        ({"reference": CASE["reference"] | {"increment": 0.1}}, "quick.case.reference.increment", NO_INCREMENTS),
+        ({"levels": {"increment": [0.1]}}, "quick.case.levels.increment", NO_INCREMENTS),
+        ({"solvers": {"verlet": {"increment": [1.0]}}}, "quick.case.solvers.verlet.increment", NO_INCREMENTS),
+        ({"thesis_increment": 0.02}, "quick.case.thesis_increment", NO_INCREMENTS),
+        ({"load": None}, "quick.case.load", "a list of the study's loads"),
+        ({"quantities": ["final_load"]}, "quick.case.quantities", "the study's own: relative_contact_area"),
+        ({"study": "wall"}, "quick.case.study", "a path of smooth laws"),
     ],
 )
 def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path, changes, key, allowed):
@@ -178,13 +305,71 @@ def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path,
     assert str(tmp_path / "accuracy.yaml") in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("changes", "key", "allowed"),
+    [
+        ({"load": [0.1]}, "quick.case.load", "a path, which is priced whole"),
+        ({"quantities": ["kappa_r"]}, "quick.case.quantities", "the study's own: pull_off_load_loading"),
+        ({"settled": {"points": 64, "tolerance": 1e-4}}, "quick.case.settled.increment", "missing"),
+        ({"settled": PATH_CASE["settled"] | {"increment": 0.0}}, "quick.case.settled.increment", "a positive number"),
+        ({"settled": PATH_CASE["settled"] | {"increment": "0.1"}}, "quick.case.settled.increment", "text to YAML"),
+        (
+            {"settled": PATH_CASE["settled"] | {"increment": 0.05}},
+            "quick.case.settled.increment",
+            "above the reference",
+        ),
+        ({"solvers": {"newton": {"increment": [0.01]}}}, "quick.case.solvers.newton.increment", "reference's, 0.05"),
+        ({"solvers": {"newton": {"increment": [-1.0]}}}, "quick.case.solvers.newton.increment", "list of increments"),
+        ({"solvers": {"newton": {"increment": 1.0}}}, "quick.case.solvers.newton.increment", "list of increments"),
+        ({"solvers": {"newton": {}}}, "quick.case.solvers.newton", "points, or tolerance, or increment"),
+        ({"levels": {"increment": [-0.1]}}, "quick.case.levels.increment", "relative errors"),
+        ({"thesis_increment": -0.02}, "quick.case.thesis_increment", "a positive number"),
+        (
+            {"solvers": PATH_CASE["solvers"] | {"energy_minimisation": {"points": [64]}}},
+            "quick.case.solvers",
+            "NON_CONSERVATIVE",
+        ),
+        ({"solvers": {"mass_weighted_verlet": {"points": [64]}}}, "quick.case.solvers", "newton, the study's own"),
+    ],
+)
+def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        case(tmp_path, PATH_CASE, **changes)
+    assert caught.value.key == key
+    assert allowed in caught.value.allowed
+    assert len(str(caught.value).splitlines()) == 1
+    assert str(tmp_path / "accuracy.yaml") in str(caught.value)
+
+
+def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
+    one = cost.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
+    found = cost.figure_settings(one, PLAN, ROOT / "config")
+    marks = found["marks"]
+    assert {name: own.get("increment") for name, own in marks.items()} == {
+        "quick": None,  # they adapt
+        "standard": 0.02,
+        "full": 0.01,
+        "thesis": 0.02,
+    }
+    assert marks["thesis"]["points"] == 2048
+    assert found["units"] == {"increment": "nm"}
+    assert found["loads"] == {}
+
+
+def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
+    pressed = ASPERITY | {"path": {"mean_pressure": [-0.01, 0.1], "increment": 0.01}, "snapshots": [0.1]}
+    study = Study.read("asperity", pressed, "own.yaml", 1)
+    one = case(tmp_path, PATH_CASE)
+    assert one.kind.units(study) == {"increment": "GPa"}
+
+
 def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
     for tier in ("quick", "standard", "full"):
         plan = Plan.read(ROOT / "config", tier)
         cases = cost.read_cases(ROOT / "config", plan)
-        assert list(cases) == ["cylinder", "rough_line", "layer", "sphere", "rough_surface"]
+        assert list(cases) == ["cylinder", "rough_line", "layer", "sphere", "rough_surface", "adhesive_asperity"]
         own = [case.default for case in cases.values()]
-        assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2
+        assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"]
         assert cases["layer"].selection == {"thickness": [640.0]}
         marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
         points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}

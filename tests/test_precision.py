@@ -8,7 +8,7 @@ import pytest
 
 from contactsim import precision
 from contactsim.solvers.base import Status
-from prices import REFERENCE, SETTINGS, job, study
+from prices import PATH_REFERENCE, PATH_SETTINGS, REFERENCE, SETTINGS, job, path_job, path_study, study
 
 GRIDS = [("points", 16, 1e-3), ("points", 32, 1e-3)]
 
@@ -86,6 +86,45 @@ def test_one_member_is_no_ensemble():
     jobs = {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}
     table = precision.table(SETTINGS, jobs, study(members=1), "active_set")
     assert set(table.knob) == {"points"}
+
+
+def path_table(data, study):
+    return precision.table(PATH_SETTINGS, {"reference": PATH_REFERENCE, "newton": data}, study, "newton")
+
+
+def test_the_table_of_a_path_has_its_increments_each_against_their_own_reference():
+    turned = [("points", 16, 1e-3, 0.5), ("tolerance", 32, 0.1, 0.5), ("increment", 32, 1e-3, 1.0)]
+    found = path_table(path_job(turned, [220.0, 105.0, 51.0], [10, 20, 30]), path_study([200.0]))
+    assert found.columns.tolist() == [
+        *("solver", "knob", "points", "tolerance", "increment", "members"),
+        *("pull_off_load_loading", "work", "unconverged", "own"),
+    ]
+    assert list(zip(found.knob, found.points, found.tolerance, found.increment, strict=True)) == turned
+    assert found.pull_off_load_loading.to_numpy() == pytest.approx([0.1, 0.05, 0.02])
+    assert found.work.tolist() == [10 * 16, 20 * 32, 30 * 32]
+    assert found.own.all()
+
+
+def test_loads_on_their_own_have_no_increments_in_their_table():
+    assert "increment" not in table_of(active_set=job(GRIDS, [2.1, 2.1]))
+
+
+def test_an_ensemble_of_paths_has_the_standard_error_of_what_they_amount_to():
+    study = path_study([200.0, 202.0, 204.0])
+    found = path_table(path_job([("points", 16, 1e-3, 0.5)], [220.0]), study).query("knob == 'members'")
+    assert found.members.tolist() == [2, 3]
+    assert found.pull_off_load_loading.to_numpy() == pytest.approx([2 / np.sqrt(2) / 202, 2 / np.sqrt(3) / 202])
+    assert found.work.tolist() == [2 * 30 * 64, 3 * 30 * 64]
+    study["status"][1, 2] = Status.BUDGET.value[0]
+    found = path_table(path_job([("points", 16, 1e-3, 0.5)], [220.0]), study).query("knob == 'members'")
+    assert found.unconverged.to_numpy() == pytest.approx([1 / 3, 1 / 3])  # of the paths, not of their steps
+
+
+def test_the_cost_at_an_error_is_that_of_the_cheapest_setting_where_larger_errors_cost_more():
+    table = rows([0.5, 0.1, 0.02], [9.0, 2.0, 4.0])
+    assert precision.cost_at(table, "error", 0.3, "work") == pytest.approx(2.0)
+    assert precision.cost_at(table, "error", 0.05, "work") == pytest.approx(2.0 * 2 ** (np.log(2) / np.log(5)))
+    assert np.isnan(precision.cost_at(table, "error", 0.6, "work"))
 
 
 def test_the_observed_order_and_the_cost_at_an_error_are_those_planted():

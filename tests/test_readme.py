@@ -12,9 +12,10 @@ import contactsim
 from conftest import ROOT
 from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.config import REQUIRED, keys_of
-from contactsim.cost import CASE_KEYS, SETTING_KEYS
+from contactsim.cost import CASE_KEYS
 from contactsim.laws import EFFECTS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
+from contactsim.priced import SETTING_KEYS
 from contactsim.schema import COMPANION_KEYS, KINDS, LOADS, MODULI, PATH_KEYS, STUDY_KEYS, TIGHT_KEYS
 from contactsim.stability import STABILITY_KEYS
 from contactsim.tabulate import LAW_KEYS

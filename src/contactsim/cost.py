@@ -1,9 +1,10 @@
 """What accuracy costs: the cases, the settings at which each is solved, and the jobs that solve them.
 
-A case is a scene of a study, of all or some of its varied values. Its points and its tolerance are turned one at a
-time, with each solver that may take it; the study's own is the measure of the others, and solves the references.
-The reference of the points is a finer grid, that of the tolerance the same grid solved far more tightly; neither is on
-a curve. Seconds are kept apart from what is reproducible. `contactsim.precision` makes errors and costs of it.
+A case is a scene of a study, of all or some of its varied values. Its knobs, those of `contactsim.priced`, are turned
+one at a time, with each solver that may take it; the study's own is the measure of the others, and solves the
+references. The reference of the points is a finer grid, that of the tolerance the same grid solved far more tightly,
+that of the increment the same path in far smaller ones; none is on a curve. Seconds are kept apart from what is
+reproducible. `contactsim.precision` makes errors and costs of it.
 """
 
 from __future__ import annotations
@@ -11,16 +12,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.adhesion import SUMMARY
 from contactsim.aggregate import AVERAGED, combined
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
+from contactsim.priced import Setting, SingleLoads, WholePath, kind_of, read_turned, solutions
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, installed, module_of, solver, solver_class
 from contactsim.solvers.base import require
@@ -28,52 +30,40 @@ from contactsim.study import Study
 from contactsim.takes import quantities
 from contactsim.traits import Trait
 
-SETTING_KEYS = {
-    "points": Key(whole(2), "a whole number of grid points"),
-    "tolerance": Key(positive, "a positive number of grid steps"),
-}
-KNOB_KEYS = {
-    "points": Key(listed(whole(2)), "a list of grid points", []),
-    "tolerance": Key(listed(positive), "a list of tolerances in grid steps", []),
-}
 CASE_KEYS = {
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
     "size": Key(size, "width and height in inches"),
     "study": Key(text, "the name of a study"),
     "vary": Key(mapping, "a mapping from keys that the study varies to lists of some of their values", {}),
-    "load": Key(listed(number), "a list of the study's loads"),
+    "load": Key(listed(number), "a list of the study's loads", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
-    "quantities": Key(listed(choice(AVERAGED)), f"a list from {', '.join(AVERAGED)}"),
-    "settled": Key(mapping, "`points` and `tolerance` at which the other knob is turned"),
-    "reference": Key(mapping, "`points` and `tolerance` of the references"),
+    "quantities": Key(listed(choice((*AVERAGED, *SUMMARY))), f"a list from {', '.join((*AVERAGED, *SUMMARY))}"),
+    "settled": Key(mapping, "a value of each knob, at which the others are turned"),
+    "reference": Key(mapping, "the value of each knob in the references"),
     "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
     "levels": Key(mapping, "from a knob to the errors at which solvers are compared"),
     "repeats": Key(whole(1), "how often each setting is timed, 1 or more", 1),
     "thesis_members": Key(whole(1), "the thesis's own number of members, 1 or more", None),
+    "thesis_increment": Key(positive, "the thesis's own increment, a positive number", None),
 }
-LEVEL_KEYS = {knob: Key(listed(positive), "a list of relative errors", []) for knob in KNOB_KEYS}
 REFERENCE = "reference"
 LONG = 5.0
 """Seconds above which a setting is not timed again."""
 
 
 @dataclass(frozen=True)
-class Setting:
-    """One place of one knob: which knob is turned, grid points, tolerance in grid steps."""
-
-    knob: str
-    points: int
-    tolerance: float
-
-
-@dataclass(frozen=True)
 class Case:
-    """A scene to price: its name, settings as read, and the study that it belongs to, of the values to price alone."""
+    """A scene to price: its name, settings as read, the study that it belongs to, of the values to price alone."""
 
     name: str
     settings: dict
     study: Study
+
+    @property
+    def kind(self) -> SingleLoads | WholePath:
+        """What is priced of the study."""
+        return kind_of(self.study)
 
     @property
     def default(self) -> str:
@@ -93,12 +83,10 @@ class Case:
         """The settings that a job measures."""
         settled, reference = self.settings["settled"], self.settings["reference"]
         if job == REFERENCE:
-            finest = Setting("points", reference["points"], reference["tolerance"])
-            return [finest, Setting("tolerance", settled["points"], reference["tolerance"])]
+            tight = {"points": {"tolerance": reference["tolerance"]}}  # a finer grid has smaller steps
+            return [Setting(knob, **settled | tight.get(knob, {}) | {knob: reference[knob]}) for knob in settled]
         knobs = self.settings["solvers"][job]
-        return [Setting("points", points, settled["tolerance"]) for points in knobs["points"]] + [
-            Setting("tolerance", settled["points"], tolerance) for tolerance in knobs["tolerance"]
-        ]
+        return [Setting(knob, **settled | {knob: value}) for knob in settled for value in knobs[knob]]
 
     def solved_by(self, job: str) -> str:
         """The solver of a job."""
@@ -107,19 +95,22 @@ class Case:
     def job_settings(self, job: str) -> dict:
         """Everything that a job's result depends on but the code."""
         kept = ("load", "members", "quantities", "settled", "reference", "repeats")
-        own = {name: self.settings[name] for name in kept} | {"turned": [vars(one) for one in self.turned(job)]}
+        turned = [{"knob": one.knob} | one.numbers for one in self.turned(job)]
+        own = {name: self.settings[name] for name in kept} | {"turned": turned}
         runs = [run.settings for run in self._study(self.turned(job)[0], job).runs()]
         return {"case": self.name, "job": job, "settings": own, "runs": runs}
 
     def _study(self, setting: Setting, job: str) -> Study:
-        load = {"name": self.study.settings["load"]["name"], "values": sorted(self.settings["load"])}
-        kind = self.solved_by(job)
-        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": kind}, "load": load}
+        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solved_by(job)}}
+        changed |= self.kind.changed(self.study, self.settings["load"], setting)
         apart = {"members": self.settings["members"], "companion": None, "tight": None, "fit_limits": None}
         return replace(self.study, settings=self.study.settings | changed | apart)
 
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:
-        """Quantities and transforms of every setting of a job, dims (setting, varied keys, member, load); seconds."""
+        """Quantities and transforms of every setting of a job, and seconds.
+
+        Dims (setting, varied keys, member, load), of paths without the last.
+        """
         found, seconds = [], []
         for setting in self.turned(job):
             runs, times = self._study(setting, job).runs(), []
@@ -132,8 +123,9 @@ class Case:
                     for data, run in parts
                 ]
             )
-            kept = data[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(data))]]
-            found.append(kept.assign(points=setting.points, tolerance=setting.tolerance, knob=setting.knob))
+            solved = solutions(data)
+            kept = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
+            found.append(kept.assign(setting.numbers | {"knob": setting.knob}))
             seconds.append(min(times))
         return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
 
@@ -162,33 +154,39 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     settings = read(section, CASE_KEYS, file, prefix)
     if settings["study"] not in plan.studies:
         raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
-    for part in ("settled", "reference"):
-        settings[part] = read(settings[part], SETTING_KEYS, file, f"{prefix}.{part}")
-    settings["levels"] = read(settings["levels"], LEVEL_KEYS, file, f"{prefix}.levels")
-    for kind, knobs in settings["solvers"].items():
-        if kind not in SOLVERS:
-            raise SceneError(f"{prefix}.solvers", kind, f"one of {', '.join(sorted(SOLVERS))}", file)
-        settings["solvers"][kind] = read(knobs, KNOB_KEYS, file, f"{prefix}.solvers.{kind}")
-        if not any(settings["solvers"][kind].values()):
-            raise SceneError(f"{prefix}.solvers.{kind}", knobs, "points, or tolerance, or both", file)
-        _below_reference(settings["solvers"][kind], settings["reference"], file, f"{prefix}.solvers.{kind}")
-    settled = {key: [value] for key, value in settings["settled"].items()}
-    _below_reference(settled, settings["reference"], file, f"{prefix}.settled")
     study = plan.studies[settings["study"]]
-    for key, known in (("load", study.settings["load"]["values"]), ("quantities", quantities(study))):
-        for value in set(settings[key]) - set(known):
-            raise SceneError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
+    kind = kind_of(study)
+    if kind is None:
+        raise SceneError(f"{prefix}.study", study.name, "a study of loads, or of a path of smooth laws", file)
+    for key in {*settings["solvers"]} - {*SOLVERS}:
+        raise SceneError(f"{prefix}.solvers", key, f"one of {', '.join(sorted(SOLVERS))}", file)
+    settings |= read_turned(settings, kind, file, prefix)
+    _check_known(settings, study, kind, file, prefix)
     case = Case(name, settings, _narrowed(study, settings["vary"], file, f"{prefix}.vary"))
     if case.default not in settings["solvers"]:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
         raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
     scene = scene_of(case.study.runs()[0].settings)
-    for kind in settings["solvers"]:
+    for solver_kind in settings["solvers"]:
         try:
-            require(solver_class(kind)(), scene)
+            require(solver_class(solver_kind)(), scene)
         except SceneError as error:
-            raise SceneError(f"{prefix}.solvers", kind, error.allowed, file) from error
+            raise SceneError(f"{prefix}.solvers", solver_kind, error.allowed, file) from error
     return case
+
+
+def _check_known(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
+    """Loads and quantities are the study's own, and there is nothing that its kind has no use for."""
+    for key, why in kind.without.items():
+        if settings.get(key) is not None:
+            raise SceneError(f"{prefix}.{key}", settings[key], why, file)
+    if settings["load"] is None and "load" not in kind.without:
+        raise SceneError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
+    own = [name for name in kind.quantities if name in quantities(study)]
+    for key, known in (("load", study.settings["load"]["values"]), ("quantities", own)):
+        for value in settings[key] or ():
+            if value not in known:
+                raise SceneError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
 
 
 def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
@@ -203,24 +201,17 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
     return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
-def _below_reference(turned: dict, reference: dict, file: Path, prefix: str) -> None:
-    """Every setting is coarser than the reference that it is measured against."""
-    finest, tightest = max(turned["points"], default=0), min(turned["tolerance"], default=np.inf)
-    if finest >= reference["points"]:
-        raise SceneError(f"{prefix}.points", finest, f"fewer than the reference's, {reference['points']}", file)
-    if tightest <= reference["tolerance"]:
-        raise SceneError(f"{prefix}.tolerance", tightest, f"above the reference's, {reference['tolerance']:g}", file)
-
-
 def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
     """What the figure of a case depends on: settings, jobs and their digests, the study's, and where its marks are.
 
-    The marks are each tier's points, tolerance and members, and those of the thesis as far as they are known.
+    The marks are each tier's value of each knob, and the thesis's as far as it is known.
     """
     tiers = load_yaml(Path(folder) / "tiers.yaml")
     studies = {tier: Plan.read(folder, tier).studies[case.study.name].settings for tier in tiers}
-    marks = {tier: {knob: own[knob] for knob in ("points", "tolerance", "members")} for tier, own in studies.items()}
-    thesis = {"points": case.study.settings["thesis_points"], "members": case.settings["thesis_members"]}
+    shared = ("points", "tolerance", "members")
+    marks = {tier: {knob: own[knob] for knob in shared} | case.kind.turns(own) for tier, own in studies.items()}
+    thesis = {knob: case.settings[f"thesis_{knob}"] for knob in ("members", "increment")}
+    thesis |= {"points": case.study.settings["thesis_points"]}
     return {
         "settings": case.settings,
         "jobs": case.jobs(),
@@ -229,8 +220,9 @@ def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
         "tier": plan.tier,
         "default": case.default,
         "selection": case.selection,
+        "loads": case.kind.loads(case.study, case.settings["load"]),
+        "units": case.kind.units(case.study),
         "surface": Trait.SURFACE in scene_of(case.study.runs()[0].settings).traits,
-        "load": case.study.settings["load"]["name"],
         "source": source_digest("contactsim.figures.accuracy"),
         "study": digest(plan.study_settings(case.study.name)),
     }

@@ -1,8 +1,9 @@
 """The error of every setting against what it took, and solvers compared at equal error.
 
 The error of points is measured against a finer grid, that of the tolerance against the same grid solved far more
-tightly; the error of the ensemble is its standard error. Cost is transforms, in equivalents of one on the grid at hand,
-times its size, so that grids compare.
+tightly, that of a path's increment against far smaller ones; the error of the ensemble is its standard error. Cost is
+transforms, in equivalents of one on the grid at hand, times its size, so that grids compare; of a path those of all its
+steps.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import xarray as xr
 
 from contactsim.aggregate import load_name
 from contactsim.cost import REFERENCE
+from contactsim.priced import KNOBS, solutions
 from contactsim.solvers.base import Status
 
 ROUNDING = 1e-10
@@ -22,7 +24,7 @@ ROUNDING = 1e-10
 
 
 def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, default: str) -> pd.DataFrame:
-    """One row a setting: solver, knob, points, tolerance, members, error of each quantity, work, share unconverged.
+    """One row a setting: solver, knob, the value of each, members, error of each quantity, work, share unconverged.
 
     jobs: datasets by solver, with the reference's; study: the study's dataset, as far as it is priced, for the size of
     the ensemble; default: its own solver. Errors are relative, root mean square over variants, members and
@@ -30,15 +32,16 @@ def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, d
     """
     rows = []
     references = {str(one.knob.item()): one for one in _each(jobs[REFERENCE])}
+    knobs = [knob for knob in KNOBS if knob in jobs[REFERENCE]]
     for kind, data in jobs.items():
         for one in _each(data) if kind != REFERENCE else ():
             reference = references[one.knob.item()]
-            rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", "points", "tolerance")})
+            rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", *knobs)})
             for name in case_settings["quantities"]:
                 rows[-1][name] = _root_mean_square(one[name] / reference[name] - 1)
             rows[-1]["work"] = float(one.transforms.sum() * _size(one))
             rows[-1]["unconverged"] = _unconverged(one)
-    columns = ["solver", "knob", "points", "tolerance", "members", *case_settings["quantities"], "work", "unconverged"]
+    columns = ["solver", "knob", *knobs, "members", *case_settings["quantities"], "work", "unconverged"]
     table = pd.DataFrame(rows + list(_ensembles(case_settings, study, default)), columns=columns)
     return table.assign(own=table.solver == default)
 
@@ -54,15 +57,22 @@ def _size(data: xr.Dataset) -> float:
 
 def _ensembles(case_settings: dict, study: xr.Dataset, default: str) -> Iterable[dict]:
     """The standard error of ensembles of two members up to all, from the study's own scatter."""
-    most = study.member.size
-    chosen = study.sel({load_name(study): case_settings["load"]}, method="nearest")
+    most, loads = study.member.size, case_settings["load"]
+    chosen = solutions(study.sel({load_name(study): loads}, method="nearest") if loads else study)
     for members in range(2, most + 1) if most > 1 else ():
         row = {"solver": default, "knob": "members", "points": int(study.points), "members": members}
         for name in case_settings["quantities"]:
-            share = chosen[f"{name}_standard_error"] / chosen[f"{name}_mean"] * np.sqrt(most / members)
-            row[name] = _root_mean_square(share)
+            row[name] = _root_mean_square(_standard_error(chosen, name) * np.sqrt(most / members))
         work = float(chosen.transforms.mean("member").sum() * members * _size(study))
         yield row | {"work": work, "unconverged": _unconverged(chosen)}
+
+
+def _standard_error(study: xr.Dataset, name: str) -> xr.DataArray:
+    """Of the mean over all members, as a part of it; a study of paths leaves it to be made of them."""
+    if f"{name}_mean" in study:
+        return study[f"{name}_standard_error"] / study[f"{name}_mean"]
+    values = study[name]
+    return values.std("member", ddof=1) / np.sqrt(values.count("member")) / values.mean("member")
 
 
 def _root_mean_square(errors: xr.DataArray) -> float:
@@ -97,13 +107,15 @@ def front(table: pd.DataFrame, quantity: str, cost: str) -> pd.DataFrame:
 
 
 def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
-    """Least cost at which the error is met, on straight lines between the points of a curve; NaN if it is not."""
+    """Least cost at which the error is met, on straight lines between the points of a curve; NaN outside its errors.
+
+    Where larger errors cost more, it is that of the cheapest setting.
+    """
     curve = table.sort_values(cost)
-    lowest = np.minimum.accumulate(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
-    errors, costs = np.log(lowest), np.log(curve[cost])
-    if not (errors.min() <= np.log(error) <= errors.max()):
+    found = np.log(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
+    if not (found.min() <= np.log(error) <= found.max()):
         return float("nan")
-    return float(np.exp(np.interp(-np.log(error), -errors, costs)))
+    return float(np.exp(np.interp(-np.log(error), -np.minimum.accumulate(found), np.log(curve[cost]))))
 
 
 def compared(

@@ -24,13 +24,31 @@ SYMBOLS = {
     "kappa_r": r"$\kappa_r$",
     "kappa_r_bond": r"$\kappa_r$ of pairs",
     "relative_contact_area": r"$a_{\mathrm{rel}}$",
+    "rms_gradient_contact": "gradient in contact",
+    "rms_gradient_contact_bond": "gradient of pairs",
+    "reduced_pressure_contact": r"$p_r^*$",
+    "mean_gap": "mean gap",
+    "pull_off_load_loading": "pull-off on loading",
+    "pull_off_load_unloading": "pull-off on unloading",
+    "pull_off_approach_loading": "approach of pull-off on loading",
+    "pull_off_approach_unloading": "approach of pull-off on unloading",
+    "largest_jump_loading": "jump on loading",
+    "largest_jump_unloading": "jump on unloading",
+    "final_repulsive_length": "contact length",
+    "final_load": "final load",
+    "final_repulsive_load": "final push",
+    "final_adhesive_load": "final pull",
+    "final_pressure": "final pressure",
+    "final_pull": "final traction",
+    "final_slip": "final slip",
 }
-"""Symbols of quantities."""
+"""Symbols of quantities, or a few words."""
 PLACES = {"hurst": "$H$", "reduced_pressure": "$p^*$", "mean_pressure": "$p$ (GPa)", "contact_ratio": "$c/R$"}
 """Symbols of dimensions."""
 SOLVERS = {
     "active_set": "active set",
     "conjugate_gradients": "conjugate gradients",
+    "damped_verlet": "damped Verlet",
     "energy_minimisation": "energy minimisation",
     "mass_weighted_verlet": "mass-weighted Verlet",
     "newton": "Newton–Krylov",
@@ -137,7 +155,8 @@ def ticks(axis: Axis, low: float, high: float) -> None:
     """Ticks and labels inside the range only: decades, of small ranges their halves and fifths too."""
     decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     steps = np.outer(decades, np.arange(1, 10))
-    kept = (1, 2, 5) if high / low < 20 else (1,)
+    few = high / low < 20 or ((low <= decades) & (decades <= high)).sum() < 2
+    kept = (1, 2, 5) if few else (1,)
     thin = -(-len(decades) // 7)
     major, minor = np.outer(decades[::thin], kept).ravel(), steps.ravel()
     axis.set_major_locator(FixedLocator([at for at in major if low <= at <= high]))
