@@ -113,7 +113,7 @@ def _of_states(data: xr.Dataset) -> xr.Dataset:
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     for part in ("repulsive", "interacting"):
         ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
-    return data.assign(ratios, normalised_pressure=data.mean_pressure / data.contact_modulus)
+    return data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus})
 
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
