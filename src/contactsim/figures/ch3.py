@@ -185,7 +185,7 @@ def fig_3_4_grid(
 
 
 def _grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[str, float]) -> pd.DataFrame:
-    """One panel a quantity, with the value of the thesis if any, and in words what one grid costs against finer ones."""
+    """One panel a quantity, with the value of the thesis if any, and in words what a grid costs against finer ones."""
     shown = resolution.table(data, finer)
     middle = f"{float(resolution.per_wavelength(data).points[-2:][0]):g} points"
     for panel, name, letter in zip(axes, resolution.QUANTITIES, "abc", strict=True):
