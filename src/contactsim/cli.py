@@ -137,7 +137,8 @@ def main(arguments: list[str] | None = None) -> None:
     running = commands.add_parser("run", help="simulate it")
     running.add_argument("scene", help="a scene file")
     running.add_argument("--output", metavar="FILE", help="dataset to write, default beside the scene file")
-    running.add_argument("--threads", type=int, default=1)
+    threads = "of the transforms, default 1; results are the same bit for bit at one number of threads"
+    running.add_argument("--threads", type=int, default=1, help=threads)
     running.set_defaults(call=run_scene)
     comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
     comparing.add_argument("first", help="a tier, such as quick")
