@@ -46,13 +46,26 @@ def test_a_scene_file_is_run_into_a_dataset_equal_to_that_from_python(scene_file
     assert one.relative_contact_area == data.relative_contact_area[1]
 
 
+def test_a_run_has_its_own_load_and_the_proportionality_factors(scene_file, capsys):
+    scene_file.write_text(SCENE.replace("mean_pressure: [0.01, 0.1]", "reduced_pressure: [0.02, 0.2]"))
+    cli.main(["run", str(scene_file)])
+    told = capsys.readouterr().out
+    assert "kappa" in told and "kappa_r" in told and "reduced_pressure" in told
+    stored = dataset.read(scene_file.with_suffix(".nc"))
+    assert stored.reduced_pressure.values.tolist() == [0.02, 0.2]
+    assert np.allclose(stored.kappa, stored.relative_contact_area / stored.reduced_pressure, rtol=1e-15)
+    gradient = stored.mean_pressure / (stored.contact_modulus * stored.reduced_pressure)
+    assert np.allclose(stored.kappa_r / stored.kappa, stored.rms_gradient_contact / gradient, rtol=1e-12)
+    assert stored.kappa_r.attrs["units"] == "1"
+
+
 def test_a_run_keeps_what_its_scene_file_says_and_its_fields_can_be_mapped(scene_file):
     scene_file.write_text(SCENE.replace("5.0}", "5.0, dimensions: 2}").replace("256", "32") + "keep: [fields]\n")
     cli.main(["run", str(scene_file)])
     stored = dataset.read(scene_file.with_suffix(".nc"))
     assert {"heights", "pressure", "gap"} <= set(stored)
     assert not {"contact_bits", "contact_pressure", "profile_real"} & set(stored)
-    image = maps.draw(stored.isel(step=-1)).axes[0].images[0]
+    image = maps.draw(stored.isel(mean_pressure=-1)).axes[0].images[0]
     assert image.get_array().mean() == stored.relative_contact_area[-1]
 
 

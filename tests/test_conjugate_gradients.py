@@ -181,6 +181,14 @@ def test_threads_cascade_shift_and_mirror_leave_the_contact_as_it_is(reduced):
 # ---- approach, layers, hard cases
 
 
+@pytest.mark.parametrize("layer", [None, Layer(1.0, 0.3, 8.0)], ids=["half-space", "layer"])
+def test_an_approach_within_the_tolerance_of_first_touch_takes_one_step(layer):
+    heights = np.random.default_rng(3).normal(size=(64, 64))
+    grazing = press(heights, approach=-heights.max() + 1e-4, body=layer, tolerance=1e-3)  # grid steps of about √2
+    assert (grazing.status, grazing.record.iterations) == (Status.CONVERGED, 1)
+    assert not grazing.contact.any() and 0 < grazing.record.certificate.penetration < 1e-3
+
+
 def test_an_approach_gives_the_load_that_gives_the_approach():
     heights = rough(128)
     for body in (HalfSpace(1.0), Layer(1.0, 0.3, 30.0)):

@@ -320,6 +320,8 @@ def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
     assert fixed.left_out["mean displacement"] == "zero: an incompressible layer keeps its volume"
     free = explain(scene(Layer(1.0, 0.5, 100.0), HalfSpace(1.0)), 256, "active_set")
     assert free.left_out["mean displacement"].startswith("free on a half-space")
+    yields = explain(scene(Layer(1.0, 0.3, 100.0), HalfSpace(1.0)), 256, "active_set")
+    assert "mean displacement" not in yields.left_out
 
 
 @pytest.mark.parametrize(("thickness", "drawn"), [(2.5, 2.5), (0.01, 0.8), (1e6, 3.2)])

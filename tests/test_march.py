@@ -10,8 +10,10 @@ import pytest
 import xarray as xr
 
 import contactsim
-from contactsim import costs, dataset, march
+import smooth
+from contactsim import costs, dataset, loading, march
 from contactsim.build import points_of, scene_of
+from contactsim.errors import SceneError
 from contactsim.solvers.base import Status
 from contactsim.study import Study
 
@@ -401,3 +403,31 @@ def test_the_time_left_is_that_of_steps_still_to_be_solved(place, caplog, monkey
     # Two of four are known: after the first of the other two, one of 100 s is left; after that, none.
     assert "100.00 s, 100 s left" in lines[1]
     assert "100.00 s, 0 s left" in lines[2]
+
+
+# --- options ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "refused"),
+    [
+        ({"tolerence": 1e-6}, "tolerence: got 1e-06; allowed: no such option, but points, tolerance, .* keep"),
+        ({"snapshots": [0.1]}, r"snapshots: got \[0.1\]; allowed: none with a hard wall"),
+        ({"keep": ["contacts"]}, "keep: got 'contacts'; allowed: some of contact, pressure, profile, fields"),
+    ],
+)
+def test_what_a_hard_wall_has_no_use_for_is_refused(options, refused):
+    with pytest.raises(SceneError, match=refused):
+        contactsim.simulate(scene_of(settings_of()), points=256, **options)
+
+
+@pytest.mark.parametrize(
+    ("options", "refused"),
+    [
+        ({"foo": 1}, "foo: got 1; allowed: no such option, but points, .* increments, snapshots"),
+        ({"keep": ["contact"]}, r"keep: got \['contact'\]; allowed: none with smooth laws"),
+    ],
+)
+def test_what_a_smooth_law_has_no_use_for_is_refused(options, refused):
+    with pytest.raises(SceneError, match=refused):
+        contactsim.simulate(smooth.scene_of(smooth.LAWS["uncoupled"], loading.approach([-9.0])), points=64, **options)

@@ -156,6 +156,19 @@ def test_the_settings_reference_explains_no_key_that_is_gone():
         assert name in known, name
 
 
+@pytest.mark.parametrize("section", ["solver", "surface", "body", "increments"])
+def test_every_kind_is_explained_once(section):
+    own = KEYS.split(f"### `{section}`", 1)[1].split("\n##")[0]
+    kinds = re.findall(r"^\| `(\w+)` \|", own, re.MULTILINE)
+    assert len(kinds) == len(set(kinds)) >= 2
+
+
+def test_every_module_is_shown_once():
+    tree = README[README.index("  errors.py") :].split("```")[0]
+    modules = re.findall(r"[\w/]+\.py", tree)
+    assert len(modules) == len(set(modules)) > 70
+
+
 def test_the_citation_file_is_valid_yaml_and_names_the_thesis():
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert citation["references"][0]["title"] == "Modelling adhesion and friction in contact problems"

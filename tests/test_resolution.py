@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
 from contactsim import aggregate, dataset
-from contactsim.figures import resolution
+from contactsim.errors import SceneError
+from contactsim.figures import ch3, resolution, style
+from contactsim.plan import Plan
+
+CONFIG = Path(__file__).parents[1] / "config"
 
 SURFACE = {"shortest_wavelength": 2.0, "length": 512.0}
 LEVELS = np.array([1.0, 1.2, 1.7])
@@ -86,3 +92,31 @@ def test_ratios_are_taken_at_equal_points_per_wavelength():
     axes = Figure().subplots()
     resolution.draw_limits(shown, axes)
     assert len(axes.containers) == 6
+
+
+def test_ratios_of_ensembles_on_unequal_grids_are_refused():
+    lines = made([512, 1024, 2048], scale=0.9, surface=SURFACE | {"length": 128.0})
+    with pytest.raises(SceneError, match=r"points: got \[4.0, 8.0, 16.0\]; allowed: .*\[8.0, 16.0, 32.0\]"):
+        resolution.ratios(lines, COARSER)
+
+
+@pytest.mark.parametrize("tier", ["quick", "standard", "full"])
+def test_lines_and_surfaces_are_refined_through_the_same_grids_at_every_tier(tier):
+    studies = Plan.read(CONFIG, tier).studies
+    counts = []
+    for name in ("line_resolution", "surface_resolution"):
+        settings = studies[name].settings
+        surface = settings["surface"]
+        counts.append(np.array(settings["vary"]["points"]) * surface["shortest_wavelength"] / surface["length"])
+    np.testing.assert_allclose(*counts, rtol=1e-12)
+
+
+def test_the_thesis_is_drawn_where_it_gives_a_value_and_all_values_are_named():
+    axes = list(Figure().subplots(1, 3))
+    ch3.fig_3_4_grid(COARSER, FINER, axes, kappa=2.2, kappa_r=1.88)
+    dashed = [
+        [line.get_ydata()[0] for line in panel.lines if line.get_color() == style.EXACT and len(line.get_ydata()) == 2]
+        for panel in axes
+    ]
+    assert dashed == [[2.2], [1.88], []]
+    assert "thesis, 2.20 and 1.88" in [text.get_text() for text in axes[-1].get_legend().get_texts()]

@@ -185,6 +185,28 @@ def test_a_bad_study_is_refused_with_file_key_value_and_what_is_allowed(changes,
     assert allowed in str(error)
 
 
+WALKED = {
+    "effects": ["normal_cohesive_zone"],
+    "normal_cohesive_zone": {"work_of_separation": 1.0},
+    "load": GONE,
+    "path": {"approach": [-5.0, -4.0], "increment": 0.5},
+}
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "effects"),
+    [
+        ({"snapshots": [0.1]}, "snapshots", "hard_wall"),
+        ({"increments": {"kind": "requested"}}, "increments", "hard_wall"),
+        (WALKED | {"keep": ["contact"]}, "keep", "normal_cohesive_zone"),
+    ],
+)
+def test_keys_that_the_effects_have_no_use_for_are_refused(changes, key, effects):
+    error = refusal(changes)
+    assert (error.key, error.value) == (f"studies.rough.{key}", changes[key])
+    assert error.allowed == f"no such key, as effects are {effects}"
+
+
 @pytest.mark.parametrize("section", [None, [], "a study"])
 def test_a_study_that_is_no_mapping_is_refused(section):
     with pytest.raises(SceneError, match=r"^ch9\.yaml: studies\.rough: got "):

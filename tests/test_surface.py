@@ -129,6 +129,8 @@ def test_smooth_surfaces_have_their_shape():
         (lambda: Cylinder(0.0, 1.0), "length"),
         (lambda: Sinusoid(1.0, 0.0), "amplitude"),
         (lambda: Sinusoid(1.0, 1.0, 0), "periods"),
+        (lambda: Sinusoid(1.0, 1.0, 2.5), "periods"),
+        (lambda: Sinusoid(1.0, 1.0, True), "periods"),
         (lambda: Sampled(Profile(np.arange(3.0), 1.0, None)).heights(4), "points"),
         (lambda: Measured("no_such_file.npy"), "path"),
     ],

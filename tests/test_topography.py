@@ -7,6 +7,7 @@ library that reads them, and through the library itself where it is installed.
 from __future__ import annotations
 
 import sys
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -294,6 +295,40 @@ def test_a_unit_that_is_unknown_or_contradicts_the_file_is_refused(tmp_path: Pat
 def test_a_grid_whose_header_has_units_for_columns_is_refused(tmp_path: Path, head: str) -> None:
     file = grid_file(tmp_path, HEIGHTS, head)
     assert refusal("line 1", file, lambda: read_topography(file, spacing=1)).value == head
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".txt", ".dat"])
+@pytest.mark.parametrize("head", [[], ["x,y,z"], ["# x,y,z"]])
+@pytest.mark.parametrize("order", [[0, 1, 2], [2, 0, 1]])
+def test_points_that_a_name_says_are_a_grid_are_refused(tmp_path: Path, suffix: str, head: list, order: list) -> None:
+    file = grid_file(tmp_path, points()[:, order], *head, name=f"t{suffix}")
+    error = refusal("heights", file, lambda: read_topography(file, spacing=1, unit="nm"))
+    assert ".xyz" in error.allowed
+
+
+def test_a_header_names_points_even_where_some_are_missing(tmp_path: Path) -> None:
+    file = grid_file(tmp_path, points()[:-1], "X;Y;Z", mark=";")
+    assert ".xyz" in refusal("heights", file, lambda: read_topography(file, spacing=1, unit="nm")).allowed
+
+
+def test_three_columns_of_heights_are_a_grid(tmp_path: Path) -> None:
+    for heights in (HEIGHTS[:, :3], np.zeros((4, 3)), np.random.default_rng(1).normal(size=(12, 3))):
+        file = grid_file(tmp_path, heights)
+        assert np.array_equal(read_topography(file, spacing=1, unit="nm").heights, heights)
+
+
+def test_a_file_of_points_is_read_in_the_memory_of_its_numbers(tmp_path: Path) -> None:
+    heights = np.random.default_rng(2).normal(size=(128, 128))
+    rows = points(heights, np.arange(128.0), np.arange(128.0))
+    file = tmp_path / "t.xyz"
+    np.savetxt(file, rows, header="x [nm] y [nm] z [nm]", comments="")
+    read_topography(file)  # imports and caches
+    tracemalloc.start()
+    found = read_topography(file)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert np.allclose(found.heights, heights, rtol=1e-15)
+    assert peak < 200 * heights.size  # line by line it was 340 bytes a point
 
 
 # --- missing points ---------------------------------------------------------------------------------------------

@@ -87,7 +87,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
     for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
-    return data if "step" in data.dims else _derived(data)
+    return data if "step" in data.dims else derived(data)
 
 
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
@@ -128,7 +128,8 @@ def _read(runs: list[dict]) -> xr.Dataset:
     return combined([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs])
 
 
-def _derived(data: xr.Dataset) -> xr.Dataset:
+def derived(data: xr.Dataset) -> xr.Dataset:
+    """Loads on their own at a hard wall, with κ, κ_r, the reduced pressure of the contact, and the size of a round one."""
     area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
 
     def kappa(gradient: xr.DataArray) -> xr.DataArray:

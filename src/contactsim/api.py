@@ -56,7 +56,7 @@ def press(
     try:
         given = np.asarray(heights)
         plane = given.ndim > 1
-        profile = Topography(given, np.broadcast_to(spacing, 2), None) if plane else Profile(given, spacing, None)
+        profile = Topography(given, spacing, None) if plane else Profile(given, spacing, None)
     except SceneError:
         raise
     except ValueError as error:

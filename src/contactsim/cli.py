@@ -12,13 +12,16 @@ import logging
 import sys
 from pathlib import Path
 
+import xarray as xr
+
 from contactsim import dataset
+from contactsim.aggregate import derived
 from contactsim.build import points_of, scene_of
 from contactsim.compare import compared, is_within, summary
 from contactsim.config import load_yaml, whole
 from contactsim.errors import SceneError
 from contactsim.explain import explain
-from contactsim.march import chosen, simulate
+from contactsim.march import chosen, labelled, simulate
 from contactsim.plan import Plan
 from contactsim.scene import Scene
 from contactsim.solvers import solver
@@ -68,7 +71,7 @@ def first_scene(study: Study) -> tuple[Scene, dict, int]:
 
 
 SHOWN = (
-    *("mean_pressure", "relative_contact_area", "mean_gap", "non_uniformity"),
+    *("mean_pressure", "relative_contact_area", "kappa", "kappa_r", "mean_gap", "non_uniformity"),
     *("approach", "line_load", "repulsive_length", "residual", "jump", "transforms", "status"),
 )
 """What is printed of a simulation, as far as its scene has it."""
@@ -104,9 +107,9 @@ def run_scene(options: argparse.Namespace) -> None:
         threads=options.threads,
         **chosen(settings),
     )
-    run = study.runs()[0]
-    stamped = dataset.stamped(data.drop_vars("seconds"), study.settings["title"], run.settings, run.source)
-    dataset.write(stamped, target)
+    data = _as_of_a_study(data, settings)
+    source = study.runs()[0].source
+    dataset.write(dataset.stamped(data, study.settings["title"], settings, source), target)
     columns = [name for name in SHOWN if name in data]
     names = {status.value[0]: status.name.lower() for status in Status}
     rows = data[columns].to_dataframe().assign(status=[names[int(status)] for status in data.status])
@@ -114,6 +117,12 @@ def run_scene(options: argparse.Namespace) -> None:
     failed = int((data.status != Status.CONVERGED.value[0]).sum())
     if failed:
         sys.exit(f"Error: {failed} of {len(rows)} load steps did not converge")
+
+
+def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
+    """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
+    data = labelled(data, settings, [""] * data.step.size).drop_vars("point")
+    return data if "step" in data.dims else dataset.described(derived(data))
 
 
 def compare_tiers(options: argparse.Namespace) -> None:
@@ -137,7 +146,8 @@ def main(arguments: list[str] | None = None) -> None:
     running = commands.add_parser("run", help="simulate it")
     running.add_argument("scene", help="a scene file")
     running.add_argument("--output", metavar="FILE", help="dataset to write, default beside the scene file")
-    running.add_argument("--threads", type=int, default=1)
+    threads = "of the transforms, default 1; results are the same bit for bit at one number of threads"
+    running.add_argument("--threads", type=int, default=1, help=threads)
     running.set_defaults(call=run_scene)
     comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
     comparing.add_argument("first", help="a tier, such as quick")

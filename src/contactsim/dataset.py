@@ -1,7 +1,7 @@
 """Result datasets: dimensions, units, attributes, provenance; the only reader and writer of netCDF.
 
-Everything written is reproducible bit for bit, so times and memory are kept elsewhere. A file appears under its name
-only when it is complete.
+Everything written is reproducible bit for bit at one number of threads, so times and memory are kept elsewhere. A file
+appears under its name only when it is complete.
 """
 
 from __future__ import annotations

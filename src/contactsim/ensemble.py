@@ -35,9 +35,13 @@ def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:
 def ratio_limits(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
     """The mean of a quantity over that in another, independent ensemble, on three grids and extrapolated.
 
-    `points` of both count the same points per wavelength. Returns `ratio` along `points` and, with both means
-    extrapolated, `limit` and its `spread`: less that of first order; each with its standard error.
+    `points` of both count the same points per wavelength: SceneError if not. Returns `ratio` along `points` and, with
+    both means extrapolated, `limit` and its `spread`: less that of first order; each with its standard error.
     """
+    grids, others = one.points.values, two.points.values
+    if grids.shape != others.shape or not np.allclose(grids, others, rtol=1e-9, atol=0):
+        raise SceneError("points", others.tolist(), f"per wavelength those of the other ensemble, {grids.tolist()}")
+    two = two.assign_coords(points=grids)
 
     def ratios(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
         """Of the means, on each grid."""

@@ -10,6 +10,8 @@ import math
 from numbers import Real
 from pathlib import PurePath
 
+import numpy as np
+
 
 class SceneError(ValueError):
     """Input that cannot be simulated.
@@ -41,5 +43,6 @@ def shown(value: object) -> str:
     shape = getattr(value, "shape", None)
     if shape:
         return f"array of shape {tuple(shape)}"
-    text = repr(value)
+    with np.printoptions(legacy="1.25"):  # numbers of numpy as plain ones, also within lists
+        text = repr(value)
     return text if len(text) <= 80 else text[:77] + "..."

@@ -124,10 +124,9 @@ def _left_out(scene: Scene) -> dict[str, str]:
             out[f"deformation of the {side} body"] = "rigid: absent, not stiff"
     if len(scene.elasticities) == 2:
         out["the second displacement field"] = "aligned bodies: their compliances add"
-    if Trait.HALF_SPACE in scene.traits:
-        out["mean displacement"] = "free on a half-space: zero by convention"
-    elif scene.compliance(np.zeros(1))[0] == 0:
-        out["mean displacement"] = "zero: an incompressible layer keeps its volume"
+    if scene.compliance(np.zeros(1))[0] == 0:
+        free, kept = "free on a half-space: zero by convention", "zero: an incompressible layer keeps its volume"
+        out["mean displacement"] = free if Trait.HALF_SPACE in scene.traits else kept
     unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(on, kind) for on in scene.effects)]
     return out | dict.fromkeys(unlisted, "not listed")
 

@@ -55,14 +55,15 @@ def simulate(
     tolerance: float = 1e-3,
     method: str | Solver | None = None,
     threads: int = 1,
-    keep: Sequence[str] = KEPT[:-1],
+    keep: Sequence[str] | None = None,
     known: Mapping[int, Point] | None = None,
     **path: object,
 ) -> xr.Dataset:
     """Follow a scene's load path; the workflow's runs are this function.
 
     points: of the grid along x, None for those of a measured surface; tolerance: in grid steps; method: a solver or
-    the name of one, None for the usual one; keep: of `KEPT`; known: points that need not be solved again, by step.
+    the name of one, None for the usual one; keep: of `KEPT`, None for all but the last; known: points that need not be
+    solved again, by step.
     Smooth laws are followed along the path (see `simulate_path` for what else that takes), and tolerance is in parts of
     their strength.
     Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
@@ -70,11 +71,12 @@ def simulate(
     """
     method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
     require(method, scene)
+    _refuse_unused(Trait.SMOOTH in scene.traits, {"keep": keep, "known": known or None} | path)
     points = points or scene.upper.surface.points
     if Trait.SMOOTH in scene.traits:
         with threadpool_limits(threads, "blas"):  # on small dense systems more threads would only wait for each other
             return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
-    known = known or {}
+    known, keep = known or {}, KEPT[:-1] if keep is None else keep
     heights = scene.heights(points)
     steps, found, spent = scene.path.steps, [], []
     for count, step in enumerate(steps):
@@ -92,6 +94,20 @@ def simulate(
             *(point.numbers["transforms"], point.seconds, left, sentence(point.numbers["status"])),
         )
     return _collected(scene, heights, found, keep)
+
+
+def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:
+    """SceneError for an option that is unknown or that such a scene has no use for, and for an unknown name to keep."""
+    kinds = ("keep", "known"), ("increments", "snapshots")
+    used = ", ".join(("points", "tolerance", "method", "threads", *kinds[smooth]))
+    for key, value in given.items():
+        if value is not None and key in kinds[not smooth]:
+            raise SceneError(key, value, f"none with {'smooth laws' if smooth else 'a hard wall'}, only {used}")
+        if key not in kinds[0] + kinds[1]:
+            raise SceneError(key, value, f"no such option, but {used}")
+    for name in given["keep"] or ():
+        if name not in KEPT:
+            raise SceneError("keep", name, f"some of {', '.join(KEPT)}")
 
 
 def run(settings: dict, source: str, target: str | Path, costs: str | Path, threads: int = 1) -> None:

@@ -35,7 +35,9 @@ FLATTEST = 1e-10
 
 
 SAMPLE = 2**18
-"""Points of a surface, in whole rows, that are enough to say what is typical."""
+"""Points of a surface that are enough to say what is typical; below twice as many, all are looked at."""
+SCATTER = 0x9E3779B97F4A7C15
+"""Golden part of 2^64: its multiples by the numbers 1, 3, 6, 10, … are spread without any period."""
 STEEPEST = 1e-9
 """Height differences below it, over the rms of all, count as none when the typical one is sought."""
 
@@ -139,18 +141,31 @@ def grid_step(heights: Array) -> float:
     scale = max(abs(float(heights.max())), abs(float(heights.min())))
     if not scale:
         return 0.0
-    row = np.arange(0, heights.shape[0], 1 if heights.ndim == 1 else max(heights.size // SAMPLE, 1))
-    here = heights[row] / scale
-    differences = np.empty((heights.ndim, *here.shape))
-    np.subtract(here, heights[row - 1] / scale, out=differences[-1])
-    if heights.ndim > 1:
-        np.subtract(here, np.roll(here, 1, -1), out=differences[0])
-    del here
+    differences = _differences(heights, scale)
     np.abs(differences, out=differences)
     rms = float(np.sqrt(np.vdot(differences, differences) / differences.size))
     felt = differences[differences > STEEPEST * rms]
     del differences
     return float(scale * min(rms, np.median(felt, overwrite_input=True) / 0.6745)) if felt.size else 0.0
+
+
+def _differences(heights: Array, scale: float) -> Array:
+    """Differences of heights over scale to the neighbour before, a row for each direction, x first.
+
+    Of many points, those of a scattered sample: whole rows, or points in any regular order, could all lie in the same
+    place of a periodic texture and miss its edges.
+    """
+    if heights.ndim == 1 or heights.size < 2 * SAMPLE:
+        here = heights / scale
+        differences = np.empty((heights.ndim, *here.shape))
+        for place, axis in zip(range(heights.ndim), (-1, 0), strict=False):
+            np.subtract(here, np.roll(here, 1, axis), out=differences[place])
+        return differences
+    count = np.arange(1, SAMPLE + 1, dtype=np.uint64)
+    place = (count * (count + 1) // 2 * SCATTER >> 32) * heights.size >> 32
+    y, x = np.divmod(place.astype(np.int64), heights.shape[1])
+    here = heights[y, x] / scale
+    return np.stack([here - heights[y, x - 1] / scale, here - heights[y - 1, x] / scale])
 
 
 @dataclass

@@ -83,10 +83,7 @@ class Study:
         if settings["points"] is not None and "points" in settings["vary"]:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": usual_solver(settings)} | settings["solver"]
-        for effect in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])):
-            if settings[effect]:
-                allowed = f"no such section, as effects are {', '.join(settings['effects'])}"
-                raise SceneError(f"{prefix}.{effect}", settings[effect], allowed, file)
+        _refuse_unused(section, settings, file, prefix)
         for part, keys, knob in (("companion", COMPANION_KEYS, "points"), ("tight", TIGHT_KEYS, "tolerance")):
             if settings[part] is None:
                 continue
@@ -228,3 +225,13 @@ class Study:
         except SceneError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error
+
+
+def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:
+    """SceneError for what a study's effects have no use for: the section of another, or how a path is walked."""
+    kinds = ("keep",), ("increments", "snapshots")
+    others = [name for name in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])) if settings[name]]
+    for key in [*others, *(key for key in kinds[not is_smooth(settings)] if section.get(key) is not None)]:
+        what = "section" if key in EFFECTS else "key"
+        allowed = f"no such {what}, as effects are {', '.join(settings['effects'])}"
+        raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)

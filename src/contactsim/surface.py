@@ -20,7 +20,7 @@ from typing import Protocol
 import numpy as np
 
 from contactsim import measured, topography
-from contactsim.errors import SceneError
+from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid
 
 AMPLITUDES = ("gaussian", "fixed")
@@ -30,7 +30,7 @@ class Surface(Protocol):
     """Periodic heights along a line or over a plane.
 
     lengths: period in each direction, x last, nm; points: along x, of what comes sampled, None where any number will
-    do; modes: the highest Fourier mode in each direction, None where there is no highest.
+    do; modes: in waves a period, no Fourier mode has more in any direction, None where there is no highest.
     """
 
     lengths: tuple[float, ...]
@@ -170,7 +170,7 @@ class Sinusoid(_Smooth):
         _check_dimensions(self.dimensions)
         if not (np.isfinite(self.amplitude) and self.amplitude > 0):
             raise SceneError("amplitude", self.amplitude, "a positive, finite number in nm")
-        if self.periods < 1:
+        if not (is_number(self.periods) and self.periods >= 1 and self.periods == int(self.periods)):
             raise SceneError("periods", self.periods, "a whole number, 1 or more")
 
     def heights(self, points: int) -> Array:
@@ -221,12 +221,16 @@ class SelfAffine(_Smooth):
 
     @property
     def modes(self) -> int:
-        """Highest mode: that with a wavelength strictly above the shortest (Eq. 3.10)."""
+        """Most waves in the period along any direction: their wavelength is strictly above the shortest (Eq. 3.10).
+
+        In two dimensions the waves with |k| up to `modes` are kept, all others are zero. That is the disc of the
+        highest mode along the axes, so oblique waves between its wavelength and the shortest are left out.
+        """
         return int(np.ceil(self.length / self.shortest_wavelength * (1 - 1e-12))) - 1
 
     @cached_property
     def coefficients(self) -> Array:
-        """Complex Fourier coefficients of the modes up to `modes`, half of them along x, nm.
+        """Complex Fourier coefficients of the modes with |k| up to `modes`, half of them along x, nm.
 
         Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
         """

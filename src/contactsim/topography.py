@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
+import itertools
+import re
 import sys
 from functools import partial
 from pathlib import Path
@@ -102,10 +104,28 @@ def _read(file: Path, unit: str | None, variable: str | None, delimiter: str | N
 
 
 def _read_grid(text: scans.Text, unit: str | None, file: Path) -> Read:
-    """A row of heights for each y."""
+    """A row of heights for each y; SceneError for points x y z, which look like three columns of heights."""
     table = text.table(range(2, sys.maxsize), "two or more heights 1.5, as many as in the first row", file)
+    names = set(re.findall(r"[^\W\d_]+", re.sub(r"[\[(].*?[\])]", "", text.header[1].lower())))
+    if table.shape[1] == 3 and (names >= {"x", "y", "z"} or _has_positions(table)):
+        found = "three columns, of which two are positions on a grid"
+        raise SceneError("heights", found, "heights alone; name a file of points x y z .xyz", file)
     scale = scans.factor("heights", next(iter(text.units(1, file)), None), unit, file)
     return scans.finite(table, "heights", file, scale, 2), (None, None)
+
+
+def _has_positions(table: Array) -> bool:
+    """Whether two of the columns (rows, 3) are the coordinates of a complete grid."""
+    for pair in itertools.combinations(table.T, 2):
+        if all(np.isfinite(at).all() and np.ptp(at) > 0 for at in pair):
+            try:
+                (one, *_), (two, *_) = (_levels(at, "heights", None) for at in pair)
+            except SceneError:
+                continue
+            both = one * (two.max() + 1) + two
+            if both.max() + 1 == both.size == np.unique(both).size:
+                return True
+    return False
 
 
 def _read_points(text: scans.Text, unit: str | None, file: Path) -> Read:

@@ -174,18 +174,18 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
 
 def fig_3_2_grid(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
     """Proportionality factors of lines on finer and finer grids; kappa_r: the thesis's constant."""
-    return _grids(data, finer, axes, {"kappa_r": kappa_r, "kappa_r_bond": kappa_r})
+    return _grids(data, finer, axes, {"kappa_r": kappa_r})
 
 
 def fig_3_4_grid(
     data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float
 ) -> pd.DataFrame:
     """Proportionality factors of surfaces on finer and finer grids; kappa, kappa_r: the thesis's values."""
-    return _grids(data, finer, axes, {"kappa": kappa, "kappa_r": kappa_r, "kappa_r_bond": kappa_r})
+    return _grids(data, finer, axes, {"kappa": kappa, "kappa_r": kappa_r})
 
 
 def _grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[str, float]) -> pd.DataFrame:
-    """One panel a quantity, with the thesis's value, and in words what one grid costs against finer ones."""
+    """One panel a quantity, with the value of the thesis if any, and in words what a grid costs against finer ones."""
     shown = resolution.table(data, finer)
     middle = f"{float(resolution.per_wavelength(data).points[-2:][0]):g} points"
     for panel, name, letter in zip(axes, resolution.QUANTITIES, "abc", strict=True):
@@ -197,7 +197,8 @@ def _grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[s
         panel.set_ylim(low - below * (high - low), high + 0.4 * (high - low))
         panel.text(0.97, 0.97, resolution.in_words(shown, name, middle), **CORNER, transform=panel.transAxes)
         style.letter(panel, letter)
-    keys = style.key({}, {f"thesis, {value:g}": (0, (6, 3)) for value in sorted(set(thesis.values()))[:1]})
+    values = " and ".join(f"{value:.2f}" for value in thesis.values())
+    keys = style.key({}, {f"thesis, {values}": (0, (6, 3))})
     loads = resolution.load_key(list(data.reduced_pressure.values))
     axes[-1].legend(handles=style.hurst_key(data.hurst.values) + loads + keys, loc="lower right", ncols=2)
     return shown

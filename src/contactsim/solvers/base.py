@@ -42,7 +42,7 @@ def sentence(number: int) -> str:
 
 @dataclass(frozen=True)
 class State:
-    """Where a solver is: its pressure (n,), without units, and whether it believes to be done."""
+    """Where a solver is: its pressure (n,) or (ny, nx), without units, and whether it believes to be done."""
 
     pressure: Array
     done: bool
@@ -74,7 +74,7 @@ class Solver(Protocol):
 
 @dataclass(frozen=True)
 class Record:
-    """What a solution cost and how good it is: reproducible bit for bit.
+    """What a solution cost and how good it is: reproducible bit for bit at one number of threads.
 
     iterations: outer steps; transforms: in equivalents of one on the finest grid; certificate: in grid steps.
     """
@@ -88,8 +88,8 @@ class Record:
 class Result:
     """One solved load step.
 
-    pressure (n,), GPa, never negative; gap (n,), nm; approach, nm (see `contactsim.loading`); mean_pressure, GPa;
-    seconds: of CPU, apart from the record because it is not reproducible.
+    pressure (n,) or (ny, nx), GPa, never negative; gap likewise, nm; approach, nm (see
+    `contactsim.loading`); mean_pressure, GPa; seconds: of CPU, apart from the record because it is not reproducible.
     """
 
     pressure: Array = field(repr=False)
@@ -101,7 +101,7 @@ class Result:
 
     @property
     def contact(self) -> Array:
-        """Points with positive pressure, bool (n,): the criterion `touching` of Chapter 3."""
+        """Points with positive pressure, bool (n,) or (ny, nx): the criterion `touching` of Chapter 3."""
         return self.pressure > 0
 
     @property

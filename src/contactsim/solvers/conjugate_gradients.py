@@ -99,8 +99,8 @@ class ConjugateGradients:
         first = worst = max(deepest, widest) + abs(level)
         length, past, energy = 1.0, (spread.out, none, np.float32(level)), 0.0
         for _ in range(self.inner_budget):
-            if not points:
-                break
+            if not points:  # an approach that leaves no contact is answered: the certificate judges
+                return not free, level
             if worst <= 0.9 * problem.tolerance and not added:
                 return True, level
             if worst < ROUNDING * first:

@@ -2,8 +2,8 @@
 
 Every kernel works on the rows from `low` to `high` of arrays of shape (ny, nx or more), periodic in both directions,
 and writes its results into `sums`, first what adds up, then largest values. `Rows` calls it block by block, on several
-threads if asked to; the blocks depend on the grid alone and their sums are added in order, so that the result does not
-depend on the number of threads.
+threads if asked to; the blocks depend on the grid alone and their sums are added in order, so that what kernels give
+does not depend on the number of threads. Transforms of surfaces, between them, differ in their last digits.
 
 contact is 1 where a point may carry pressure; the residual there is level - gap. It is padded with zeros to WORD
 columns a word, and `words` is the same memory as whole words. Loops go over runs of words that are not zero, without

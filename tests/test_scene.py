@@ -1,0 +1,29 @@
+"""The typical height difference of neighbouring points, by which tolerances are counted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.scene import SAMPLE, grid_step
+
+
+def texture(points, period, along_both):
+    raised = np.arange(points) % period < period // 2
+    both = raised[:, None] & raised if along_both else np.repeat(raised[:, None], points, 1)
+    return both.astype(float)
+
+
+@pytest.mark.parametrize("along_both", [True, False], ids=["pillars", "ridges"])
+@pytest.mark.parametrize(("points", "period"), [(1024, 4), (1440, 20), (2048, 16)])
+def test_where_a_periodic_texture_begins_does_not_change_the_grid_step(points, period, along_both):
+    heights = texture(points, period, along_both)
+    rms = np.sqrt(np.mean([(heights - np.roll(heights, 1, axis)) ** 2 for axis in (0, 1)]))
+    found = [grid_step(np.roll(heights, rows, 0)) for rows in range(5)]
+    np.testing.assert_allclose(found, rms, rtol=0.03)  # the fewest edges are an eighth of 2^18 samples: 0.6 %
+
+
+def test_of_a_small_surface_all_points_count():
+    heights = np.zeros((16, 2 * SAMPLE // 16 - 1))
+    heights[3, 5] = 1.0  # one pit of 2^19 points, which a sample would most likely miss
+    assert grid_step(heights) == pytest.approx(np.sqrt(4 / (2 * heights.size)), rel=1e-12)
