@@ -98,7 +98,7 @@ def simulate(
 
 def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:
     """SceneError for an option that is unknown or that such a scene has no use for, and for an unknown name to keep."""
-    kinds = ("keep", "known"), ("increments", "snapshots")
+    kinds = ("keep", "known"), ("increments", "snapshots", "keep_fields")
     used = ", ".join(("points", "tolerance", "method", "threads", *kinds[smooth]))
     for key, value in given.items():
         if value is not None and key in kinds[not smooth]:
