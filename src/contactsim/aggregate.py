@@ -106,7 +106,7 @@ def _read(runs: list[dict]) -> xr.Dataset:
 
 
 def derived(data: xr.Dataset) -> xr.Dataset:
-    """Loads on their own at a hard wall, with κ, κ_r, the reduced pressure of the contact, and the size of a round one."""
+    """Loads on their own at a hard wall, with κ, κ_r, the contact's reduced pressure, and the size of a round one."""
     area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
 
     def kappa(gradient: xr.DataArray) -> xr.DataArray:
