@@ -419,6 +419,7 @@ def test_verdicts_depend_on_claims_code_and_every_study_asked():
         "rough_surface",
         "smooth_line",
         "smooth_surface",
+        "surface_resolution",
     ]
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
     assert not any("verdict" in one for _, one in settings["claims"])
