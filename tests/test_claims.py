@@ -10,14 +10,17 @@ import pytest
 import xarray as xr
 
 from conftest import ROOT
-from contactsim import claims, dataset, takes
+from contactsim import aggregate, claims, dataset, takes
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, Claim, Finding
 from contactsim.errors import SceneError
 from contactsim.figures.claims import COLOURS, COLUMNS, drawn
 from contactsim.plan import Plan
 
 PLAN = Plan.read(ROOT / "config", "quick")
-STUDIES = {name: PLAN.studies[name] for name in ("smooth_line", "rough_line", "rough_line_coarse", "rough_surface")}
+STUDIES = {
+    name: PLAN.studies[name]
+    for name in ("smooth_line", "rough_line", "rough_line_coarse", "rough_surface", "surface_resolution")
+}
 PRESSURES = [0.001, 0.01, 0.1]
 VALUE = {
     "source": "Section 0",
@@ -83,6 +86,43 @@ def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
     data = made_up(2.0).assign(kappa_grid_error=made_up(grid=0.2).kappa_grid_error)
     part = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
     assert claims.find(claim(**part), [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
+
+
+def on_grids(errors, members=3):
+    """A dataset of surfaces on three grids: κ_r at 1.9 and, of each grid, an error; a scatter over members."""
+    dims = ("points", "hurst", "member", "reduced_pressure")
+    level = 1.9 + 0.001 * np.linspace(-1, 1, members)
+    values = np.reshape(errors, (3, 1, 1, -1)) + level[:, None] + np.zeros((3, 2, members, 3))
+    data = xr.Dataset(
+        {"kappa_r": (dims, values), "status": (dims, np.zeros(values.shape, np.int8))},
+        {"points": [1024, 2048, 4096], "hurst": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES},
+        {"settings": json.dumps({"surface": {"kind": "self_affine"}})},
+    )
+    return data.merge(aggregate._limits(data))
+
+
+def test_a_limit_on_finer_grids_has_the_distance_from_that_of_first_order_as_its_error():
+    settings = claim(study="surface_resolution", of="kappa_r_limit", expect=1.88, within=0.02)
+    first = claims.find(settings, [on_grids([0.4, 0.2, 0.1])])
+    assert (first.value, first.grid_error) == pytest.approx((1.9, 0.0), abs=1e-12)
+    assert first.ensemble_error == pytest.approx(0.001 / np.sqrt(3), rel=1e-6)
+    second = claims.find(settings, [on_grids([0.32, 0.08, 0.02])])  # first order would end at 1.86
+    assert (second.value, second.grid_error) == pytest.approx((1.9, 0.04), rel=1e-9)
+    assert claims.judge(settings, [on_grids([0.32, 0.08, 0.02])])["verdict"] == NOT_DECIDABLE
+    far = claim(study="surface_resolution", of="kappa_r_limit", expect=1.7, within=0.02)
+    assert claims.judge(far, [on_grids([0.32, 0.08, 0.02])])["verdict"] == NOT_REPRODUCED
+    assert claims.judge(far, [on_grids([0.32, 0.08, 0.02], members=1)])["verdict"] == NOT_DECIDABLE
+
+
+def test_where_one_mean_has_no_limit_the_claim_is_not_decidable():
+    settings = claim(study="surface_resolution", of="kappa_r_limit", expect=1.5, within=0.02)
+    turning = on_grids([[0.4, 0.4, 0.1], [0.2, 0.2, 0.2], [0.1, 0.1, 0.1]])  # at the largest load it turns round
+    assert claims.judge(settings, [turning])["verdict"] == NOT_DECIDABLE
+
+
+def test_a_limit_needs_three_grids():
+    with pytest.raises(SceneError, match="kappa_r_limit"):
+        claim(of="kappa_r_limit")
 
 
 def test_a_relation_has_one_edge():
@@ -337,8 +377,12 @@ UNANSWERED = {
     "ch5": ["error_bars"],
 }
 
-LACKING = {"ch3": [], "ch4": ["compressible_curves_weak"], "ch5": []}
-"""Claims on works of separation that the quick tier leaves out."""
+LACKING = {
+    "ch3": ["surface_kappa_limit", "surface_kappa_r_limit"],
+    "ch4": ["compressible_curves_weak"],
+    "ch5": [],
+}
+"""Claims on members, for the error of a limit, and on works of separation that the quick tier leaves out."""
 
 
 @pytest.mark.parametrize(("chapter", "unanswered"), UNANSWERED.items())
@@ -379,6 +423,7 @@ def test_verdicts_depend_on_claims_code_and_every_study_asked():
         "rough_surface",
         "smooth_line",
         "smooth_surface",
+        "surface_resolution",
     ]
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
     assert not any("verdict" in one for _, one in settings["claims"])

@@ -12,7 +12,7 @@ from contactsim.errors import SceneError
 from contactsim.follow import Adaptive
 from contactsim.interface import pose_interface
 from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.loading import LoadPath, LoadStep, approach, press
+from contactsim.loading import LoadPath, LoadStep, approach, press, through
 from contactsim.solvers import solver
 from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import APART
@@ -257,3 +257,40 @@ def test_adaptive_increments_need_a_solver_that_predicts():
 def test_increments_out_of_range_are_refused(options):
     with pytest.raises(SceneError, match=rf"^{next(iter(options))}: got .*; allowed: "):
         Adaptive(**options)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        along(-10, 5, 0.5) >> approach([5.0, 5.0]) >> along(4.5, -9, 0.5),
+        along(-10, 5, 0.5) >> approach([-2.0]) >> along(5.5, 7, 0.5),
+        approach([-3.0]),
+        approach([-3.0, -3.0]),
+    ],
+    ids=["hold", "one step back", "one step", "one step held"],
+)
+def test_adaptive_increments_go_wherever_the_path_goes(path):
+    scene = scene_of(LAWS["uncoupled"], path)
+    asked, adaptive = walk(scene), walk(scene, increments=Adaptive())
+    assert adaptive.statuses == {"CONVERGED"}
+    # on loading the jump lies within one of the increments asked for
+    assert np.abs(adaptive.load - asked.load).max() <= 2e-3 * np.abs(asked.load).max()
+    assert [state.step.value for state in adaptive.states] == [step.value for step in path.steps]
+
+
+def test_states_asked_for_a_rounding_apart_from_those_walked_through_are_interpolated_safely():
+    scene = scene_of(LAWS["uncoupled"], through(Trait.MEAN_PRESSURE, [0.0, 0.05], 0.001))
+    asked, adaptive = walk(scene), walk(scene, increments=Adaptive(least=1e-5, most=0.02))
+    near = walk(scene, increments=Adaptive())  # its shortest increment is ten of those asked for
+    for found in (adaptive, near):
+        assert found.statuses == {"CONVERGED"}
+    assert np.abs(adaptive.load - asked.load).max() <= 1e-4 * np.abs(asked.load).max()
+    assert np.abs(near.load).max() <= 1.01 * np.abs(asked.load).max()
+
+
+def test_a_change_of_control_starts_a_leg():
+    path = along(-10, 5, 0.5) >> press([0.006, 0.008, 0.01])
+    asked = walk(scene_of(LAWS["uncoupled"], path))
+    adaptive = walk(scene_of(LAWS["uncoupled"], path), increments=Adaptive(least=1e-5))
+    assert adaptive.statuses == {"CONVERGED"}
+    assert np.abs(adaptive.load - asked.load)[-3:].max() <= 1e-4 * asked.load.max()

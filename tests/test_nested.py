@@ -128,3 +128,17 @@ def test_a_ratio_that_leaves_no_even_grid_is_refused():
     problem = pose_interface(scene, scene.heights(72), 1e-7)
     with pytest.raises(SceneError, match="half the grid's 72 points"):
         list(Nested([0.0]).follow(problem, solver("newton"), scene.path.steps))
+
+
+def test_a_value_to_settle_that_is_no_step_is_refused():
+    scene = rough_scene(ROUGH_LAWS["normal"])
+    with pytest.raises(SceneError, match="steps of the path") as caught:
+        walk(scene, points=4096, increments=Nested([0.0, 0.3]))
+    assert (caught.value.key, caught.value.value) == ("settled", [0.3])
+
+
+def test_a_tolerance_that_doing_nothing_would_meet_is_refused():
+    scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
+    with pytest.raises(SceneError, match=r"at most 0[.]1") as caught:
+        pose_interface(scene, scene.heights(64), 10.0)
+    assert caught.value.key == "tolerance"

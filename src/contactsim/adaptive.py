@@ -21,6 +21,8 @@ from contactsim.walk import PathState, Walk
 
 SAFETY, SHRINK, GROW = 0.9, 0.4, 2.0
 """Of an adaptive increment: share of the length that the error allows, least and largest change."""
+CLOSE = 1e-6
+"""Of an increment: what is nearer counts as the same place."""
 REFUSED = 4.0
 """An increment is refused if its prediction was wrong by this many times what is allowed."""
 
@@ -60,7 +62,9 @@ class Adaptive:
             raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
         walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
-            end = _turn(steps, begin)
+            if begin and steps[begin].control is not steps[begin - 1].control:
+                walk.forget()
+            end = _turn(steps, begin, walk.place)
             leg, spent = steps[begin:end], problem.tally.transforms
             iterations, stretches, status = self._walk(walk, leg)
             spent = problem.tally.transforms - spent
@@ -82,12 +86,10 @@ class Adaptive:
         first, last = leg[0], leg[-1]
         iterations, increment = 0, self.least
         stretches = [Stretch(0.0)]
-        if walk.history.places:
-            stretches[0].places.append(walk.history.places[-1])
+        place = walk.place
+        if place is not None:
+            stretches[0].places.append(place)
             stretches[0].states.append(walk.last)
-            place = walk.history.places[-1]
-        else:
-            place = None
         while place != last.value:
             goal = first.value if place is None else _towards(place, last.value, increment)
             step = LoadStep(first.control, goal)
@@ -124,7 +126,8 @@ class Adaptive:
         spent: tuple,
     ) -> PathState:
         """The state asked for, from the stretch that holds it; between two, the end of the earlier."""
-        sign = 1 if leg[-1].value >= leg[0].value else -1
+        begun = stretches[0].places[0] if stretches[0].places else leg[0].value
+        sign = 1 if leg[-1].value >= begun else -1
         reached = [stretch for stretch in stretches if stretch.places and sign * (step.value - stretch.places[0]) >= 0]
         stretch = reached[-1] if reached else stretches[0]
         beyond = sign * (step.value - stretch.places[-1]) > 0
@@ -143,21 +146,25 @@ class Adaptive:
 def _towards(place: float, end: float, increment: float) -> float:
     """One increment from a place towards the end, which is not overshot nor approached by less than a millionth."""
     left = end - place
-    return end if abs(left) <= increment * (1 + 1e-6) else place + np.copysign(increment, left)
+    return end if abs(left) <= increment * (1 + CLOSE) else place + np.copysign(increment, left)
 
 
 def _between(place: float | None, value: float, goal: float) -> bool:
-    """Whether a value lies after a place and not beyond the goal."""
-    return place is not None and (value - place) * (goal - place) > 0 and abs(value - place) <= abs(goal - place)
+    """Whether a value lies after a place, by more than rounding, and not beyond the goal."""
+    return place is not None and CLOSE < (value - place) / (goal - place) <= 1
 
 
-def _turn(steps: Sequence[LoadStep], begin: int) -> int:
-    """Where the monotone leg that begins at a step ends, exclusive."""
-    for place in range(begin + 1, len(steps)):
+def _turn(steps: Sequence[LoadStep], begin: int, last: float | None) -> int:
+    """Where the leg that begins at a step ends, exclusive: of one control, in one direction; a hold is one too.
+
+    last: where the path stands before it, if it does.
+    """
+    before, way = last, None
+    for place in range(begin, len(steps)):
         if steps[place].control is not steps[begin].control:
             return place
-        if place >= begin + 2:
-            now, before = (steps[i].value - steps[i - 1].value for i in (place, place - 1))
-            if now * before < 0:
-                return place
+        now = None if before is None else float(np.sign(steps[place].value - before))
+        if way is not None and now != way:
+            return place
+        before, way = steps[place].value, now
     return len(steps)

@@ -4,7 +4,8 @@ A claim over a second study is about the ratio of the means of the two at the lo
 only one of the two varies is held against the other at each value. Their ensembles are independent: the jackknife
 leaves out a member of one, then of the other, and the two errors add in quadrature. Of the grid errors the worst
 combination counts, as of any two quantities; where the grids of both err to the same side, that overstates the error of
-the ratio. What the increments of a path leave open is counted with the grid.
+the ratio. What the increments of a path leave open is counted with the grid. The grid error of a limit on finer grids
+is its distance from that of first order.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.takes import TAKES, averaged, needs, quantity
+from contactsim.takes import TAKES, averaged, grid_error, needs, quantity
 
 NAN = float("nan")
 ALONG_PATHS = ("step", "snapshot", "x")
@@ -85,15 +86,16 @@ def _jackknife(claim: Mapping, data: Sequence[xr.Dataset], which: int) -> float:
 
 def _shifted(claim: Mapping, data: Sequence[xr.Dataset], value: float) -> float:
     """The largest change when each quantity of each dataset moves by its grid error, up or down; exact ones stay."""
-    names = {averaged(claim[key]) for key in ("of", "against") if claim[key] is not None}
-    moved = [(which, name) for which in range(len(data)) for name in sorted(names - {None})]
-    if any(f"{name}_grid_error" not in data[which] for which, name in moved):
+    asked = [claim[key] for key in ("of", "against") if claim[key] is not None and averaged(claim[key])]
+    errors = {averaged(name): grid_error(name) for name in sorted(asked)}
+    moved = [(which, name) for which in range(len(data)) for name in sorted(errors)]
+    if any(errors[name] not in data[which] for which, name in moved):
         return NAN
     changes = []
     for signs in itertools.product((-1, 1), repeat=len(moved)):
         shifted = list(data)
         for sign, (which, name) in zip(signs, moved, strict=True):
-            error = data[which][f"{name}_grid_error"] + _of_increments(data[which], name)
+            error = abs(data[which][errors[name]]) + _of_increments(data[which], name)
             shifted[which] = shifted[which].assign({name: data[which][name] + sign * error})
         changes.append(abs(_number(claim, shifted) - value))
     return max(changes)

@@ -33,6 +33,9 @@ from contactsim.scene import Scene
 from contactsim.symbols import Symbol
 from contactsim.traits import Trait
 
+LOOSEST = 0.1
+"""Largest tolerance: beyond it, doing nothing would soon be a solution."""
+
 
 @dataclass(frozen=True)
 class Tangent:
@@ -233,8 +236,8 @@ class InterfaceProblem:
 
 def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> InterfaceProblem:
     """The problem that a scene of smooth laws poses on the grid of `heights` (n,), nm, at zero approach."""
-    if not (is_number(tolerance) and tolerance > 0):
-        raise SceneError("tolerance", tolerance, "a positive number, in parts of the laws' strength")
+    if not (is_number(tolerance) and 0 < tolerance <= LOOSEST):
+        raise SceneError("tolerance", tolerance, f"a number above 0, at most {LOOSEST}, in parts of the laws' strength")
     grid = Grid(heights.shape, scene.lengths, threads)
     compliance = relative_compliance(scene.lower.elasticity, scene.upper.elasticity, grid, scene.components)
     derived = None

@@ -15,7 +15,7 @@ import os
 import resource
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,6 +28,7 @@ from contactsim.branch import options, simulate_path
 from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
+from contactsim.loading import LoadStep
 from contactsim.observables import KEPT, wall_observables
 from contactsim.provenance import digest
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
@@ -76,15 +77,24 @@ def simulate(
     if Trait.SMOOTH in scene.traits:
         with threadpool_limits(threads, "blas"):  # on small dense systems more threads would only wait for each other
             return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
-    known, keep = known or {}, KEPT[:-1] if keep is None else keep
-    heights = scene.heights(points)
-    steps, found, spent = scene.path.steps, [], []
+    keep, heights = KEPT[:-1] if keep is None else keep, scene.heights(points)
+
+    def solved(step: LoadStep) -> Point:
+        """One load on its own."""
+        return _point(solve(method, *pose(scene, step, heights, tolerance, threads)), heights, scene.lengths, keep)
+
+    return _collected(scene, heights, _loads(scene.path.steps, known or {}, solved), keep)
+
+
+def _loads(steps: Sequence[LoadStep], known: Mapping[int, Point], solved: Callable[[LoadStep], Point]) -> list[Point]:
+    """The points of all loads, in order: known ones taken over, the others solved; a line of the log for each."""
+    found, spent = [], []
     for count, step in enumerate(steps):
         if count in known:
             found.append(known[count])
             logger.info("step %d/%d %s taken over", count + 1, len(steps), step.text)
             continue
-        point = _point(solve(method, *pose(scene, step, heights, tolerance, threads)), heights, scene.lengths, keep)
+        point = solved(step)
         found.append(point)
         spent.append(point.seconds)
         left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
@@ -93,7 +103,7 @@ def simulate(
             *(count + 1, len(steps), step.text, point.numbers["non_uniformity"]),
             *(point.numbers["transforms"], point.seconds, left, sentence(point.numbers["status"])),
         )
-    return _collected(scene, heights, found, keep)
+    return found
 
 
 def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:

@@ -18,6 +18,9 @@ from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.walk import PathState, Walk
 
+CLOSE = 1e-9
+"""How near (nm or GPa) a step is to a value that asks for it."""
+
 
 @dataclass(frozen=True)
 class Nested:
@@ -50,13 +53,18 @@ class Nested:
         size, tally = problem.grid.size, problem.tally
         if size % (2 * self.ratio):
             raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {size} points")
+        lost = [
+            value for value in self.settled if not np.isclose([step.value for step in steps], value, 0, CLOSE).any()
+        ]
+        if lost:
+            raise SceneError("settled", lost, "steps of the path, which these are not")
         walk = Walk(problem.coarser(size // self.ratio, self.walking), solver)
         between = problem.coarser(size // self.between, self.reading)
         for step in steps:
             before = tally.transforms
             state = walk.advance(step)
             for level in (
-                [between, problem] if np.isclose(self.settled, step.value, rtol=0, atol=1e-9).any() else [between]
+                [between, problem] if np.isclose(self.settled, step.value, rtol=0, atol=CLOSE).any() else [between]
             ):
                 if state.status is Status.CONVERGED:
                     state = _refined(level.at(step), solver, state)

@@ -34,7 +34,7 @@ FLATTEST = 1e-10
 """Smallest grid step told from rounding, over p·spacing/E* or the approach: below it the latter counts as length."""
 
 
-SAMPLE = 2**18
+SAMPLE = 2**16
 """Points of a surface that are enough to say what is typical; below twice as many, all are looked at."""
 SCATTER = 0x9E3779B97F4A7C15
 """Golden part of 2^64: its multiples by the numbers 1, 3, 6, 10, … are spread without any period."""

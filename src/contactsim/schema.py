@@ -6,7 +6,6 @@ law's own name.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Mapping
 
 from contactsim import loading
@@ -22,13 +21,10 @@ from contactsim.traits import Trait
 
 
 def turning(value: object) -> list[float]:
-    """Two or more numbers, none the same as the one before."""
+    """Two or more numbers; one that is given twice in a row is a hold."""
     if not isinstance(value, list) or len(value) < 2:
         raise ValueError
-    numbers = [number(entry) for entry in value]
-    if any(now == before for before, now in itertools.pairwise(numbers)):
-        raise ValueError("an entry is given twice in a row")
-    return numbers
+    return [number(entry) for entry in value]
 
 
 ORIGINS = ("mean_plane", "first_touch")

@@ -12,10 +12,10 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from contactsim import analytic
+from contactsim import analytic, extrapolation
 from contactsim.adhesion import FINAL, SUMMARY
 from contactsim.aggregate import AVERAGED
-from contactsim.ensemble import converged
+from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fit_line_area
 from contactsim.laws import EFFECTS
 from contactsim.study import Study
@@ -132,6 +132,16 @@ FITTED: dict[str, tuple[str, bool]] = {
 """κ of Eq. 3.11 fitted to the selected loads: how it weighs, and whether all Hurst exponents share one fit."""
 
 
+LIMIT = "_limit"
+"""Ends the name of a quantity's limit on finer grids, of three."""
+
+
+def grid_error(name: str) -> str | None:
+    """The variable that says how far the averaged quantity behind another may be off; None for what is exact."""
+    made = averaged(name)
+    return None if made is None else f"{made}_spread" if name.endswith(LIMIT) else f"{made}_grid_error"
+
+
 def quantities(study: Study) -> list[str]:
     """Names of the quantities that a study's dataset answers for."""
     if study.settings["path"] is not None:
@@ -143,6 +153,8 @@ def quantities(study: Study) -> list[str]:
         known |= {size, f"{size}_exact", "rms_gradient_exact"}
     if study.settings["companion"] is not None:
         known |= {f"{name}_grid_error" for name in AVERAGED if name in known}
+    if extrapolation.is_doubled(study.settings["vary"].get("points", [])):
+        known |= {f"{name}{LIMIT}" for name in AVERAGED if name in known}
     if study.dimensions == ["hurst", "member", "reduced_pressure"]:
         known |= set(FITTED)
     return sorted(known)
@@ -159,7 +171,13 @@ def _path_quantities(study: Study) -> list[str]:
 
 
 def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
-    """The means over members of a quantity; unconverged solutions are left out."""
+    """The means over members of a quantity, or their limit on finer grids; unconverged solutions are left out.
+
+    Where one of the means has no limit, none counts: those that have one are not a fair choice.
+    """
+    if name.removesuffix(LIMIT) in AVERAGED and name.endswith(LIMIT):
+        limit = extrapolation.extrapolated(on_all_grids(data, name.removesuffix(LIMIT)).mean("member")).limit
+        return limit.where(limit.notnull().all())
     if name in FITTED:
         return _fit(data, *FITTED[name])
     if name == "half_width":
@@ -172,6 +190,6 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def averaged(name: str) -> str | None:
-    """The averaged quantity, with a grid error of its own, that another is made from; None for what is exact."""
-    made = "relative_contact_area" if name in (*FITTED, "half_width", "contact_radius") else name
+    """The averaged quantity, with an error of the grid, that another is made from; None for what is exact."""
+    made = "relative_contact_area" if name in (*FITTED, "half_width", "contact_radius") else name.removesuffix(LIMIT)
     return made if made in (*AVERAGED, *SUMMARY) else None

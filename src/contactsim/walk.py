@@ -67,6 +67,15 @@ class Walk:
         self._memory = solver.begin_walk()
         self._pace: float | None = None
 
+    @property
+    def place(self) -> float | None:
+        """Where it stands, nm or GPa; None at the beginning."""
+        return self.history.places[-1] if self.history.places else None
+
+    def forget(self) -> None:
+        """Predict nothing from the states so far, whose places are of another control."""
+        self.history = History()
+
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The problem at a load step."""
         return self.problem.at(step)

@@ -14,6 +14,7 @@ from contactsim import dataset, ensemble
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, verdicts
 from contactsim.figures import style
 from contactsim.figures.render import LINE_INCHES, move
+from contactsim.takes import LIMIT
 
 COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
 COLUMNS = {
@@ -133,8 +134,10 @@ def _cells(row: dict) -> dict[str, str]:
 
 def symbol(name: str) -> str:
     """A name of the config in symbols; other words as they are."""
-    of = name.removesuffix("_grid_error")
-    return ("grid error of " if of != name else "") + SYMBOLS.get(of, of)
+    for suffix, words in (("_grid_error", "grid error of "), (LIMIT, "limit of ")):
+        if name.endswith(suffix):
+            return words + symbol(name.removesuffix(suffix))
+    return SYMBOLS.get(name, name)
 
 
 def rounded(value: float, *errors: float) -> list[str]:
@@ -163,7 +166,7 @@ def made_text(data: Mapping[str, xr.Dataset]) -> str:
     for study, one in data.items():
         lost, total = ensemble.left_out(one)
         members = f"{one.member.size} members" if one.member.size > 1 else "1 member"
-        points = style.points_text(settings[study], int(one.points))
+        points = style.points_text(settings[study], *one.points.values.ravel())
         parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")
     parts.append("errors to two digits; ensemble error: one standard error over members")
     parts.append("grid error: change on halving the points, and what the increments of a path leave open")
