@@ -36,7 +36,8 @@ def prepared(data: xr.Dataset) -> xr.Dataset:
     ratio = data.rms_gradient_contact_mean / data.rms_gradient.mean("member")
     renamed = {f"{ours}_{kind}": data[f"{theirs}_{kind}"] for ours, theirs in WALL.items() for kind in ENDS}
     spread = data.rms_gradient_contact_standard_error / data.rms_gradient.mean("member")
-    return data.assign(renamed, gradient_ratio_interacting_mean=ratio, gradient_ratio_interacting_standard_error=spread)
+    renamed |= {"gradient_ratio_interacting_mean": ratio, "gradient_ratio_interacting_standard_error": spread}
+    return data.assign(renamed)
 
 
 ENDS = ("mean", "standard_error")
@@ -78,7 +79,7 @@ def interface(axes: Axes, one: xr.Dataset, place: float, looks: dict[str, str], 
     x = here.x.values[part]
     down = float(here.approach_first_touch) + place
     rigid = -here.heights.values[part] - down
-    surface = -here.normal_displacement.values[part]
+    surface = rigid - here.normal_gap.values[part]
     axes.fill_between(x, rigid, rigid.max() + 5.0, color="#cccccc", lw=0, zorder=0)
     axes.plot(x, rigid, color="#777777", lw=0.6)
     axes.plot(x, surface, lw=0.9, **looks)
