@@ -42,6 +42,7 @@ def data():
 WRITERS = (
     "observables.py",
     "study.py",
+    "loads.py",
     "march.py",
     "aggregate.py",
     "fits.py",

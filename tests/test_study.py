@@ -198,6 +198,7 @@ WALKED = {
     [
         ({"snapshots": [0.1]}, "snapshots", "hard_wall"),
         ({"increments": {"kind": "requested"}}, "increments", "hard_wall"),
+        ({"snapshot_members": 1}, "snapshot_members", "hard_wall"),
         (WALKED | {"keep": ["contact"]}, "keep", "normal_cohesive_zone"),
     ],
 )
@@ -613,3 +614,30 @@ def test_grids_are_aggregated_along_points_with_their_limit(tmp_path):
     assert data.kappa_limit.attrs["long_name"].endswith("extrapolated to the limit on finer grids")
     two = aggregate.aggregate([run for run in runs if run["coordinates"]["points"] != 64], read.settings, "source")
     assert "kappa_limit" not in two
+
+
+def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tmp_path):
+    section = WALKED | {
+        "vary": GONE,
+        "members": 2,
+        "points": 256,
+        "companion": {"points": 128, "members": 1},
+        "snapshots": [-4.0],
+        "snapshot_members": 1,
+        "tolerance": 1e-6,
+    }
+    read, runs = study(section), []
+    for number, run in enumerate(read.runs()):
+        path = tmp_path / f"{number}.nc"
+        march.run(run.settings, "source", path, tmp_path / f"{number}.json")
+        runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
+    assert ["normal_gap" in dataset.read(run["path"]) for run in runs[:2]] == [True, False]
+    data = aggregate.aggregate(runs, read.settings, "source")
+    one, two = data.mean_pressure.transpose("member", "step").values
+    assert np.allclose(data.mean_pressure_mean, (one + two) / 2)
+    assert np.allclose(data.mean_pressure_standard_error, np.abs(one - two) / 2)
+    coarse = dataset.read(runs[2]["path"]).mean_pressure.values
+    assert np.allclose(data.mean_pressure_grid_error, np.abs(one - coarse))
+    assert np.allclose(data.normalised_pressure_mean, data.mean_pressure_mean / data.contact_modulus)
+    assert np.allclose(data.relative_repulsive_area, data.repulsive_length / data.length)
+    assert data.gradient_ratio_interacting_mean.dims == ("step",)

@@ -103,7 +103,7 @@ if "CONTACTSIM_TEST_AT" in os.environ:
 
     def record(*args, **options):
         made = make(*args, **options)
-        if made.name == "contactsim.march":
+        if made.name == "contactsim.loads":
             reached(made.getMessage())
         return made
 

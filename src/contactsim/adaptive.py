@@ -62,9 +62,7 @@ class Adaptive:
             raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
         walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
-            if begin and steps[begin].control is not steps[begin - 1].control:
-                walk.forget()
-            end = _turn(steps, begin, walk.place)
+            end = _turn(steps, begin, walk.place(steps[begin].control))
             leg, spent = steps[begin:end], problem.tally.transforms
             iterations, stretches, status = self._walk(walk, leg)
             spent = problem.tally.transforms - spent
@@ -86,7 +84,7 @@ class Adaptive:
         first, last = leg[0], leg[-1]
         iterations, increment = 0, self.least
         stretches = [Stretch(0.0)]
-        place = walk.place
+        place = walk.place(first.control)
         if place is not None:
             stretches[0].places.append(place)
             stretches[0].states.append(walk.last)

@@ -1,11 +1,4 @@
-"""Follow a load path, one `Result` a step, into a dataset.
-
-A hard wall has one solution at each load whatever came before, so every step is solved from scratch and may be taken
-from an earlier dataset if the same code made it from the same settings: a list of loads that grew equals, byte for
-byte, the list solved at once. Beside the numbers a scene keeps what it is told to: the contact set, the pressure on
-it, the Fourier coefficients of the heights, from which any other quantity follows; or heights, pressure and gap as
-they are, to be drawn.
-"""
+"""Follow a scene's load path into a dataset: loads on their own, or states of smooth laws; and a run's into files."""
 
 from __future__ import annotations
 
@@ -15,8 +8,9 @@ import os
 import resource
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from contextlib import nullcontext
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -27,26 +21,14 @@ from contactsim import dataset
 from contactsim.branch import options, simulate_path
 from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
-from contactsim.grid import Array, Grid
-from contactsim.loading import LoadStep
-from contactsim.observables import KEPT, wall_observables
+from contactsim.loads import earlier, simulate_loads
 from contactsim.provenance import digest
-from contactsim.roughness import rms_curvature, rms_gradient, rms_height
-from contactsim.scene import Scene, pose
+from contactsim.scene import Scene
 from contactsim.solvers import solver, usual
-from contactsim.solvers.base import Result, Solver, require, sentence, solve
+from contactsim.solvers.base import Solver, require
 from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True)
-class Point:
-    """One solved load: numbers by name, arrays by name of what is kept, seconds it took."""
-
-    numbers: dict[str, float | int]
-    arrays: dict[str, Array]
-    seconds: float
 
 
 def simulate(
@@ -56,68 +38,41 @@ def simulate(
     tolerance: float = 1e-3,
     method: str | Solver | None = None,
     threads: int = 1,
-    keep: Sequence[str] | None = None,
-    known: Mapping[int, Point] | None = None,
-    **path: object,
+    **given: object,
 ) -> xr.Dataset:
     """Follow a scene's load path; the workflow's runs are this function.
 
-    points: of the grid along x, None for those of a measured surface; tolerance: in grid steps; method: a solver or
-    the name of one, None for the usual one; keep: of `KEPT`, None for all but the last; known: points that need not be
-    solved again, by step.
-    Smooth laws are followed along the path (see `simulate_path` for what else that takes), and tolerance is in parts of
-    their strength.
+    points: of the grid along x, None for those of a measured surface; tolerance: in grid steps or, of smooth laws, in
+    parts of their strength; method: a solver or the name of one, None for the usual one; given: what
+    `simulate_loads`, at a hard wall, or `simulate_path` takes besides, None being as good as left out.
     Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
     reproducible.
     """
     method = usual(scene) if method is None else solver(method) if isinstance(method, str) else method
     require(method, scene)
-    _refuse_unused(Trait.SMOOTH in scene.traits, {"keep": keep, "known": known or None} | path)
-    points = points or scene.upper.surface.points
-    if Trait.SMOOTH in scene.traits:
-        with threadpool_limits(threads, "blas"):  # on small dense systems more threads would only wait for each other
-            return simulate_path(scene, method, points=points, tolerance=tolerance, threads=threads, **path)
-    keep, heights = KEPT[:-1] if keep is None else keep, scene.heights(points)
-
-    def solved(step: LoadStep) -> Point:
-        """One load on its own."""
-        return _point(solve(method, *pose(scene, step, heights, tolerance, threads)), heights, scene.lengths, keep)
-
-    return _collected(scene, heights, _loads(scene.path.steps, known or {}, solved), keep)
+    smooth = Trait.SMOOTH in scene.traits
+    _refuse_unused(smooth, given)
+    given = {name: value for name, value in given.items() if value is not None}  # the rest is as good as left out
+    given |= {"points": points or scene.upper.surface.points, "tolerance": tolerance, "threads": threads}
+    # on small dense systems more threads would only wait for each other
+    with threadpool_limits(threads, "blas") if smooth else nullcontext():
+        return FOLLOWED[smooth](scene, method, **given)
 
 
-def _loads(steps: Sequence[LoadStep], known: Mapping[int, Point], solved: Callable[[LoadStep], Point]) -> list[Point]:
-    """The points of all loads, in order: known ones taken over, the others solved; a line of the log for each."""
-    found, spent = [], []
-    for count, step in enumerate(steps):
-        if count in known:
-            found.append(known[count])
-            logger.info("step %d/%d %s taken over", count + 1, len(steps), step.text)
-            continue
-        point = solved(step)
-        found.append(point)
-        spent.append(point.seconds)
-        left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
-        logger.info(
-            "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
-            *(count + 1, len(steps), step.text, point.numbers["non_uniformity"]),
-            *(point.numbers["transforms"], point.seconds, left, sentence(point.numbers["status"])),
-        )
-    return found
+FOLLOWED = (simulate_loads, simulate_path)
+"""How a scene is followed: with a hard wall, and with smooth laws."""
 
 
 def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:
-    """SceneError for an option that is unknown or that such a scene has no use for, and for an unknown name to keep."""
-    kinds = ("keep", "known"), ("increments", "snapshots", "keep_fields")
-    used = ", ".join(("points", "tolerance", "method", "threads", *kinds[smooth]))
+    """SceneError for an option that is unknown or that such a scene has no use for."""
+    shared = list(signature(simulate).parameters)[1:-1]  # its own, but for the scene and what is given besides
+    kinds = [[name for name in list(signature(how).parameters)[2:] if name not in shared] for how in FOLLOWED]
+    used = ", ".join((*shared, *kinds[smooth]))
     for key, value in given.items():
-        if value is not None and key in kinds[not smooth]:
+        if key in kinds[not smooth] and value is not None:
             raise SceneError(key, value, f"none with {'smooth laws' if smooth else 'a hard wall'}, only {used}")
         if key not in kinds[0] + kinds[1]:
             raise SceneError(key, value, f"no such option, but {used}")
-    for name in given["keep"] or ():
-        if name not in KEPT:
-            raise SceneError("keep", name, f"some of {', '.join(KEPT)}")
 
 
 def run(settings: dict, source: str, target: str | Path, costs: str | Path, threads: int = 1) -> None:
@@ -128,14 +83,14 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
     begin = time.process_time()
     scene = scene_of(settings)
     names = [digest(_alone(settings), place, source) for place in _places(settings)]
-    earlier = {} if "increments" in settings else _earlier(target, costs)
+    solved = {} if "increments" in settings else earlier(target, costs)
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),
         tolerance=settings["tolerance"],
         method=solver(**settings["solver"]),
         threads=threads,
-        known={step: earlier[name] for step, name in enumerate(names) if name in earlier},
+        known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
         **chosen(settings),
     )
     seconds = data.seconds.values.tolist()
@@ -187,94 +142,3 @@ def write_text(text: str, path: str | Path) -> None:
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def _point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Sequence[str]) -> Point:
-    certificate = result.record.certificate
-    contact = result.contact
-    spacing = Grid(heights.shape, lengths).spacing
-    numbers = wall_observables(heights, spacing, result.pressure, result.gap) | {
-        "approach_found": result.approach,
-        "iterations": result.record.iterations,
-        "transforms": result.record.transforms,
-        "non_uniformity": certificate.non_uniformity,
-        "penetration": certificate.penetration,
-        "smallest_pressure": float(result.pressure.min()),
-        "load_error": certificate.load_error,
-        "status": result.status.value[0],
-        "contact_points": int(contact.sum()),
-    }
-    arrays = {}
-    if "contact" in keep:
-        arrays["contact_bits"] = np.packbits(contact)
-    if "pressure" in keep:
-        arrays["contact_pressure"] = result.pressure[contact]
-    if "fields" in keep:
-        arrays |= {"pressure": result.pressure, "gap": result.gap}
-    return Point(numbers, arrays, result.seconds)
-
-
-DIMS = {"contact_bits": ("step", "byte"), "contact_pressure": ("contact_point",)}
-
-
-def _collected(scene: Scene, heights: Array, found: list[Point], keep: Sequence[str]) -> xr.Dataset:
-    grid = Grid(heights.shape, scene.lengths)
-    kinds = {"status": np.int8, "iterations": np.int32, "contact_points": np.int32}
-    variables = {
-        name: ("step", np.array([point.numbers[name] for point in found], kinds.get(name, float)))
-        for name in found[0].numbers
-    }
-    plane = ("y", "x")[-heights.ndim :]
-    for name in found[0].arrays:
-        arrays = [point.arrays[name] for point in found]
-        joined = np.concatenate(arrays) if name == "contact_pressure" else np.stack(arrays)
-        variables[name] = (DIMS.get(name, ("step", *plane)), joined)
-    if "fields" in keep:
-        variables["heights"] = (plane, heights)
-    if "profile" in keep:
-        half, modes = grid.forward(heights), scene.upper.surface.modes
-        half = half if modes is None else half[grid.low_modes(modes)]
-        across = ("mode_y", "mode")[-heights.ndim :]
-        variables |= {"profile_real": (across, half.real.copy()), "profile_imag": (across, half.imag.copy())}
-    variables |= {
-        "seconds": ("step", [point.seconds for point in found]),
-        "rms_height": rms_height(heights),
-        "rms_gradient": rms_gradient(heights, grid.spacing),
-        "rms_curvature": rms_curvature(heights, grid.spacing),
-        "approach_first_touch": -float(heights.max()),
-        "points": heights.shape[-1],
-        "length": scene.length,
-        "contact_modulus": scene.contact_modulus,
-    }
-    if heights.ndim == 2:
-        variables |= {"points_y": heights.shape[0], "length_y": scene.lengths[0]}
-    return dataset.described(xr.Dataset(variables))
-
-
-def _earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
-    """Points of an earlier dataset by the digest that made them; none if there is none or it cannot be read."""
-    if not Path(target).exists():
-        return {}
-    try:
-        data = dataset.read(target)
-        ends = np.cumsum(data.contact_points.values)
-        load = data.status.dims[0]
-        seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}
-        apart = set(data.dims) - {"mean_pressure"} | {"point"}
-        names = [name for name, item in data.variables.items() if item.dims == data.status.dims and name not in apart]
-        found = {}
-        for row, end in enumerate(ends):
-            numbers = {name: data[name].values[row].item() for name in names}
-            name = str(data.point.values[row])
-            arrays = {
-                str(key): item.values[row]
-                for key, item in data.variables.items()
-                if item.ndim > 1 and item.dims[0] == load
-            }
-            if "contact_pressure" in data:
-                arrays["contact_pressure"] = data.contact_pressure.values[end - data.contact_points.values[row] : end]
-            found[name] = Point(numbers, arrays, seconds.get(name, float("nan")))
-        return found
-    except (SceneError, AttributeError, KeyError, TypeError, ValueError) as error:
-        logger.warning("%s cannot be reused and is computed anew: %s", target, error)
-        return {}

@@ -53,19 +53,17 @@ class Nested:
         size, tally = problem.grid.size, problem.tally
         if size % (2 * self.ratio):
             raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {size} points")
-        lost = [
-            value for value in self.settled if not np.isclose([step.value for step in steps], value, 0, CLOSE).any()
-        ]
+        places = np.array([step.value for step in steps])
+        asked = np.abs(np.subtract.outer(self.settled, places)) <= CLOSE
+        lost = [value for value, found in zip(self.settled, asked.any(1), strict=True) if not found]
         if lost:
             raise SceneError("settled", lost, "steps of the path, which these are not")
         walk = Walk(problem.coarser(size // self.ratio, self.walking), solver)
         between = problem.coarser(size // self.between, self.reading)
-        for step in steps:
+        for step, settled in zip(steps, asked.any(0), strict=True):
             before = tally.transforms
             state = walk.advance(step)
-            for level in (
-                [between, problem] if np.isclose(self.settled, step.value, rtol=0, atol=CLOSE).any() else [between]
-            ):
+            for level in (between, problem)[: 1 + settled]:
                 if state.status is Status.CONVERGED:
                     state = _refined(level.at(step), solver, state)
             yield replace(state, transforms=tally.transforms - before)

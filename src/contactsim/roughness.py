@@ -36,6 +36,12 @@ def _neighbours(strip: Array, axis: int) -> tuple[Array, Array]:
     return np.roll(strip[1:-1], 1, 1), np.roll(strip[1:-1], -1, 1)
 
 
+def _squares(strip: Array, axis: int, step: float) -> Array:
+    """Mean of the two squared slopes along an axis at each point of a strip's inner rows."""
+    here, (before, after) = strip[1:-1], _neighbours(strip, axis)
+    return 0.5 * (((after - here) / step) ** 2 + ((here - before) / step) ** 2)
+
+
 def _steps(spacing: float | Sequence[float], dimensions: int) -> list[tuple[int, float]]:
     """Each axis of the surface, of which a line has the second, and the spacing along it."""
     return list(zip(range(2 - dimensions, 2), np.broadcast_to(spacing, dimensions), strict=True))
@@ -50,20 +56,18 @@ def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array 
     """
     total, count = np.zeros(2), 0
     for strip, *chosen in _strips([heights] if where is None else [heights, where]):
-        here = strip[1:-1]
         pick = chosen[0][1:-1] if chosen else np.s_[:]
         for axis, step in _steps(spacing, heights.ndim):
-            before, after = _neighbours(strip, axis)
-            local = 0.5 * (((after - here) / step) ** 2 + ((here - before) / step) ** 2)
-            total[axis] += local[pick].sum()
-        count += local[pick].size
+            local = _squares(strip, axis, step)[pick]
+            total[axis] += local.sum()
+        count += local.size
     return float(np.sqrt(np.sum(total / count))) if count else float("nan")
 
 
 def local_squares(heights: Array, spacing: float) -> Array:
     """Mean of the two squared slopes at each point of a line (Eq. 3.8), (n,); heights and spacing in one unit."""
-    after = (np.roll(heights, -1) - heights) / spacing
-    return 0.5 * (after**2 + np.roll(after, 1) ** 2)
+    ((strip,),) = _strips([heights])
+    return _squares(strip, 1, spacing)[0]
 
 
 def rms_gradient_bonds(heights: Array, spacing: float | Sequence[float], where: Array) -> float:

@@ -229,7 +229,7 @@ class Study:
 
 def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:
     """SceneError for what a study's effects have no use for: the section of another, or how a path is walked."""
-    kinds = ("keep",), ("increments", "snapshots")
+    kinds = ("keep",), ("increments", "snapshots", "snapshot_members")
     others = [name for name in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])) if settings[name]]
     for key in [*others, *(key for key in kinds[not is_smooth(settings)] if section.get(key) is not None)]:
         what = "section" if key in EFFECTS else "key"

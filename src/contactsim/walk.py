@@ -65,28 +65,28 @@ class Walk:
         self.last = np.zeros(problem.unknowns, complex)
         self._failed = 0
         self._memory = solver.begin_walk()
+        self._control: Trait | None = None
         self._pace: float | None = None
 
-    @property
-    def place(self) -> float | None:
-        """Where it stands, nm or GPa; None at the beginning."""
+    def place(self, control: Trait) -> float | None:
+        """Where it stands, nm or GPa; None at the beginning, and where another control has led to."""
+        if control is not self._control:  # places along another control predict nothing
+            self.history, self._control, self._pace = History(), control, None
         return self.history.places[-1] if self.history.places else None
-
-    def forget(self) -> None:
-        """Predict nothing from the states so far, whose places are of another control."""
-        self.history = History()
 
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The problem at a load step."""
         return self.problem.at(step)
 
-    def guess(self, place: float) -> Array:
+    def guess(self, step: LoadStep) -> Array:
         """Where the state is expected."""
-        return self.history.guess(place) if self.solver.predicts and self.history.places else self.last
+        if self.place(step.control) is None or not self.solver.predicts:
+            return self.last
+        return self.history.guess(step.value)
 
     def near(self, step: LoadStep) -> Equilibrium:
         """The state by continuation alone."""
-        return self.solver.near(self.at(step), self.guess(step.value), self._memory)
+        return self.solver.near(self.at(step), self.guess(step), self._memory)
 
     def flow(self, step: LoadStep) -> Equilibrium:
         """The state by flow from the last stable one."""
@@ -94,7 +94,8 @@ class Walk:
 
     def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> float:
         """Move on to a state; how far the surface jumped to it."""
-        taken = abs(step.value - self.history.places[-1]) if self.history.places else np.inf
+        before = self.place(step.control)
+        taken = np.inf if before is None else abs(step.value - before)
         expected = np.inf if taken == np.inf else STEADY * self._length(step, taken)
         jump = found.moved if flowed and found.moved > max(SUDDEN * self.problem.reach, expected) else 0.0
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < taken < np.inf:
