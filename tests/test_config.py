@@ -240,3 +240,10 @@ def test_overlaying_changes_neither_of_its_arguments():
     base, over = {"a": {"b": 1}}, {"a": {"c": 2}}
     overlaid(base, over)
     assert (base, over) == ({"a": {"b": 1}}, {"a": {"c": 2}})
+
+
+def test_null_takes_out_a_key_that_there_is():
+    assert overlaid({"a": 1, "b": {"c": 2, "d": 3}}, {"a": None, "b": {"c": None}, "e": None}) == {
+        "b": {"d": 3},
+        "e": None,
+    }

@@ -102,7 +102,7 @@ def test_the_tier_is_that_of_the_config_unless_told(tiers):
     assert plan.figures == tiers[plan.tier].figures
 
 
-def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_two_of_surfaces(tiers):
+def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_two_of_surfaces_and_paths(tiers):
     quick, standard = tiers["quick"], tiers["standard"]
     assert quick.figures == standard.figures
     assert quick.studies.keys() == standard.studies.keys()
@@ -113,10 +113,11 @@ def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_
         for key, values in study.settings["vary"].items():
             wanted = asked["vary"][key]
             assert key == "points" or (set(values) <= set(wanted) if few else values == wanted)
-        least = 2 if study.settings["surface"].get("dimensions") == 2 else 3
+        least = 2 if study.settings["surface"].get("dimensions") == 2 or asked["path"] is not None else 3
         least = 1 if study.settings["vary"].get("points") else least  # it is grids that it compares
         assert study.settings["members"] >= min(least, asked["members"])
-        assert (study.settings["companion"] is None) == (asked["companion"] is None)
+        dropped = study.settings["companion"] is None  # of a path, which costs as much on any grid, it may be
+        assert dropped == (asked["companion"] is None) or (dropped and few)
         assert study.settings["fit_limits"] == asked["fit_limits"]
 
 

@@ -211,9 +211,12 @@ def keys_of(kind: type) -> Mapping[str, Key]:
 
 
 def overlaid(base: dict, over: dict) -> dict:
-    """`base` with the entries of `over` in their place; mappings are merged, everything else replaced."""
+    """`base` with the entries of `over` in their place; mappings are merged, null takes a key out, else replaced."""
     merged = dict(base)
     for name, value in over.items():
+        if value is None and name in merged:
+            del merged[name]
+            continue
         both = isinstance(value, dict) and isinstance(merged.get(name), dict)
         merged[name] = overlaid(merged[name], value) if both else value
     return merged

@@ -15,9 +15,12 @@ import xarray as xr
 from contactsim import analytic, extrapolation
 from contactsim.adhesion import FINAL, SUMMARY
 from contactsim.aggregate import AVERAGED
+from contactsim.area_load import AREA_LOAD
 from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fit_line_area
+from contactsim.hysteresis import CYCLE
 from contactsim.laws import EFFECTS
+from contactsim.schema import is_smooth
 from contactsim.study import Study
 
 
@@ -66,6 +69,16 @@ def _rise(of: xr.DataArray, along: str) -> xr.DataArray:
     return of.isel({along: -1}) / of.isel({along: 0}) - 1
 
 
+def least_step(of: xr.DataArray, along: str) -> float:
+    """The smallest change from one value of a dimension to the next, the smallest over the others."""
+    return float(of.diff(along).min())
+
+
+def largest_step(of: xr.DataArray, along: str) -> float:
+    """The largest change from one value of a dimension to the next, the largest over the others."""
+    return float(of.diff(along).max())
+
+
 def least(of: xr.DataArray) -> float:
     """The smallest of all points."""
     return float(of.min())
@@ -106,7 +119,8 @@ TAKES: dict[str, Callable[..., float]] = {
     take.__name__: take
     for take in (
         *(mean, spread, fall, slope, spread_ratio, departure, ratio),
-        *(least, largest, largest_spread, rise, least_rise, largest_rise, rise_gain, shortfall),
+        *(least, largest, least_step, largest_step, largest_spread),
+        *(rise, least_rise, largest_rise, rise_gain, shortfall),
     )
 }
 
@@ -162,7 +176,7 @@ def quantities(study: Study) -> list[str]:
 
 def _path_quantities(study: Study) -> list[str]:
     """What a path amounts to, its grid errors, and what is varied."""
-    known = set(SUMMARY)
+    known = {*SUMMARY, *CYCLE, *AREA_LOAD} if is_smooth(study.settings) else set(AREA_LOAD)
     if not any("t" in EFFECTS[name].reads for name in study.settings["effects"]):
         known -= {name for name, of in FINAL.items() if of == "slip"}
     if study.settings["companion"] is not None:
@@ -192,4 +206,4 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
 def averaged(name: str) -> str | None:
     """The averaged quantity, with an error of the grid, that another is made from; None for what is exact."""
     made = "relative_contact_area" if name in (*FITTED, "half_width", "contact_radius") else name.removesuffix(LIMIT)
-    return made if made in (*AVERAGED, *SUMMARY) else None
+    return made if made in (*AVERAGED, *SUMMARY, *CYCLE, *AREA_LOAD) else None

@@ -12,8 +12,10 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
-from contactsim.ensemble import relative_change
+from contactsim.adhesion import LEGS, legs
+from contactsim.ensemble import converged, relative_change
 from contactsim.figures import rough_curves as rough
 from contactsim.figures import style
 
@@ -22,8 +24,10 @@ LINES = ("-", ":", "-.", "--")
 """Lines of thicknesses, the largest first."""
 FAINT = 0.35
 WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
-INTERFACE, SHOWN = 20.0, 0.12
-"""Approach (nm) beyond first touch of the pictures of the interface, and the part of the period that they show."""
+INTERFACE, SHOWN, COVERED, CLOSE_UP = 20.0, 0.12, 0.3, 0.05
+"""Approach (nm) beyond first touch of the pictures of the interface, and the parts of the period that they show."""
+BESIDE = ({"ha": "center", "va": "bottom"}, {"ha": "right", "va": "center"})
+"""Where words stand at a bar along x, and at one along z."""
 SHADES = {"kappa_r": 1.0, "relative_contact_area": FAINT}
 """Opacity of the changes drawn; the grid errors over pairs are as faint as those of the area."""
 
@@ -77,9 +81,10 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
         dense = np.array([0.0, 2.0])
         panel.plot(dense, kappa_r * dense, color=style.EXACT, lw=0.8, ls=(0, (6, 3)), label=f"thesis, {kappa_r:g}")
         panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS["relative_interacting_area"])
-    axes[0].set(xlim=(-0.015, 0.06), ylim=(0, 1.02))
+    axes[0].set(xlim=_reached(axes[0], -0.015, 0.06), ylim=(0, 1.02))
     axes[1].set(xlim=(-0.004, 0.012), ylim=(0, 0.5))
-    axes[0].legend(loc="lower right")
+    axes[1].xaxis.set_major_locator(MaxNLocator(5))
+    axes[1].legend(loc="lower right", bbox_to_anchor=(1.0, 0.07))
     _letters(axes)
     return pd.concat(rows[: len(rows) // 2])
 
@@ -104,18 +109,46 @@ def fig_5_4(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes]) -> pd.DataFram
 
 def fig_5_5(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """The interface at an approach with the strongest adhesion and with a hard wall (thesis Fig. 5.5)."""
-    place, part = INTERFACE, slice(None)
     strong = data.sel(work_of_separation=data.work_of_separation.max())
-    looks = {"color": style.PAIRS, "label": rough.work_words(data, float(strong.work_of_separation))}
-    shown = rough.interface(axes, strong, place, looks, _window(strong))
     part = _window(strong)
-    gap = wall.isel(member=0, step=-1).gap.values
-    rigid = -wall.isel(member=0).heights.values - float(wall.isel(member=0).approach_first_touch) - place
-    x = np.arange(gap.size) * float(wall.length) / gap.size
-    axes.plot(x[part], (rigid - gap)[part], color=style.CONTACT, lw=0.9, label="hard wall")
+    looks = {"color": style.PAIRS, "label": rough.work_words(data, float(strong.work_of_separation))}
+    shown = rough.interface(axes, strong, INTERFACE, looks, part)
+    surface = _wall_surface(wall)[part]
+    axes.plot(shown.x, surface, color=style.WHOLE, lw=0.9, label="hard wall")
     axes.set(xlabel="$x$ (nm)", ylabel="$z$ (nm)")
-    axes.legend(loc="upper left")
-    return shown.assign(wall=(rigid - gap)[part])
+    axes.legend(loc="lower left")
+    return shown.assign(wall=surface)
+
+
+def cover(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
+    """The rough profile and the surface below it, with adhesion and without: the thesis's cover."""
+    strong = data.sel(work_of_separation=data.work_of_separation.max())
+    part = _window(strong, COVERED)
+    looks = {"color": style.PAIRS, "label": rough.work_words(data, float(strong.work_of_separation))}
+    shown = rough.interface(axes, strong, INTERFACE, looks, part)
+    surface = _wall_surface(wall)[part]
+    axes.plot(shown.x, surface, color=style.WHOLE, lw=0.9, label="hard wall")
+    depth = float(np.minimum(shown.surface, surface).min()) - 8.0
+    axes.fill_between(shown.x, depth, np.minimum(shown.surface, surface), color="#f0e6d2", lw=0, zorder=0)
+    begin, bottom = float(shown.x.iloc[0]), depth + 1.5
+    for ends, words in (
+        (([begin + 80, begin + 280], [bottom, bottom]), "200 nm"),
+        (([begin + 80, begin + 80], [bottom, bottom + 10]), "10 nm"),
+    ):
+        axes.plot(*ends, color=style.EXACT, lw=1.5, solid_capstyle="butt")
+        upright = ends[0][0] == ends[0][1]
+        place = (begin + 65, bottom + 5) if upright else (begin + 180, bottom + 0.8)
+        axes.text(*place, words, rotation=90 * upright, fontsize=7, **BESIDE[upright])
+    axes.set_ylim(depth, float(shown.rigid.max()) + 5.0)
+    axes.axis("off")
+    axes.legend(loc="lower right")
+    return shown.assign(wall=surface)
+
+
+def _wall_surface(wall: xr.Dataset) -> np.ndarray:
+    """Height (nm) of the surface of the first member under a hard wall, at its last approach."""
+    one = wall.isel(member=0)
+    return -one.heights.values - float(one.approach_first_touch) - INTERFACE - one.isel(step=-1).gap.values
 
 
 def fig_5_6(
@@ -155,13 +188,16 @@ def fig_5_7(
             look = {"color": style.hurst_colour(value), "ls": line, "marker": style.HURST[value][0]}
             rows.append(_against_pressure(axes[0], rough.prepared(one), words, **look))
     _pressures(axes[0])
-    pictures = ((axes[1], 0.8, strong), (axes[2], 0.2, hurst.sel(hurst=0.2)))
-    for panel, value, whole in pictures:
-        for one, count, color in ((whole, 512, style.CONTACT), (coarsest.sel(hurst=value), 64, style.WHOLE)):
+    pictures = ((axes[1], 0.8, strong, SHOWN), (axes[2], 0.2, hurst.sel(hurst=0.2), CLOSE_UP))
+    for panel, value, whole, share in pictures:
+        fewest = coarsest.sel(hurst=value)
+        for one, count, color in ((whole, 512, style.CONTACT), (fewest, 64, style.WHOLE)):
             looks = {"color": color, "label": rf"$\epsilon_f=1/{count}$"}
-            rough.interface(panel, one, INTERFACE, looks, _window(one))
-        panel.set(xlabel="$x$ (nm)", ylabel="$z$ (nm)", title=f"$H={value:g}$")
-        panel.legend(loc="upper left")
+            part = _about(one, _peak(whole), share)
+            rough.interface(panel, one, INTERFACE, looks, part, filled=one is whole)
+        panel.set(xlabel="$x$ (nm)", ylabel="$z$ (nm)")
+        panel.set_title(f"$H={value:g}$", fontsize=9)
+        panel.legend(loc="lower right")
     _letters(axes)
     return pd.concat(rows)
 
@@ -185,6 +221,54 @@ def fig_5_8(data: xr.Dataset, normal: xr.Dataset, axes: list[Axes]) -> pd.DataFr
     return pd.concat(rows)
 
 
+def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Cycles of approach and retraction for rms heights: loops, pull-off and what is dissipated (beyond the thesis)."""
+    names = {"normalised_pressure": axes[0], "relative_interacting_area": axes[1]}
+    modulus, rows = float(data.contact_modulus), []
+    for height, color in style.shades(data.surface_rms_height.values).items():
+        one = data.sel(surface_rms_height=height).isel(member=0)
+        indentation = (one.approach - one.approach_first_touch).values
+        shown = {"rms_height": height, "indentation": indentation}
+        for name, panel in names.items():
+            shown[name] = converged(one[name], one).values
+            for leg, part in zip(LEGS, legs(indentation), strict=True):
+                part = slice(max(part.start - 1, 0), part.stop)
+                words = rf"$h_{{\mathrm{{rms}}}}={height:g}$ nm" if leg == LEGS[0] else None
+                look = {"color": color, "lw": 1.0, "ls": "-" if leg == LEGS[0] else "--", "label": words}
+                panel.plot(indentation[part], shown[name][part], **look)
+            panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[name])
+        rows.append(pd.DataFrame(shown))
+    axes[0].axhline(0.0, color=style.EXACT, lw=0.5)
+    axes[1].legend(loc="upper left")
+    ends = {}
+    for leg, fill in zip(LEGS, (style.CONTACT, "white"), strict=True):
+        scale = 1 / (float(data.length) * modulus)
+        ends |= _against_height(axes[2], data, f"pull_off_load_{leg}", scale, leg, style.CONTACT, fill)
+    axes[2].set_ylabel(r"pull-off $-p/E^*$")
+    work = rough.work(data)
+    ends |= _against_height(axes[3], data, "dissipated_work", 1 / work, "per cycle", style.WHOLE, style.WHOLE)
+    axes[3].set_ylabel(r"dissipated energy / $\varphi_n$")
+    for panel in axes[2:]:
+        panel.set(xlabel=r"$h_{\mathrm{rms}}$ (nm)")
+    axes[2].set_yscale("log")
+    axes[2].legend(loc="upper right")
+    _letters(axes)
+    return pd.concat([*rows, pd.DataFrame({"rms_height": data.surface_rms_height.values} | ends)])
+
+
+def _against_height(
+    panel: Axes, data: xr.Dataset, name: str, scale: float, words: str, color: str, fill: str
+) -> dict[str, np.ndarray]:
+    """Mean over members against the rms height; bars: standard error and what the increments leave open, together."""
+    values, count = data[name], data[name].count("member")
+    spread = values.std("member", ddof=1) / np.sqrt(count)
+    error = np.hypot(spread, data[f"{name}_increment_error"].mean("member"))
+    look = {"fmt": "o-", "ms": 4, "mfc": fill, "color": color, "lw": 0.8, "elinewidth": 0.8, "capsize": 1.5}
+    mean = values.mean("member")
+    panel.errorbar(data.surface_rms_height.values, scale * mean.values, scale * error.values, label=words, **look)
+    return {f"{name}_mean": mean.values, f"{name}_error": error.values, f"{name}_members": count.values}
+
+
 def _against_pressure(panel: Axes, one: xr.Dataset, words: str, **look: object) -> pd.DataFrame:
     return rough.curve(panel, one, one.normalised_pressure_mean, "relative_interacting_area", words, lw=1.0, **look)
 
@@ -192,15 +276,34 @@ def _against_pressure(panel: Axes, one: xr.Dataset, words: str, **look: object) 
 def _pressures(panel: Axes) -> None:
     """Area against pressure, as far as the contact is not yet whole."""
     panel.set(xlabel=rough.LABELS["normalised_pressure"], ylabel=rough.LABELS["relative_interacting_area"])
-    panel.set(xlim=(-0.006, 0.03), ylim=(0, 1.02))
-    panel.legend(loc="lower right", fontsize=6.5)
+    panel.set(xlim=_reached(panel, -0.006, 0.03), ylim=(0, 1.02))
+    panel.legend(loc="best", fontsize=6.5)
 
 
-def _window(one: xr.Dataset) -> slice:
-    """The part of the period about the highest point, which touches first."""
+def _reached(panel: Axes, least: float, most: float) -> tuple[float, float]:
+    """The part of a range of pressures that curves reach, with a margin."""
+    drawn = np.concatenate([np.asarray(line.get_xdata(), float) for line in panel.lines])
+    drawn = drawn[np.isfinite(drawn) & (drawn > least) & (drawn < most)]
+    margin = 0.06 * np.ptp(drawn)
+    return max(drawn.min() - margin, least), min(drawn.max() + margin, most)
+
+
+def _window(one: xr.Dataset, share: float = SHOWN) -> slice:
+    """A part of the period about the highest point, which touches first."""
+    return _about(one, _peak(one), share)
+
+
+def _peak(one: xr.Dataset) -> float:
+    """Where the highest point of the first member is, in parts of the period."""
     heights = one.heights.isel(member=0).values
-    width = int(heights.size * SHOWN)
-    middle = int(np.clip(np.argmax(heights), width // 2, heights.size - width // 2))
+    return float(np.argmax(heights)) / heights.size
+
+
+def _about(one: xr.Dataset, place: float, share: float) -> slice:
+    """A part of the period about a place, also given as a part of it."""
+    count = one.x.size
+    width = int(count * share)
+    middle = int(np.clip(round(place * count), width // 2, count - width // 2))
     return slice(middle - width // 2, middle + width // 2)
 
 

@@ -73,27 +73,24 @@ def curve(axes: Axes, one: xr.Dataset, x: xr.DataArray, name: str, words: str, *
     return pd.DataFrame(shown | ({grid: one[grid]} if grid in one else {}))
 
 
-def interface(axes: Axes, one: xr.Dataset, place: float, looks: dict[str, str], part: slice) -> pd.DataFrame:
-    """The rigid profile and the deformed surface of one member at a snapshot, over a part of the period."""
+def interface(
+    axes: Axes, one: xr.Dataset, place: float, looks: dict[str, str], part: slice, filled: bool = True
+) -> pd.DataFrame:
+    """The rigid profile and the deformed surface of one member at a snapshot, over a part of the period.
+
+    filled: the profile grey; else a line in the colour of the surface alone, beside another that is grey.
+    """
     here = one.isel(member=0).sel(snapshot=place, method="nearest")
     x = here.x.values[part]
     down = float(here.approach_first_touch) + place
     rigid = -here.heights.values[part] - down
     surface = rigid - here.normal_gap.values[part]
-    axes.fill_between(x, rigid, rigid.max() + 5.0, color="#cccccc", lw=0, zorder=0)
-    axes.plot(x, rigid, color="#777777", lw=0.6)
+    if filled:
+        axes.fill_between(x, rigid, rigid.max() + 5.0, color="#cccccc", lw=0, zorder=0)
+    axes.margins(x=0)
+    axes.plot(x, rigid, color="#777777" if filled else looks["color"], lw=0.6, alpha=1.0 if filled else 0.5)
     axes.plot(x, surface, lw=0.9, **looks)
     return pd.DataFrame({"x": x, "rigid": rigid, "surface": surface})
-
-
-def slopes_warning(*studies: xr.Dataset) -> str:
-    """What a footer says of slopes beyond what linear elasticity of small slopes is good for."""
-    steep = max(float(data.rms_gradient.max()) for data in studies)
-    return f"rms gradient up to {steep:.2g}" + (": beyond small slopes" if steep > SMALL_SLOPE else "")
-
-
-SMALL_SLOPE = 0.25
-"""Rms gradient beyond which a result says that slopes are not small."""
 
 
 def work_words(data: xr.Dataset, work: float) -> str:
@@ -101,6 +98,12 @@ def work_words(data: xr.Dataset, work: float) -> str:
     settings = dataset.settings_of(data)
     length = settings[settings["effects"][0]]["normal_length"]
     return rf"$\varphi_n^*={work / (length * settings['body']['youngs_modulus']):.2g}$"
+
+
+def work(data: xr.Dataset) -> float:
+    """The work of separation of the first effect of a study that does not vary it (N/m)."""
+    settings = dataset.settings_of(data)
+    return settings[settings["effects"][0]]["work_of_separation"]
 
 
 def works(data: xr.Dataset) -> dict[float, str]:
