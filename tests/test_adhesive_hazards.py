@@ -11,6 +11,7 @@ from contactsim.elasticity import HalfSpace, Layer
 from contactsim.hazards import HAZARDS, first_line
 from contactsim.hazards.adhesive import ADHESIVE
 from contactsim.hazards.paths import PathCase, surface_compliance
+from contactsim.hazards.rough import ROUGH
 from contactsim.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.loading import press
 from contactsim.path_verdicts import path_faults
@@ -20,7 +21,7 @@ from contactsim.stability import judge
 from contactsim.verdicts import Outcome
 from smooth import LENGTH, along, scene_of
 
-NAMES = [hazard.__name__ for hazard in ADHESIVE]
+NAMES = [hazard.__name__ for hazard in (*ADHESIVE, *ROUGH)]
 SOLVERS = {"newton": {}, "mass_weighted_verlet": {"budget": 300}, "energy_minimisation": {}}
 CASE = PathCase(scene_of(NormalCohesiveZone(2.0), along(-8.0, 0.0, 4.0)), parts=4)
 FRICTION = PathCase(scene_of(CohesiveZone(2.0, 1.0), along(-8.0, 0.0, 4.0)))

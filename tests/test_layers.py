@@ -17,8 +17,8 @@ solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_ve
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow
 observables adhesion analytic provenance dataset config build schema study tabulate branch loads march extrapolation
 ensemble fits hysteresis area_load aggregate costs joblog takes findings claims api
-hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards
-verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
+hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough
+hazards verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves
 figures.rough_curves figures.ch2 figures.ch3 figures.ch4
 figures.ch5 figures.stability figures.render figures.claims figures.knobs figures.accuracy figures.sketch

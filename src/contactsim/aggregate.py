@@ -95,7 +95,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     """Paths with what they amount to, and its change on halving the grid and on solving more tightly."""
     smooth = "line_load" in fine  # else a hard wall pressed through given approaches
-    made, names = (_of_states, ALONG_PATHS) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
+    made, names = (of_states, ALONG_PATHS) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
     data = made(fine)
     if data.member.size > 1:
         data = data.merge(_ensemble(data, names))
@@ -114,7 +114,7 @@ def _of_contacts(data: xr.Dataset) -> xr.Dataset:
     return related(data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus))
 
 
-def _of_states(data: xr.Dataset) -> xr.Dataset:
+def of_states(data: xr.Dataset) -> xr.Dataset:
     """States of smooth laws as parts of the whole, and what their paths amount to."""
     data = cycled(summarised(data))
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}

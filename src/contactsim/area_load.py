@@ -22,7 +22,11 @@ LEVELS = {"pressure_at_fiftieth": 0.02, "pressure_at_tenth": 0.1, "pressure_at_t
 """Relative areas at which the pressure is read."""
 DEEP = 12.0
 """Approach (nm) beyond first touch at which the area is read."""
-AREA_LOAD = ("nonlinearity", "curvature", "nonlinearity_reduced", "curvature_reduced", *LEVELS, "area_at_twelve")
+AREA_LOAD = (
+    *("nonlinearity", "curvature", "nonlinearity_reduced", "curvature_reduced"),
+    *LEVELS,
+    *("area_at_twelve", "pressure_at_twelve", "gradient_at_fiftieth"),
+)
 """What the curve of area against load amounts to; `_reduced` of p_r*, else of p/E*."""
 KINDS = {
     "relative_interacting_area": "rms_gradient_interacting",
@@ -61,17 +65,21 @@ def first_reached(area: Array, level: float, values: Array) -> float:
     return float(values[after - 1] + share * (values[after] - values[after - 1]))
 
 
-def curve_numbers(indentation: Array, area: Array, pressure: Array, reduced: Array) -> tuple[float, ...]:
-    """`AREA_LOAD` of one curve (step,); indentation: approach beyond first touch (nm); pressures over E*.
+def curve_numbers(indentation: Array, area: Array, pressure: Array, gradient: Array, whole: float) -> tuple[float, ...]:
+    """`AREA_LOAD` of one curve (step,); indentation: approach beyond first touch (nm); pressure over E*.
 
-    Of the loading leg, up to the first state that is unknown.
+    gradient: over the contact, (step,); whole: over all of the surface. Of the loading leg, up to the first state that
+    is unknown.
     """
-    count = len(list(takewhile(np.isfinite, np.where(np.isfinite(pressure), area, np.nan)[legs(indentation)[0]])))
-    indentation, area, pressure, reduced = (one[:count] for one in (indentation, area, pressure, reduced))
-    few = (area > 0) & (area <= LARGEST) & np.isfinite(reduced)
-    found = [how(area[few], one[few]) for one in (pressure, reduced) for how in (nonlinearity, curvature)]
+    known = np.isfinite(pressure[legs(indentation)[0]])
+    count = len(list(takewhile(bool, known)))
+    indentation, area, pressure, gradient = (one[:count] for one in (indentation, area, pressure, gradient))
+    few = (area > 0) & (area <= LARGEST) & np.isfinite(gradient)
+    kinds = pressure[few], pressure[few] / gradient[few]
+    found = [how(area[few], one) for one in kinds for how in (nonlinearity, curvature)]
     found += [first_reached(area, level, pressure) for level in LEVELS.values()]
-    return *found, first_reached(indentation, DEEP, area)
+    found += [first_reached(indentation, DEEP, one) for one in (area, pressure)]
+    return *found, first_reached(area, LEVELS["pressure_at_fiftieth"], gradient / whole)
 
 
 def related(data: xr.Dataset) -> xr.Dataset:
@@ -79,10 +87,11 @@ def related(data: xr.Dataset) -> xr.Dataset:
     name = next(kind for kind in KINDS if kind in data)
     approach = data.get("approach", data.get("approach_found"))
     pressure = converged(data.normalised_pressure, data)
+    whole = data.rms_gradient.mean("step") if "step" in data.rms_gradient.dims else data.rms_gradient
     columns = xr.apply_ufunc(
         curve_numbers,
-        *(approach - data.approach_first_touch, data[name], pressure, pressure / data[KINDS[name]]),
-        input_core_dims=[["step"]] * 4,
+        *(approach - data.approach_first_touch, data[name], pressure, data[KINDS[name]], whole),
+        input_core_dims=[["step"]] * 4 + [[]],
         output_core_dims=[[]] * len(AREA_LOAD),
         vectorize=True,
     )

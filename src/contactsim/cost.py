@@ -15,8 +15,7 @@ from pathlib import Path
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.adhesion import SUMMARY
-from contactsim.aggregate import AVERAGED, combined
+from contactsim.aggregate import combined
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
@@ -30,6 +29,7 @@ from contactsim.study import Study
 from contactsim.takes import quantities
 from contactsim.traits import Trait
 
+PRICED = (*SingleLoads.quantities, *WholePath.quantities)
 CASE_KEYS = {
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
@@ -38,7 +38,7 @@ CASE_KEYS = {
     "vary": Key(mapping, "a mapping from keys that the study varies to lists of some of their values", {}),
     "load": Key(listed(number), "a list of the study's loads", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
-    "quantities": Key(listed(choice((*AVERAGED, *SUMMARY))), f"a list from {', '.join((*AVERAGED, *SUMMARY))}"),
+    "quantities": Key(listed(choice(PRICED)), f"a list from {', '.join(PRICED)}"),
     "settled": Key(mapping, "a value of each knob, at which the others are turned"),
     "reference": Key(mapping, "the value of each knob in the references"),
     "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),

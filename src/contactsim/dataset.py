@@ -175,6 +175,8 @@ VARIABLES = {
     "pressure_at_tenth": ("1", "pressure over E* where the relative area first reaches 0.1"),
     "pressure_at_third": ("1", "pressure over E* where the relative area first reaches 1/3"),
     "area_at_twelve": ("1", "relative area at an approach of 12 nm beyond first touch"),
+    "pressure_at_twelve": ("1", "pressure over E* at an approach of 12 nm beyond first touch"),
+    "gradient_at_fiftieth": ("1", "rms gradient over the contact, over that of all, at a relative area of 0.02"),
     "normal_gap": ("nm", "normal gap"),
     "tangential_gap": ("nm", "tangential gap"),
     "opening": ("nm", "normal gap along a curve"),

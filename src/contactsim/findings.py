@@ -1,8 +1,9 @@
 """The number that answers a claim, with its ensemble error and its grid error.
 
 A claim over a second study is about the ratio of the means of the two at the loads and variants that both have; what
-only one of the two varies is held against the other at each value. Their ensembles are independent: the jackknife
-leaves out a member of one, then of the other, and the two errors add in quadrature. Of the grid errors the worst
+only one of the two varies is held against the other at each value. Ensembles of the same random waves lose a member
+together in the jackknife; of independent ones it leaves out a member of one, then of the other, and the two errors add
+in quadrature. Of the grid errors the worst
 combination counts, as of any two quantities; where the grids of both err to the same side, that overstates the error of
 the ratio. What the increments of a path leave open is counted with the grid. The grid error of a limit on finer grids
 is its distance from that of first order.
@@ -50,7 +51,7 @@ def find(claim: Mapping, data: Sequence[xr.Dataset], condition: Mapping | None =
     if any(0 in one.sizes.values() for one in data):
         return Finding()
     value = _number(claim, data)
-    ensemble = math.hypot(*(_jackknife(claim, data, which) for which in range(len(data))))
+    ensemble = math.hypot(*(_jackknife(claim, data, together) for together in _alike(data)))
     grid = _shifted(claim, data, value)
     if "thesis" in [part["grid"] for part in parts]:
         own = all(int(one.points) == dataset.settings_of(one)["thesis_points"] for one in data)
@@ -68,19 +69,29 @@ def _number(claim: Mapping, data: Sequence[xr.Dataset]) -> float:
     return TAKES[take](ask(claim["of"]), **{need: given[need](claim[need]) for need in needs(take)})
 
 
-def _with(data: Sequence[xr.Dataset], which: int, one: xr.Dataset) -> list[xr.Dataset]:
-    return [one if k == which else other for k, other in enumerate(data)]
+def _alike(data: Sequence[xr.Dataset]) -> list[tuple[int, ...]]:
+    """Places of the datasets in groups whose members are the same random waves."""
+    known = [dataset.settings_of(one) for one in data]
+    waves = [(one.get("surfaces_of") or one.get("name", place)) for place, one in enumerate(known)]
+    shared = len(set(waves)) == 1 and len({one.member.size for one in data}) == 1
+    places = range(len(data))
+    return [tuple(places)] if shared else [(place,) for place in places]
 
 
-def _jackknife(claim: Mapping, data: Sequence[xr.Dataset], which: int) -> float:
-    """Standard error from leaving out each member of one of the datasets; of a mean it is the usual one.
+def _jackknife(claim: Mapping, data: Sequence[xr.Dataset], together: Sequence[int]) -> float:
+    """Standard error from leaving out each member of some of the datasets; of a mean it is the usual one.
 
     One member has none where the surface is not random, else an unknown one.
     """
-    count = data[which].member.size
+    count = data[together[0]].member.size
     if count == 1:
-        return NAN if dataset.settings_of(data[which])["surface"]["kind"] == "self_affine" else 0.0
-    parts = [_number(claim, _with(data, which, data[which].drop_isel(member=member))) for member in range(count)]
+        return NAN if dataset.settings_of(data[together[0]])["surface"]["kind"] == "self_affine" else 0.0
+
+    def without(member: int) -> list[xr.Dataset]:
+        """All datasets, those of the group without that member."""
+        return [one.drop_isel(member=member) if place in together else one for place, one in enumerate(data)]
+
+    parts = [_number(claim, without(member)) for member in range(count)]
     return math.sqrt((count - 1) * np.var(parts))
 
 

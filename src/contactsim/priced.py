@@ -14,10 +14,12 @@ from pathlib import Path
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.adhesion import SUMMARY, summarised
-from contactsim.aggregate import AVERAGED
+from contactsim.adhesion import SUMMARY
+from contactsim.aggregate import AVERAGED, of_states
+from contactsim.area_load import AREA_LOAD
 from contactsim.config import Key, listed, positive, read, whole
 from contactsim.errors import SceneError
+from contactsim.hysteresis import CYCLE
 from contactsim.schema import is_smooth
 from contactsim.solvers.base import Status
 from contactsim.study import Study
@@ -104,7 +106,7 @@ class WholePath:
     """A path of smooth laws as a whole, every increment solved as it is asked for; names as those of `SingleLoads`."""
 
     knobs = (*SingleLoads.knobs, "increment")
-    quantities = SUMMARY
+    quantities = (*SUMMARY, *CYCLE, *AREA_LOAD)
     without = {"load": "no such key: the study follows a path, which is priced whole"}
 
     def takes(self, study: Study) -> bool:
@@ -168,7 +170,7 @@ def solutions(data: xr.Dataset) -> xr.Dataset:
         return data
     failed = data.status != Status.CONVERGED.value[0]
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
-    found = summarised(data)
-    return found[[name for name in SUMMARY if name in found]].assign(
+    found = of_states(data)
+    return found[[name for name in WholePath.quantities if name in found]].assign(
         transforms=data.transforms.sum("step"), status=first
     )

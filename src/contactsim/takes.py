@@ -176,9 +176,10 @@ def quantities(study: Study) -> list[str]:
 
 def _path_quantities(study: Study) -> list[str]:
     """What a path amounts to, its grid errors, and what is varied."""
-    known = {*SUMMARY, *CYCLE, *AREA_LOAD} if is_smooth(study.settings) else set(AREA_LOAD)
-    if not any("t" in EFFECTS[name].reads for name in study.settings["effects"]):
-        known -= {name for name, of in FINAL.items() if of == "slip"}
+    known = set(AREA_LOAD)
+    if is_smooth(study.settings):
+        slips = any("t" in EFFECTS[name].reads for name in study.settings["effects"])
+        known |= {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
     if study.settings["companion"] is not None:
         known |= {f"{name}_grid_error" for name in known}
     return sorted(known | (set(study.dimensions) - {"member", "step"}))
@@ -199,7 +200,8 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
     if name == "contact_radius":
         return np.sqrt(quantity(data, "relative_contact_area") * data.length * data.length_y / np.pi)
     if "step" in data.dims:
-        return data[name].mean("member") if "member" in data[name].dims else data[name]
+        whole = name in (*CYCLE, *AREA_LOAD)  # what one member never reaches is not known of the others' mean
+        return data[name].mean("member", skipna=not whole) if "member" in data[name].dims else data[name]
     return converged(data[name], data).mean("member")
 
 

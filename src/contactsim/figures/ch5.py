@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from contactsim.adhesion import LEGS, legs
+from contactsim.adhesion import CRITERION, INTERACTING, LEGS, legs
 from contactsim.ensemble import converged, relative_change
 from contactsim.figures import rough_curves as rough
 from contactsim.figures import style
@@ -254,6 +254,31 @@ def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     axes[2].legend(loc="upper right")
     _letters(axes)
     return pd.concat([*rows, pd.DataFrame({"rms_height": data.surface_rms_height.values} | ends)])
+
+
+def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Relative area by every criterion, for the strongest and the weakest adhesion (beyond the thesis)."""
+    chosen = data.work_of_separation.max(), data.work_of_separation.min()
+    rows = []
+    for panel, work in zip(axes, chosen, strict=False):
+        one = rough.prepared(data.sel(work_of_separation=work))
+        areas = {name: converged(one[name], one) / one.length for name in ("repulsive_length", *INTERACTING)}
+        middle = areas[CRITERION].mean("member")
+        for (name, area), color in zip(areas.items(), style.shades(range(len(areas))).values(), strict=True):
+            mean, error = area.mean("member"), area.std("member", ddof=1) / np.sqrt(area.count("member"))
+            words = f"above {INTERACTING[name]:g} of the strength" if name in INTERACTING else "repulsive"
+            panel.plot(one.indentation, mean, color=color, lw=1.0, label=words)
+            panel.errorbar(one.indentation[-1], mean[-1], error[-1], color=color, elinewidth=0.8, capsize=1.5)
+            if work == chosen[0]:
+                axes[2].plot(one.indentation, mean / middle, color=color, lw=1.0)
+            shown = {"indentation": one.indentation, "area": mean, "standard_error": error}
+            rows.append(pd.DataFrame(shown).assign(criterion=name, work_of_separation=float(work)))
+        panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS["relative_interacting_area"], ylim=(0, 1))
+        panel.set_title(rough.work_words(data, float(work)), fontsize=9)
+    axes[0].legend(loc="upper left")
+    axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
+    _letters(axes)
+    return pd.concat(rows)
 
 
 def _against_height(

@@ -41,6 +41,18 @@ SYMBOLS = {
     "final_pressure": "final pressure",
     "final_pull": "final traction",
     "final_slip": "final slip",
+    "dissipated_energy": "dissipated energy",
+    "dissipated_work": "dissipated work",
+    "nonlinearity": "non-linearity",
+    "nonlinearity_reduced": "non-linearity of $p_r^*$",
+    "curvature": "curvature",
+    "curvature_reduced": "curvature of $p_r^*$",
+    "pressure_at_fiftieth": "$p/E^*$ at $a=0.02$",
+    "pressure_at_tenth": "$p/E^*$ at $a=0.1$",
+    "pressure_at_third": "$p/E^*$ at $a=1/3$",
+    "area_at_twelve": r"$a$ at 12 nm",
+    "pressure_at_twelve": r"$p/E^*$ at 12 nm",
+    "gradient_at_fiftieth": r"$\bar g_r/\bar g$ at $a=0.02$",
 }
 """Symbols of quantities, or a few words."""
 PLACES = {"hurst": "$H$", "reduced_pressure": "$p^*$", "mean_pressure": "$p$ (GPa)", "contact_ratio": "$c/R$"}

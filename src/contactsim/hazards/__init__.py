@@ -12,10 +12,11 @@ from contactsim.hazards.adhesive import ADHESIVE
 from contactsim.hazards.cases import Case
 from contactsim.hazards.lines import LINES
 from contactsim.hazards.paths import PathCase
+from contactsim.hazards.rough import ROUGH
 from contactsim.hazards.surfaces import SURFACES
 
 HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
-    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE)
+    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ROUGH)
 }
 
 
