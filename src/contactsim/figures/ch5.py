@@ -70,14 +70,13 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
 
     kappa_r: the thesis's constant without adhesion.
     """
-    data, wall, rows = rough.prepared(data), rough.prepared(wall), []
+    data, wall, rows, name = rough.prepared(data), rough.prepared(wall), [], "relative_interacting_area"
     for panel in axes:
         for work, color in rough.works(data).items():
             one = data.sel(work_of_separation=work)
             words = rough.work_words(data, work)
-            name = "relative_interacting_area"
             rows.append(rough.curve(panel, one, rough.reduced(one), name, words, color=color, lw=1.0))
-        rough.curve(panel, wall, rough.reduced(wall), "relative_interacting_area", "hard wall", **WALL_LOOK)
+        rows.append(rough.curve(panel, wall, rough.reduced(wall), name, "hard wall", **WALL_LOOK))
         dense = np.array([0.0, 2.0])
         panel.plot(dense, kappa_r * dense, color=style.EXACT, lw=0.8, ls=(0, (6, 3)), label=f"thesis, {kappa_r:g}")
         panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS["relative_interacting_area"])
@@ -98,7 +97,7 @@ def fig_5_4(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes]) -> pd.DataFram
             one = data.sel(work_of_separation=work)
             words = rough.work_words(data, work)
             rows.append(rough.curve(panel, one, one.indentation, name, words, color=color, lw=1.0))
-        rough.curve(panel, wall, wall.indentation, name, "hard wall", **WALL_LOOK)
+        rows.append(rough.curve(panel, wall, wall.indentation, name, "hard wall", **WALL_LOOK))
         panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[name], xlim=(-7, 24.5))
     axes[0].set_yscale("symlog", linthresh=1e-3)
     axes[1].set_ylim(0, 1.4)

@@ -1,0 +1,117 @@
+"""Figures of rough adhesive contact show what the datasets hold, and histograms are kept of all members."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+
+from contactsim import dataset
+from contactsim.adhesion import CRITERION, INTERACTING
+from contactsim.figures import ch5, rough_curves
+from contactsim.solvers.base import Status
+
+ROUGH = (
+    "rough_adhesive",
+    "rough_adhesive_15",
+    "rough_adhesive_30",
+    "rough_adhesive_hurst",
+    "rough_adhesive_128",
+    "rough_adhesive_64",
+    "rough_adhesive_coupled",
+    "rough_adhesive_unloading",
+)
+
+
+@pytest.fixture(scope="module")
+def studies(made):
+    """All studies of rough adhesive contact of the quick tier, and those of the hard wall, by name."""
+    names = (*ROUGH, "rough_wall", "rough_wall_picture")
+    return {name: dataset.read(made / f"results/quick/datasets/ch5_{name}.nc") for name in names}
+
+
+def panels(count: int) -> list:
+    figure = Figure(figsize=(3 * count, 3))
+    return [figure.add_subplot(1, count, place + 1) for place in range(count)]
+
+
+@pytest.mark.parametrize("name", ROUGH)
+def test_every_state_converged(studies, name):
+    assert (studies[name].status == Status.CONVERGED.value[0]).all()
+
+
+@pytest.mark.parametrize("name", ["rough_adhesive", "rough_adhesive_hurst", "rough_adhesive_64"])
+def test_histograms_are_kept_of_all_members_and_points_of_the_first_alone(studies, name):
+    data = studies[name]
+    for kind in ("normal_gap_share", "normal_traction_share"):
+        assert np.allclose(data[kind].sum(f"{kind.removesuffix('_share')}_bin"), 1.0)
+    fields = np.isfinite(data.normal_gap.isel(x=0))
+    assert fields.sel(member=0).all()
+    assert not fields.sel(member=slice(1, None)).any()
+
+
+def test_histograms_are_those_of_the_fields(studies):
+    data = studies["rough_adhesive"].sel(work_of_separation=10.5, member=0)
+    for snapshot in data.snapshot:
+        one = data.sel(snapshot=snapshot)
+        repulsive = one.normal_gap_share.sel(normal_gap_bin=slice(None, 0.0)).sum()
+        assert float(repulsive) == pytest.approx(float((one.normal_gap < 0).mean()))
+
+
+def test_areas_shrink_with_the_threshold_and_those_that_repel_are_the_least(studies):
+    data = studies["rough_adhesive"]
+    lengths = [data[name] for name in INTERACTING]
+    assert all((tight <= wide).all() for tight, wide in itertools.pairwise(lengths))
+    assert (data.repulsive_length <= data[CRITERION] + data.length / data.points).all()
+
+
+def test_curves_go_through_every_state_and_symbols_through_those_of_the_whole_grid(studies):
+    axes = panels(2)
+    shown = ch5.fig_5_3(studies["rough_adhesive"], studies["rough_wall"], axes, kappa_r=1.75)
+    data = studies["rough_adhesive"]
+    assert len(shown) == data.step.size * data.work_of_separation.size + studies["rough_wall"].step.size
+    assert shown[shown.case.str.contains("0.15")].whole_grid.sum() == 10
+    words = [text.get_text() for text in axes[1].get_legend().get_texts()]
+    assert words[-2:] == ["hard wall", "thesis, 1.75"]
+
+
+def test_the_pictures_show_the_rigid_profile_above_both_surfaces(studies):
+    for draw in (ch5.fig_5_5, ch5.cover):
+        shown = draw(studies["rough_adhesive"], studies["rough_wall_picture"], panels(1)[0])
+        assert (shown.wall <= shown.rigid + 1e-2).all()
+        assert ((shown.surface - shown.rigid) < 1.5).all()  # the law lets surfaces overlap a little
+        assert shown.rigid.min() == pytest.approx(-20.0, abs=1e-6)
+
+
+def test_the_cycle_dissipates_less_on_rougher_lines_and_pulls_more_when_it_is_pulled_off(studies):
+    data = studies["rough_adhesive_unloading"]
+    shown = ch5.unloading(data, panels(4))
+    ends = shown[shown.indentation.isna()].set_index("rms_height")
+    assert (np.diff(ends.dissipated_work_mean) < 0).all()
+    assert (ends.dissipated_work_mean > -ends.dissipated_work_error).all()
+    assert (ends.pull_off_load_unloading_mean > 0.999 * ends.pull_off_load_loading_mean).all()
+    assert (ends.dissipated_work_mean < rough_curves.work(data)).all()
+
+
+def test_contact_by_five_criteria_is_shown_for_both_ends_of_the_works(studies):
+    shown = ch5.thresholds(studies["rough_adhesive"], panels(3))
+    assert set(shown.criterion) == {"repulsive_length", *INTERACTING}
+    assert sorted(shown.work_of_separation.unique()) == [0.07, 10.5]
+    assert isinstance(shown, pd.DataFrame)
+
+
+def test_figures_5_6_to_5_8_label_every_case(studies):
+    main = studies["rough_adhesive"]
+    axes = panels(2)
+    ch5.fig_5_6(main, studies["rough_adhesive_15"], studies["rough_adhesive_30"], studies["rough_adhesive_hurst"], axes)
+    assert [len(one.get_legend().get_texts()) for one in axes] == [3, 3]
+    axes = panels(3)
+    hurst, coarse, coarsest = (studies[f"rough_adhesive_{kind}"] for kind in ("hurst", "128", "64"))
+    ch5.fig_5_7(main, hurst, coarse, coarsest, axes)
+    assert [len(one.get_legend().get_texts()) for one in axes] == [6, 2, 2]
+    axes = panels(2)
+    ch5.fig_5_8(studies["rough_adhesive_coupled"], main, axes)
+    assert len(axes[0].get_legend().get_texts()) == 7
