@@ -14,9 +14,9 @@ errors traits grid roughness scans measured topography surface plane_strain symb
 interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
-solvers.energy_minimisation solvers.predictor walk adaptive nested follow
-observables adhesion analytic provenance dataset config build schema study tabulate branch loads march extrapolation
-ensemble fits aggregate costs joblog takes findings claims api
+solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
+observables adhesion analytic provenance validity dataset config build schema study tabulate branch loads march
+extrapolation ensemble fits aggregate costs joblog takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards
 verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.ch2 figures.ch3

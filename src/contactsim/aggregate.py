@@ -52,7 +52,7 @@ LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     """One dataset of a study: dims (varied keys, member, load).
 
-    runs: path, coordinates, member, companion and tight of each; settings: of the study; source: digest of the code.
+    runs: path, coordinates, member, companion and error of each; settings: of the study; source: digest of the code.
     """
     fine = _read([run for run in runs if not run["companion"]])
     if "step" in fine.dims:
@@ -91,7 +91,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 
 
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
-    """Paths with what they amount to, and its change on halving the grid and on solving more tightly."""
+    """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
     if "line_load" not in fine:  # a hard wall pressed through given approaches
         data = fine.assign(normalised_pressure=fine.mean_pressure / fine.contact_modulus)
         return data.merge(_ensemble(data, (*AVERAGED, "normalised_pressure"))) if data.member.size > 1 else data
@@ -101,7 +101,9 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     for suffix, other in _others(runs):
         other = _of_states(summarised(other))
         same = data.sel(member=other.member)
-        changes = {name: abs(same[name] - other[name]).max("member") for name in SUMMARY if name in other}
+        changes = {
+            name: abs(same[name] - other[name]).max("member") for name in SUMMARY if name in other and name in same
+        }
         data = data.assign({f"{name}{suffix}": change for name, change in changes.items()})
         if data.member.size > 1:
             data = data.merge(_change(data, other, suffix, ALONG_PATHS))
@@ -117,11 +119,11 @@ def _of_states(data: xr.Dataset) -> xr.Dataset:
 
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
-    """What the errors of grid and tolerance are measured by, as far as there is such: suffix and dataset."""
-    for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
-        others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]
+    """What errors are measured by, as far as there is such: suffix and dataset."""
+    for error in ("grid", "tolerance", "left_out"):
+        others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
         if others:
-            yield suffix, _read(others)
+            yield f"_{error}_error", _read(others)
 
 
 def _read(runs: list[dict]) -> xr.Dataset:

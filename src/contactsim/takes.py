@@ -15,9 +15,10 @@ import xarray as xr
 from contactsim import analytic, extrapolation
 from contactsim.adhesion import FINAL, SUMMARY
 from contactsim.aggregate import AVERAGED
+from contactsim.build import scene_of
 from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fit_line_area
-from contactsim.laws import EFFECTS
+from contactsim.schema import COMPANIONS
 from contactsim.study import Study
 
 
@@ -163,10 +164,11 @@ def quantities(study: Study) -> list[str]:
 def _path_quantities(study: Study) -> list[str]:
     """What a path amounts to, its grid errors, and what is varied."""
     known = set(SUMMARY)
-    if not any("t" in EFFECTS[name].reads for name in study.settings["effects"]):
+    if "t" not in scene_of(study.runs()[0].settings).components:
         known -= {name for name, of in FINAL.items() if of == "slip"}
-    if study.settings["companion"] is not None:
-        known |= {f"{name}_grid_error" for name in known}
+    for part, (_, error, _) in COMPANIONS.items():
+        if study.settings[part] is not None:
+            known |= {f"{name}_{error}_error" for name in SUMMARY if name in known}
     return sorted(known | (set(study.dimensions) - {"member", "step"}))
 
 
