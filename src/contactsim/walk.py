@@ -23,8 +23,8 @@ SUDDEN, STEADY = 0.1, 5.0
 """A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
 is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
 
-DIVISIONS = 48
-"""Most halvings within one step."""
+DIVISIONS, DEEPEST = 32, 8
+"""Most halvings within one step, and of one part of it."""
 
 PATIENCE = 3
 """Steps in a row without a solution, each sought from the last stable state, after which a path breaks off."""
@@ -134,7 +134,8 @@ class Walk:
             spent += found.iterations if found else 0
             if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
                 place = self.place(step.control)
-                if left and place is not None and self._length(goal, abs(goals[-1] - place)) > SUDDEN * self._small:
+                divisible = left and len(goals) <= DEEPEST and place is not None
+                if divisible and self._length(goal, abs(goals[-1] - place)) > SUDDEN * self._small:
                     goals.append((place + goals[-1]) / 2)
                     left -= 1
                     continue
