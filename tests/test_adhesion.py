@@ -38,7 +38,28 @@ def test_a_path_that_only_loads_has_no_unloading():
     found = pull_off(APPROACH[:4], LOAD[:4]) | largest_jumps(APPROACH[:4], np.zeros(4))
     assert all(np.isnan(found[name]) for name in found if "unloading" in name)
     assert found["largest_jump_loading"] == 0.0
-    assert legs(APPROACH) == (slice(0, 4), slice(4, None))
+    assert legs(APPROACH) == (slice(0, 4), slice(4, 7))
+
+
+@pytest.mark.parametrize(
+    ("approach", "load", "loading", "unloading"),
+    [
+        ([0, 1, 2, 1, 0, -1], [0, -3, 5, 1, -2, -4], 3.0, np.nan),  # not yet open
+        ([0, 1, 2, 1, 0, -1], [0, -3, 5, 1, -4, np.nan], 3.0, 4.0),  # pulled apart by a load
+        ([0, 1, 2], [-4, -3, 5], np.nan, np.nan),  # pulls most where it begins
+        ([0, 1, 2, 1, 0, 1, 0, -1, -2], [0, -3, 5, 1, -2, -2.5, -3, -9, 0], 3.0, np.nan),  # a second cycle is another
+    ],
+)
+def test_a_leg_that_does_not_pass_its_largest_pull_has_no_pull_off(approach, load, loading, unloading):
+    found = pull_off(np.array(approach, float), np.array(load, float))
+    both = [found[f"pull_off_load_{name}"] for name in ("loading", "unloading")]
+    assert np.array_equal(both, [loading, unloading], equal_nan=True)
+    missing = [
+        np.isnan(found[f"pull_off_{what}_loading{end}"])
+        for what in ("load", "approach")
+        for end in ("", "_increment_error")
+    ]
+    assert missing == [np.isnan(loading)] * 4
 
 
 def test_states_that_did_not_converge_are_no_pull_off_and_no_last_state():

@@ -44,7 +44,7 @@ def test_no_path_is_answered_wrongly(hazard, severity):
     for name, options in SOLVERS.items():
         method = solver(name, **options)
         verdict = judge(case, method)
-        if not case.kind <= method.accepts:
+        if not case.scene.traits <= method.accepts:
             assert verdict.outcome is Outcome.REFUSED
             assert "accepts NON_CONSERVATIVE" in verdict.reason
         elif verdict.outcome is Outcome.FAILED:

@@ -492,7 +492,7 @@ def test_a_load_is_named_by_the_dimension_that_it_is():
 
 def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_from_the_grid_error(runs):
     listed = runs(companions=2)
-    tight = [run | {"tight": True} for run in listed if run["companion"]]
+    tight = [run | {"error": "tolerance"} for run in listed if run["companion"]]
     data = made([run for run in listed if not run["companion"]] + tight)
     assert "mean_gap_grid_error" not in data
     both = made(listed)

@@ -357,7 +357,8 @@ def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
 
 
 def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
-    pressed = ASPERITY | {"path": {"mean_pressure": [-0.01, 0.1], "increment": 0.01}, "snapshots": [0.1]}
+    path = {"path": {"mean_pressure": [-0.01, 0.1], "increment": 0.01}, "snapshots": [0.1]}
+    pressed = ASPERITY | path | {"increments": {"kind": "requested"}}
     study = Study.read("asperity", pressed, "own.yaml", 1)
     one = case(tmp_path, PATH_CASE)
     assert one.kind.units(study) == {"increment": "GPa"}

@@ -14,14 +14,14 @@ errors traits grid roughness scans measured topography surface plane_strain symb
 interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
 solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
-solvers.energy_minimisation solvers.predictor walk adaptive nested follow
-observables adhesion analytic provenance dataset config build schema study tabulate branch loads march extrapolation
-ensemble fits hysteresis area_load aggregate costs joblog takes findings claims api
-hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough
-hazards verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
-figures figures.style figures.maps figures.resolution figures.stress figures.load_curves
-figures.rough_curves figures.ch2 figures.ch3 figures.ch4
-figures.ch5 figures.stability figures.render figures.claims figures.knobs figures.accuracy figures.sketch
+solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
+observables adhesion analytic provenance validity dataset config build schema study tabulate branch loads march
+extrapolation ensemble fits hysteresis area_load aggregate costs joblog takes findings claims api
+hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards
+verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
+figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
+figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.stability figures.render figures.claims figures.knobs
+figures.accuracy figures.sketch
 figures.effects cli
 """.split()
 """Modules in import order: each may import those before it."""

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 
 from cases import refusal
+from contactsim.elasticity import Layer
 from contactsim.interface import pose_interface
+from contactsim.laws import CohesiveZone
 from contactsim.solvers import solver, solver_class
 from contactsim.solvers.base import require
 from contactsim.solvers.krylov import gmres
 from contactsim.solvers.zone import RATIO, ZonePreconditioner
 from contactsim.surface import Cylinder
-from smooth import LAWS, scene_of
+from smooth import LAWS, along, scene_of, walk
 
 
 def real_linear(seed, size, shape):
@@ -123,3 +125,48 @@ def test_a_time_step_beyond_the_limit_of_stability_is_refused():
         solver("damped_verlet", time_step=9.0).flow(problem, np.zeros(problem.unknowns, complex))
     with pytest.raises(ValueError, match=r"^time_step: got 1.0; allowed: "):
         solver("mass_weighted_verlet", time_step=1.0)
+
+
+UNSTABLE = [
+    (-0.5, 0.5, 8.0, 0.5),
+    (-0.5, 0.1, 8.0, 0.0),
+    (0.3, 0.3, 8.0, 0.0),
+    (0.3, 0.1, 8.0, 0.1),
+    (0.0, 0.1, 2.0, 0.1),
+]
+"""Poisson's ratio, δt, φn and c of contacts that part from their symmetry on a coarse grid."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("ratio", "length", "work", "friction"), UNSTABLE)
+def test_no_state_is_one_that_the_least_disturbance_leaves(ratio, length, work, friction):
+    law = CohesiveZone(work, friction, 1.0, length)
+    body = Layer(70.0 / (1 - ratio**2), ratio, 5000.0)
+    found = walk(scene_of(law, along(-10, 10, 0.5), body), points=128)
+    assert found.statuses == {"CONVERGED"}
+    for state in found.states:
+        here = state.problem
+        _, tangent = here.tangent(here.gap(state.displacement))
+        assert np.linalg.eigvals(_dense(here, tangent)).real.min() > 0
+
+
+def test_a_contact_leaves_its_symmetry_where_that_is_unstable():
+    body = Layer(70.0 / 0.91, -0.5, 3000.0)
+    found = walk(scene_of(CohesiveZone(2.0, 0.3, 1.0, 0.3), along(-10, -3, 0.1), body), points=128)
+    gaps = [found.gap(count)[0] for count in range(len(found.states))]
+    skew = np.array([np.abs(gap - np.roll(gap[::-1], 1)).max() for gap in gaps])
+    assert (skew > 0.1).any() and skew[0] < 1e-6  # on which side is left to the solver
+
+
+def _dense(problem, tangent):
+    """K + T' as a matrix of real numbers."""
+    rows, modes = problem.unknowns
+    real = [(row, wave, 1.0) for row in range(rows) for wave in range(modes)]
+    units = real + [(row, wave, 1j) for row in range(rows) for wave in range(1, modes - 1)]
+    columns = []
+    for row, wave, phase in units:
+        unit = np.zeros((rows, modes), complex)
+        unit[row, wave] = phase
+        moved = problem.balanced(tangent(unit), unit)
+        columns.append(np.concatenate([moved.real.ravel(), moved[:, 1:-1].imag.ravel()]))
+    return np.array(columns).T

@@ -564,7 +564,7 @@ def test_a_study_lists_each_run_with_its_files_and_digest(folder):
             "coordinates": run.coordinates,
             "member": run.member,
             "companion": run.companion,
-            "tight": run.tight,
+            "error": run.error,
             "digest": run.digest,
         }
     assert {settings["settings"][key] for key in ("name", "tier", "seed")} == {"rough", "plain", 1}

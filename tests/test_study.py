@@ -208,6 +208,34 @@ def test_keys_that_the_effects_have_no_use_for_are_refused(changes, key, effects
     assert error.allowed == f"no such key, as effects are {effects}"
 
 
+@pytest.mark.parametrize(
+    ("changes", "key", "allowed"),
+    [
+        ({"increments": {"kind": "nested", "settled": [-4.2]}}, "increments.settled", "steps of the path"),
+        (
+            {"increments": {"kind": "nested", "settled": [-4.0], "ratio": 128}},
+            "increments.ratio",
+            "divides half the grid",
+        ),
+        (
+            {"increments": {"kind": "adaptive"}, "solver": {"kind": "damped_verlet"}},
+            "increments",
+            "makes no predictions",
+        ),
+        (
+            {"increments": {"kind": "adaptive"}, "path": {"mean_pressure": [0.0, 0.1], "increment": 0.1}},
+            "increments.least",
+            "least and most in GPa",
+        ),
+        ({"snapshots": [-4.5, 3.0]}, "snapshots", "values near steps of the path; the nearest is -4"),
+    ],
+)
+def test_a_path_that_cannot_be_walked_is_refused_when_the_study_is_read(changes, key, allowed):
+    error = refusal(WALKED | changes)
+    assert (error.file, error.key) == ("ch9.yaml", f"studies.rough.{key}")
+    assert allowed in str(error)
+
+
 @pytest.mark.parametrize("section", [None, [], "a study"])
 def test_a_study_that_is_no_mapping_is_refused(section):
     with pytest.raises(SceneError, match=r"^ch9\.yaml: studies\.rough: got "):
@@ -527,7 +555,7 @@ def test_contact_ratios_are_turned_into_hertzian_loads():
 
 def test_tight_runs_come_after_all_others_and_differ_in_the_tolerance_alone():
     runs = study({"tight": {"tolerance": 1e-9, "members": 1}}).runs()
-    tight = [run for run in runs if run.tight]
+    tight = [run for run in runs if run.error == "tolerance"]
     assert runs[-len(tight) :] == tight
     assert all(run.companion for run in tight)
     for run in tight:

@@ -1,6 +1,8 @@
 """Increments as long as the prediction of the next state allows.
 
-The states asked for are interpolated between those of one smooth stretch, never across a jump.
+The states asked for are interpolated between those of one smooth stretch, never across a jump. As elasticity is linear,
+the residual of an interpolated state is known without a transform: it is the traction at the interpolated gap less the
+interpolated traction.
 """
 
 from __future__ import annotations
@@ -15,12 +17,15 @@ from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.loading import LoadStep
 from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import PathSolver
+from contactsim.solvers.equilibrium import Equilibrium, PathSolver
 from contactsim.solvers.predictor import POINTS, lagrange
+from contactsim.traits import Trait
 from contactsim.walk import PathState, Walk
 
 SAFETY, SHRINK, GROW = 0.9, 0.4, 2.0
 """Of an adaptive increment: share of the length that the error allows, least and largest change."""
+SHORTEST, LONGEST = 0.01, 1.0
+"""Increments of an approach (nm)."""
 CLOSE = 1e-6
 """Of an increment: what is nearer counts as the same place."""
 REFUSED = 4.0
@@ -33,61 +38,99 @@ class Stretch:
 
     jump: float
     places: list[float] = field(default_factory=list)
-    states: list[Array] = field(default_factory=list)
+    states: list[Equilibrium] = field(default_factory=list)
 
-    def near(self, place: float) -> Array:
+    def add(self, place: float, state: Equilibrium) -> None:
+        """A state that the walk came through."""
+        self.places.append(place)
+        self.states.append(state)
+
+    def near(self, problem: InterfaceProblem, place: float) -> Equilibrium:
         """The state at a place within, by the polynomial through the nearest states."""
         nearest = np.argsort(np.abs(np.asarray(self.places) - place), kind="stable")[:POINTS]
-        return lagrange([self.places[i] for i in nearest], [self.states[i] for i in nearest], place)
+        places, states = [self.places[i] for i in nearest], [self.states[i] for i in nearest]
+        if place in places:
+            return states[places.index(place)]
+
+        def between(name: str) -> Array:
+            """A field of the states at that place."""
+            return lagrange(places, [getattr(state, name) for state in states], place)
+
+        gap = between("gap")
+        traction = problem.traction(gap)
+        left = traction - between("traction")
+        free = problem.held.copy()
+        free[0] |= problem.load is not None
+        left[free] -= left[free].mean(axis=1, keepdims=True)
+        residual = float(np.abs(left).max() / problem.strength) + max(state.residual for state in states)
+        status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
+        return Equilibrium(between("displacement"), gap, traction, status, residual, 0.0, 0)
 
 
 @dataclass(frozen=True)
 class Adaptive:
-    """Increments as long as the prediction is right to `error` (nm), from `least` to `most` (nm or GPa)."""
+    """Increments as long as the prediction is right to `error` (nm), from `least` to `most` (nm or GPa).
+
+    Left out, these two are `SHORTEST` and `LONGEST` of an approach; of a mean pressure they have to be given.
+    """
 
     error: float = 0.005
-    least: float = 0.01
-    most: float = 1.0
+    least: float | None = None
+    most: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("error", "least", "most"):
-            if not (is_number(getattr(self, name)) and getattr(self, name) > 0):
-                raise SceneError(name, getattr(self, name), "a positive number")
-        if self.least > self.most:
-            raise SceneError("least", self.least, f"at most the longest increment, {self.most:g}")
+            value = getattr(self, name)
+            if value is not None and not (is_number(value) and value > 0):
+                raise SceneError(name, value, "a positive number")
+        least, most = self._bounds
+        if least > most:
+            raise SceneError("least", least, f"at most the longest increment, {most:g}")
+
+    @property
+    def _bounds(self) -> tuple[float, float]:
+        return self.least or SHORTEST, self.most or LONGEST
+
+    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+        """SceneError for a solver that makes no predictions, and where a pressure's increments have no bounds."""
+        if not solver.predicts:
+            raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
+        given = {"least": self.least, "most": self.most}
+        if None in given.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
+            raise SceneError("least", given, "least and most in GPa, where a mean pressure is prescribed")
 
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order, interpolated between those walked through."""
-        if not solver.predicts:
-            raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
-        walk, begin = Walk(problem, solver), 0
+        self.check(problem.grid.size, steps, solver)
+        walk, begin, here = Walk(problem, solver), 0, None
         while begin < len(steps):
             end = _turn(steps, begin, walk.place(steps[begin].control))
             leg, spent = steps[begin:end], problem.tally.transforms
-            iterations, stretches, status = self._walk(walk, leg)
+            iterations, stretches, status = self._walk(walk, leg, here)
+            here = stretches[-1].states[-1] if stretches[-1].states else None
             spent = problem.tally.transforms - spent
             for count, step in enumerate(leg):
                 shared = (iterations, spent) if count == 0 else (0, 0.0)
-                yield self._state(problem.at(step), step, leg, stretches, status, shared)
+                yield self._state(walk, step, leg, stretches, status, shared)
             begin = end
             if status is not Status.CONVERGED:
                 for step in steps[end:]:
                     yield PathState(step, walk.at(step), walk.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
                 return
 
-    def _walk(self, walk: Walk, leg: Sequence[LoadStep]) -> tuple[int, list[Stretch], Status]:
-        """Walk from the first step of a leg to its last: iterations spent, the stretches, and how it ended.
+    def _walk(self, walk: Walk, leg: Sequence[LoadStep], here: Equilibrium | None) -> tuple[int, list[Stretch], Status]:
+        """Walk from where it stands to the last step of a leg: iterations spent, the stretches, and how it ended.
 
         Where a flow is needed it goes to the next state asked for, if that is within the least increment, so that a
         jump is found between the same two states as without adapting.
         """
         first, last = leg[0], leg[-1]
-        iterations, increment = 0, self.least
+        least, most = self._bounds
+        iterations, increment = 0, least
         stretches = [Stretch(0.0)]
         place = walk.place(first.control)
         if place is not None:
-            stretches[0].places.append(place)
-            stretches[0].states.append(walk.last)
+            stretches[0].add(place, here)
         while place != last.value:
             goal = first.value if place is None else _towards(place, last.value, increment)
             step = LoadStep(first.control, goal)
@@ -95,8 +138,8 @@ class Adaptive:
             iterations += found.iterations
             order = walk.history.order
             wrong = found.moved if found.settled and walk.history.places else np.inf
-            if not wrong <= REFUSED * self.error and increment > self.least and place is not None:
-                increment = max(increment * SHRINK, self.least)
+            if not wrong <= REFUSED * self.error and increment > least and place is not None:
+                increment = max(increment * SHRINK, least)
                 continue
             if not (found.settled and found.moved <= walk.solver.trusted * walk.problem.reach):
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
@@ -107,38 +150,42 @@ class Adaptive:
             jump = walk.accept(LoadStep(first.control, goal), found, flowed)
             if jump:
                 stretches.append(Stretch(jump))
-            stretches[-1].places.append(goal)
-            stretches[-1].states.append(found.displacement)
+            stretches[-1].add(goal, found)
             growth = GROW if flowed or not 0 < wrong < np.inf else SAFETY * (self.error / wrong) ** (1 / (order + 1))
-            increment = float(np.clip(increment * np.clip(growth, SHRINK, GROW), self.least, self.most))
+            increment = float(np.clip(increment * np.clip(growth, SHRINK, GROW), least, most))
             place = goal
         return iterations, stretches, Status.CONVERGED
 
     def _state(
         self,
-        problem: InterfaceProblem,
+        walk: Walk,
         step: LoadStep,
         leg: Sequence[LoadStep],
         stretches: list[Stretch],
         status: Status,
-        spent: tuple,
+        spent: tuple[int, float],
     ) -> PathState:
-        """The state asked for, from the stretch that holds it; between two, the end of the earlier."""
+        """The state asked for, from the stretch that holds it; solved for where interpolation is not good enough."""
+        problem = walk.at(step)
         begun = stretches[0].places[0] if stretches[0].places else leg[0].value
         sign = 1 if leg[-1].value >= begun else -1
         reached = [stretch for stretch in stretches if stretch.places and sign * (step.value - stretch.places[0]) >= 0]
-        stretch = reached[-1] if reached else stretches[0]
-        beyond = sign * (step.value - stretch.places[-1]) > 0
-        if beyond and stretch is stretches[-1] and status is not Status.CONVERGED:
-            return PathState(step, problem, stretch.states[-1], status, np.nan, 0.0, *spent)
-        place = stretch.places[-1] if beyond else step.value
+        if not reached or (status is not Status.CONVERGED and sign * (step.value - reached[-1].places[-1]) > 0):
+            return PathState(step, problem, walk.last, status, np.nan, 0.0, *spent)
+        stretch = reached[-1]
+        beyond = sign * (step.value - stretch.places[-1]) > 0  # by rounding
+        found = stretch.near(problem, stretch.places[-1] if beyond else step.value)
+        if found.residual > problem.tolerance + self.error * problem.softening / problem.strength:
+            before = problem.tally.transforms
+            found = walk.solver.near(problem, found.displacement, walk.solver.begin_walk())
+            spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before
         earlier = [other.value for other in leg if sign * (step.value - other.value) > 0]
         jumped = sum(
             item.jump
             for item in reached
             if not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0
         )
-        return PathState(step, problem, stretch.near(place), Status.CONVERGED, np.nan, jumped, *spent)
+        return PathState(step, problem, found.displacement, found.status, found.residual, jumped, *spent, found)
 
 
 def _towards(place: float, end: float, increment: float) -> float:

@@ -12,7 +12,7 @@ import xarray as xr
 
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
-from contactsim.solvers.base import Status
+from contactsim.solvers.base import solved
 
 INTERACTING = {
     "interacting_length_tenth": 1e-1,
@@ -37,6 +37,8 @@ FINAL = {
     "final_slip": "slip",
 }
 """What is read at the largest approach, and of which number of a state."""
+LEVEL = 1e-6
+"""Changes of approach (nm) that do not turn a path."""
 LEGS = ("loading", "unloading")
 SUMMARY = (
     "pull_off_load_loading",
@@ -116,18 +118,20 @@ def histograms(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[s
 
 
 def pull_off(approach: Array, load: Array) -> dict[str, float]:
-    """Largest pull (N/m) and its approach (nm) on loading, then on unloading; NaN where there is no such leg.
+    """Largest pull (N/m) and its approach (nm) on loading, then on unloading; NaN where a leg does not pass it.
 
-    approach, load: (step,). Loading is up to the first largest approach, unloading what follows. The increments leave
-    an `_increment_error` of each: of the approach one increment, of the pull its change to the nearer of the two states
-    beside it, which at a jump is the one that has not jumped.
+    approach, load: (step,), NaN where there is no solution. A leg that begins or ends with its largest pull does not
+    pass it; one that ends without a solution, as a load that pulls the bodies apart does, passes it. The increments
+    leave an `_increment_error` of each: of the approach one increment, of the pull its change to the nearer of the two
+    states beside it, which at a jump is the one that has not jumped.
     """
     found = {}
-    for name, part in zip(LEGS, legs(approach), strict=True):
+    for name, leg in zip(LEGS, legs(approach), strict=True):
+        part = slice(max(leg.start - 1, 0), leg.stop)  # from the turn on
         pull, places = -load[part], approach[part]
-        known = pull.size > 0 and not np.isnan(pull).all()
-        best = int(np.nanargmax(pull)) if known else 0
-        beside = [other for other in (best - 1, best + 1) if known and 0 <= other < pull.size]
+        best = 0 if np.isnan(pull).all() else int(np.nanargmax(pull))
+        known = 0 < best < pull.size - 1
+        beside = [other for other in (best - 1, best + 1) if known]
         found[f"pull_off_load_{name}"] = float(pull[best]) if known else np.nan
         found[f"pull_off_approach_{name}"] = float(places[best]) if known else np.nan
         for what, values in (("load", pull), ("approach", places)):
@@ -137,9 +141,10 @@ def pull_off(approach: Array, load: Array) -> dict[str, float]:
 
 
 def legs(approach: Array) -> tuple[slice, slice]:
-    """The steps of loading and of unloading; approach (step,)."""
+    """The steps of loading, to the first largest approach, and of unloading, until it grows again; approach (step,)."""
     turn = int(np.argmax(approach)) + 1
-    return slice(0, turn), slice(turn, None)
+    again = np.flatnonzero(np.diff(approach[turn:]) > LEVEL)
+    return slice(0, turn), slice(turn, turn + int(again[0]) + 1 if again.size else approach.size)
 
 
 def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
@@ -159,7 +164,7 @@ def summarised(data: xr.Dataset) -> xr.Dataset:
         found = pull_off(approach, load) | largest_jumps(approach, jump)
         return tuple(found[name] for name in names)
 
-    converged = data.status == Status.CONVERGED.value[0]
+    converged = solved(data.status)
     columns = xr.apply_ufunc(
         per_path,
         *(data.approach, data.line_load.where(converged), data.jump.where(converged)),

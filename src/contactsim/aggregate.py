@@ -54,7 +54,7 @@ LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     """One dataset of a study: dims (varied keys, member, load).
 
-    runs: path, coordinates, member, companion and tight of each; settings: of the study; source: digest of the code.
+    runs: path, coordinates, member, companion and error of each; settings: of the study; source: digest of the code.
     """
     fine = _read([run for run in runs if not run["companion"]])
     if "step" in fine.dims:
@@ -93,7 +93,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 
 
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
-    """Paths with what they amount to, and its change on halving the grid and on solving more tightly."""
+    """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
     smooth = "line_load" in fine  # else a hard wall pressed through given approaches
     made, names = (of_states, ALONG_PATHS) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
     data = made(fine)
@@ -102,7 +102,7 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     for suffix, other in _others(runs):
         other = made(other)
         same = data.sel(member=other.member)
-        known = [name for name in (*SUMMARY, *CYCLE, *AREA_LOAD) if name in other]
+        known = [name for name in (*SUMMARY, *CYCLE, *AREA_LOAD) if name in other and name in same]
         data = data.assign({f"{name}{suffix}": abs(same[name] - other[name]).max("member") for name in known})
         if data.member.size > 1:
             data = data.merge(_change(data, other, suffix, names))
@@ -124,11 +124,11 @@ def of_states(data: xr.Dataset) -> xr.Dataset:
 
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
-    """What the errors of grid and tolerance are measured by, as far as there is such: suffix and dataset."""
-    for suffix, tight in (("_grid_error", False), ("_tolerance_error", True)):
-        others = [run for run in runs if run["companion"] and run.get("tight", False) is tight]
+    """What errors are measured by, as far as there is such: suffix and dataset."""
+    for error in ("grid", "tolerance", "left_out"):
+        others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
         if others:
-            yield suffix, _read(others)
+            yield f"_{error}_error", _read(others)
 
 
 def _read(runs: list[dict]) -> xr.Dataset:

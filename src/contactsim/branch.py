@@ -10,12 +10,12 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset
+from contactsim import dataset, validity
 from contactsim.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
-from contactsim.follow import INCREMENTS, Requested
+from contactsim.build import increments_of
+from contactsim.follow import Increments, Requested
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
-from contactsim.loading import LoadStep
 from contactsim.roughness import local_squares
 from contactsim.scene import Scene
 from contactsim.solvers.equilibrium import PathSolver
@@ -40,24 +40,25 @@ def simulate_path(
     points: int,
     tolerance: float,
     threads: int = 1,
-    increments: object = None,
+    increments: Increments | None = None,
     snapshots: Sequence[float] | None = None,
     keep_fields: bool = True,
 ) -> xr.Dataset:
     """Follow a scene's load path and return one dataset with dimension `step`.
 
     tolerance: in parts of the laws' strength; increments: of `follow.INCREMENTS`, as requested where None; snapshots:
-    approaches (nm) or mean pressures (GPa) whose first steps near them keep histograms and, unless told not to, fields.
+    approaches (nm) or mean pressures (GPa) whose first steps near them keep histograms and, unless told not to, fields;
+    NaN where there is no solution.
     """
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_interface(scene, heights, tolerance, threads)
-    kept = {_nearest(steps, value): value for value in snapshots or ()}
+    kept = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
     rows, fields, begin, total, marks = [], {}, time.process_time(), 0.0, [0.0]
     for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        rows.append(_numbers(state, slopes))
+        rows.append(_numbers(scene, state, slopes))
         if count in kept:
             fields[count] = _fields(problem.at(state.step), state, keep_fields)
         if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
@@ -69,33 +70,34 @@ def simulate_path(
                 state.status.sentence,
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
-    return _collected(scene, heights, rows, fields).assign(seconds=("step", np.diff(marks)))
+    data = _collected(scene, heights, rows, fields)
+    for words in validity.told(data):
+        logger.warning("beyond what the model describes: %s of the states", words)
+    return data.assign(seconds=("step", np.diff(marks)))
 
 
 def options(settings: dict) -> dict:
     """Increments, and what is kept at which states, of a run's settings."""
-    given = dict(settings["increments"])
-    increments = INCREMENTS[given.pop("kind")](**given)
-    return {"increments": increments} | {name: settings[name] for name in ("snapshots", "keep_fields")}
+    return {"increments": increments_of(settings)} | {name: settings[name] for name in ("snapshots", "keep_fields")}
 
 
-def _nearest(steps: Sequence[LoadStep], value: float) -> int:
-    """The first of the steps that are nearest to a value."""
-    return int(np.argmin(np.round([abs(step.value - value) for step in steps], 9)))
-
-
-def _numbers(state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
+def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
     """What a step says: its datum, observables, how it was found; slopes: squares by grid, kept for later steps."""
     problem, (gap, traction) = state.problem, state.fields()
+    zone = validity.process_zone(scene.contact_modulus, problem.strength, problem.reach)
     if state.points not in slopes:
         slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
     approach = problem.approach
     if approach is None:
         approach = problem.yielded - float(state.displacement[0, 0].real)
-    return {
+    numbers = {
         "approach": approach,
         **state_observables(problem, gap, traction),
         **gradients(slopes[state.points], problem, gap, traction),
+        "process_zone_step": problem.grid.spacing[0] / zone,
+    }
+    return numbers | {
+        "beyond": validity.beyond(numbers),
         "residual": state.residual,
         "status": state.status.value[0],
         "solved_points": state.points,
@@ -110,18 +112,18 @@ def _fields(problem: InterfaceProblem, state: PathState, keep_fields: bool) -> d
     if state.points < problem.grid.size:
         state = replace(state, problem=problem, displacement=problem.refined(state.displacement), found=None)
     gap, traction = state.fields()
-    shares = histograms(problem, gap, traction)
-    if not keep_fields:
-        return shares
-    moved = problem.field(state.displacement)
-    if problem.load is not None:  # its uniform mode is the gap's, approach included
-        moved[0] += problem.yielded - state.displacement[0, 0].real
-    parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
-    return shares | {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
+    kept = histograms(problem, gap, traction)
+    if keep_fields:
+        moved = problem.field(state.displacement)
+        if problem.load is not None:  # its uniform mode is the gap's, approach included
+            moved[0] += problem.yielded - state.displacement[0, 0].real
+        parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
+        kept |= {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
+    return kept if state.status.solved else {name: np.full_like(row, np.nan) for name, row in kept.items()}
 
 
 def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int, dict[str, Array]]) -> xr.Dataset:
-    kinds = {"status": np.int8, "iterations": np.int32, "solved_points": np.int32}
+    kinds = {"status": np.int8, "beyond": np.int8, "iterations": np.int32, "solved_points": np.int32}
     variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
     coordinates = {}
     if fields:

@@ -9,8 +9,10 @@ import numpy as np
 from contactsim import analytic, loading
 from contactsim.elasticity import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
+from contactsim.follow import INCREMENTS, Increments
 from contactsim.grid import Grid
 from contactsim.laws import EFFECTS
+from contactsim.leaving_out import left_out
 from contactsim.loading import LoadPath
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
@@ -19,7 +21,10 @@ from contactsim.traits import Trait
 
 
 def scene_of(settings: dict) -> Scene:
-    """The scene of a run: a flat elastic body below, the surface above, rigid or not, taken through all loads."""
+    """The scene of a run: a flat elastic body below, the surface above, rigid or not, taken through all loads.
+
+    Without the effects that the study leaves out.
+    """
     surface = dict(settings["surface"])
     kind = SURFACES[surface.pop("kind")]
     if kind is SelfAffine:
@@ -29,7 +34,8 @@ def scene_of(settings: dict) -> Scene:
     counter = None if settings.get("counter_body") is None else elastic(settings["counter_body"])
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
     path = load_path(settings, upper, elasticity)
-    return Scene(Body(Flat.facing(upper), elasticity), Body(upper, counter), effects, path)
+    scene = Scene(Body(Flat.facing(upper), elasticity), Body(upper, counter), effects, path)
+    return left_out(scene, settings.get("leave_out", ()))
 
 
 def elastic(settings: dict) -> Elasticity:
@@ -47,6 +53,12 @@ def elastic(settings: dict) -> Elasticity:
             raise SceneError("youngs_modulus", young, "a positive, finite number in GPa")
         given["contact_modulus"] = young / (1 - ratio**2)
     return ELASTICITIES[settings["kind"]](**given)
+
+
+def increments_of(settings: dict) -> Increments:
+    """How the path of a run with smooth laws is walked."""
+    given = dict(settings["increments"])
+    return INCREMENTS[given.pop("kind")](**given)
 
 
 def points_of(settings: dict, surface: Surface) -> int:

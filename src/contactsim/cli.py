@@ -1,6 +1,6 @@
 """`contactsim explain | run | compare`: one scene from the shell; two tiers side by side.
 
-A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight` and
+A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight`, `whole` and
 `fit_limits`, and may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
 `compare` reads the CSVs of the figures in ./config as they lie in its results folder.
 """
@@ -16,7 +16,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.aggregate import derived
-from contactsim.build import points_of, scene_of
+from contactsim.build import increments_of, points_of, scene_of
 from contactsim.compare import compared, is_within, summary
 from contactsim.config import load_yaml, whole
 from contactsim.errors import SceneError
@@ -24,8 +24,9 @@ from contactsim.explain import explain
 from contactsim.march import chosen, labelled, simulate
 from contactsim.plan import Plan
 from contactsim.scene import Scene
+from contactsim.schema import COMPANIONS
 from contactsim.solvers import solver
-from contactsim.solvers.base import Status
+from contactsim.solvers.base import Status, solved
 from contactsim.study import Study
 
 DRAWN = (".png", ".pdf", ".svg")
@@ -34,7 +35,7 @@ DRAWN = (".png", ".pdf", ".svg")
 def read_scene(path: str) -> Study:
     """The one-run study in a scene file."""
     section = load_yaml(path)
-    for key in ("vary", "members", "companion", "tight", "fit_limits"):
+    for key in ("vary", "members", *COMPANIONS, "fit_limits"):
         if key in section:
             raise SceneError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
     seed = section.pop("seed", 0)
@@ -85,7 +86,8 @@ def explain_scene(options: argparse.Namespace) -> None:
     scene, settings, points = first_scene(study)
     runs = len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {points} points, {runs} run{'s' * (runs > 1)}\n")
-    sys.stdout.write(explain(scene, points, settings["solver"]["kind"]).text + "\n")
+    increments = increments_of(settings) if "increments" in settings else None
+    sys.stdout.write(explain(scene, points, settings["solver"]["kind"], increments).text + "\n")
     if options.draw:
         from contactsim.figures.sketch import save_sketch
 
@@ -114,7 +116,7 @@ def run_scene(options: argparse.Namespace) -> None:
     names = {status.value[0]: status.name.lower() for status in Status}
     rows = data[columns].to_dataframe().assign(status=[names[int(status)] for status in data.status])
     sys.stdout.write(rows.to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")
-    failed = int((data.status != Status.CONVERGED.value[0]).sum())
+    failed = int((~solved(data.status)).sum())
     if failed:
         sys.exit(f"Error: {failed} of {len(rows)} load steps did not converge")
 

@@ -23,6 +23,7 @@ from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.priced import Setting, SingleLoads, WholePath, kind_of, read_turned, solutions
 from contactsim.provenance import digest, source_digest
+from contactsim.schema import COMPANIONS
 from contactsim.solvers import SOLVERS, installed, module_of, solver, solver_class
 from contactsim.solvers.base import require
 from contactsim.study import Study
@@ -103,7 +104,7 @@ class Case:
     def _study(self, setting: Setting, job: str) -> Study:
         changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solved_by(job)}}
         changed |= self.kind.changed(self.study, self.settings["load"], setting)
-        apart = {"members": self.settings["members"], "companion": None, "tight": None, "fit_limits": None}
+        apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(COMPANIONS)
         return replace(self.study, settings=self.study.settings | changed | apart)
 
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:

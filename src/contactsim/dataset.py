@@ -17,6 +17,7 @@ import xarray as xr
 from contactsim.errors import SceneError
 from contactsim.provenance import canonical, versions
 from contactsim.solvers.base import Status
+from contactsim.validity import FLAGS
 
 SETTINGS = {
     "hurst": ("1", "Hurst exponent"),
@@ -144,7 +145,9 @@ VARIABLES = {
     "largest_pull": ("GPa", "largest pull"),
     "overclosure": ("1", "deepest overlap, over the normal characteristic length"),
     "slip": ("1", "largest tangential gap under repulsion, over the tangential characteristic length"),
-    "residual": ("1", "largest residual traction, over the strength of the laws (recomputed; none if interpolated)"),
+    "residual": ("1", "largest residual traction, over the strength of the laws (recomputed)"),
+    "process_zone_step": ("1", "grid spacing over the length of the process zone"),
+    "beyond": ("1", "which limits of what the model describes the state is beyond"),
     "solved_points": ("1", "grid points on which the state is a solution"),
     "jump": ("nm", "how far the surface jumped since the step before"),
     "control": ("1", "what the path prescribes"),
@@ -205,6 +208,9 @@ def described(data: xr.Dataset) -> xr.Dataset:
         values = [status.value[0] for status in Status]
         meanings = " ".join(status.name.lower() for status in Status)
         data["status"].attrs.update(flag_values=np.array(values, np.int8), flag_meanings=meanings)
+    if "beyond" in data:
+        masks = np.array(list(FLAGS.values()), np.int8)
+        data["beyond"].attrs.update(flag_masks=masks, flag_meanings=" ".join(FLAGS))
     return data
 
 
@@ -230,6 +236,7 @@ SUFFIXES = {
     "_grid_error": ": change of the mean on halving the grid",
     "_increment_error": ": what the increments of the path leave open",
     "_tolerance_error": ": change of the mean on solving more tightly",
+    "_left_out_error": ": change on leaving nothing out",
     "_half_width": ": half-width of the 95 % confidence interval",
 }
 """What aggregation adds to a variable's name, and to its long name."""

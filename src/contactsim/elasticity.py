@@ -48,11 +48,12 @@ LONGEST = 1e-60
 class Elasticity(Protocol):
     """An elastic body seen from its surface, z pointing out of it.
 
-    base_depth: of the rigid base (nm), infinite for a half-space.
+    base_depth: of the rigid base (nm), infinite for a half-space; couples: whether normal traction moves it along x.
     """
 
     contact_modulus: float
     base_depth: float
+    couples: bool
     traits: frozenset[Trait]
 
     def compliance(self, wavenumber: Array) -> Array:
@@ -95,6 +96,11 @@ class HalfSpace:
         if self.poisson_ratio is not None:
             _check_ratio(self.poisson_ratio)
 
+    @property
+    def couples(self) -> bool:
+        """Whether normal traction moves the surface along x: unless it keeps its volume."""
+        return self.poisson_ratio != 0.5
+
     def compliance(self, wavenumber: Array) -> Array:
         """Normal compliance 2/(E*|q|), 0 at q = 0, nm/GPa."""
         safe = np.where(wavenumber > 0, wavenumber, np.inf)
@@ -124,6 +130,7 @@ class Layer:
     poisson_ratio: float
     thickness: float
     traits = frozenset({Trait.LAYER})
+    couples = True
 
     def __post_init__(self) -> None:
         _check_modulus(self.contact_modulus)
@@ -251,4 +258,4 @@ def _symbol(body: Elasticity, grid: Grid, components: tuple[str, ...], turned: b
     return symbol.mirrored() if turned else symbol
 
 
-ELASTICITIES = {"half_space": HalfSpace, "layer": Layer}
+ELASTICITIES = {"half_space": HalfSpace, "layer": Layer, "free_layer": FreeLayer}

@@ -13,17 +13,17 @@ import xarray as xr
 
 from contactsim import extrapolation
 from contactsim.errors import SceneError
-from contactsim.solvers.base import Status
+from contactsim.solvers.base import solved
 
 
 def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
     """Values with NaN where the solution did not converge."""
-    return values.where(data.status == Status.CONVERGED.value[0])
+    return values.where(solved(data.status))
 
 
 def left_out(data: xr.Dataset) -> tuple[int, int]:
     """How many solutions did not converge, and how many there are."""
-    return int((data.status != Status.CONVERGED.value[0]).sum()), data.status.size
+    return int((~solved(data.status)).sum()), data.status.size
 
 
 def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:

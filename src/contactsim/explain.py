@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from contactsim.dataset import SETTINGS
+from contactsim.follow import Increments
 from contactsim.laws import EFFECTS
 from contactsim.scene import Scene
 from contactsim.solvers import SOLVERS, installed, solver, solver_class
@@ -24,8 +25,8 @@ class Explanation:
     """A scene in words and numbers.
 
     effects: those that are on, with what they read and exert; fields: what exists at each point; left_out: what does
-    not, and why; unknowns: of one load step; transforms: of an iteration; megabytes: peak, about; solvers: for each
-    that exists, why not, or nothing; chosen: the solver that will be used.
+    not, and why; unknowns: of one load step; increments: how smooth laws are walked; transforms: of an iteration;
+    megabytes: peak, about; solvers: for each that exists, why not, or nothing; chosen: the solver that will be used.
     """
 
     bodies: tuple[str, str]
@@ -34,6 +35,7 @@ class Explanation:
     left_out: dict[str, str]
     unknowns: int
     steps: int
+    increments: str
     transforms: float
     megabytes: float
     solvers: dict[str, str]
@@ -53,14 +55,15 @@ class Explanation:
             "fields that exist": list(self.fields),
             "left out, and why": [f"{name}: {why}" for name, why in self.left_out.items()],
             "unknowns": [f"{self.unknowns} at each of {self.steps} load steps"],
+            **({"increments": [self.increments]} if self.increments else {}),
             "cost": [f"{self.transforms:g} real transforms an iteration, about {self.megabytes:.3g} MB"],
             "solvers": refused,
         }
         return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
 
 
-def explain(scene: Scene, points: int, method: str) -> Explanation:
-    """Explain a scene on a grid of `points` with the solver named `method`."""
+def explain(scene: Scene, points: int, method: str, increments: Increments | None = None) -> Explanation:
+    """Explain a scene on a grid of `points`, with the solver named `method` and, of smooth laws, increments."""
     chosen = solver(method)
     size = math.prod(scene.upper.surface.shape(points))
     return Explanation(
@@ -74,6 +77,7 @@ def explain(scene: Scene, points: int, method: str) -> Explanation:
         left_out=_left_out(scene),
         unknowns=size * len(scene.exerted),
         steps=len(scene.path.steps),
+        increments="" if increments is None else _increments(increments),
         transforms=chosen.transforms(points),
         megabytes=chosen.fields * len(scene.components) * size * 8 / 1e6,
         solvers={name: _why_not(scene, name) for name in SOLVERS},
@@ -107,10 +111,18 @@ def _effect(effect: object) -> str:
     return f"{first}; reads the {reads} gap, exerts {exerts} traction"
 
 
+def _increments(increments: Increments) -> str:
+    """What the class says of itself, and its options that are given."""
+    given = {entry.name: getattr(increments, entry.name) for entry in fields(increments)}
+    options = ", ".join(f"{name} {value}" for name, value in given.items() if value is not None)
+    return type(increments).__doc__.split("\n")[0] + f" ({options})" * bool(options)
+
+
 def _left_out(scene: Scene) -> dict[str, str]:
     """What does not exist in a scene, and why."""
+    unused = "no effect reads or exerts them" if scene.slips else "the surfaces do not slip: laws have no slip to feel"
     out = {
-        f"{COMPONENTS[component]} displacement and traction": "no effect reads or exerts them"
+        f"{COMPONENTS[component]} displacement and traction": unused
         for component in COMPONENTS
         if component not in scene.components
     }

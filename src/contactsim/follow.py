@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from contactsim.adaptive import Adaptive
 from contactsim.interface import InterfaceProblem
@@ -13,9 +14,24 @@ from contactsim.solvers.equilibrium import PathSolver
 from contactsim.walk import PathState, Walk
 
 
+class Increments(Protocol):
+    """A way to follow a path."""
+
+    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+        """SceneError for what it cannot follow so."""
+        ...
+
+    def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
+        """States at all steps, in order."""
+        ...
+
+
 @dataclass(frozen=True)
 class Requested:
     """Every increment of the path as it is asked for."""
+
+    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+        """Any path can be followed so."""
 
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order."""

@@ -247,5 +247,5 @@ def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int 
     shape[0] = -heights
     origin = scene.path.origin(heights)
     return InterfaceProblem(
-        grid, shape, scene.effects, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin
+        grid, shape, scene.acting, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin
     )

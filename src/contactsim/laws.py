@@ -17,7 +17,7 @@ there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -144,6 +144,14 @@ class CohesiveZone:
             derivative[1, 0] = size / self.normal_length * tangential * slope * shear
             derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * decay * shear
         return traction, derivative
+
+    def without_coupling(self) -> NormalCohesiveZone:
+        """What it is where there is no tangential gap."""
+        return NormalCohesiveZone(self.work_of_separation, self.normal_length)
+
+    def without_friction(self) -> CohesiveZone:
+        """The same without tangential work."""
+        return replace(self, work_ratio=0.0)
 
     def _without_units(self, gap: Array) -> tuple[Array, Array]:
         """Both components of the gap over their lengths."""

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 
+import numpy as np
+
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.traits import Trait
@@ -55,6 +57,18 @@ class LoadPath:
     def origin(self, heights: Array) -> float:
         """Approach (nm), from where the mean planes meet, at which those of the steps are zero."""
         return -float(heights.max()) if self.from_touch else 0.0
+
+    def nearest(self, value: float) -> int:
+        """Number of the first of the steps that are nearest to a value; SceneError if the path passes none that near.
+
+        Near is within half of the longer increment beside that step.
+        """
+        values = np.array([step.value for step in self.steps])
+        place = int(np.argmin(np.round(np.abs(values - value), 9)))
+        beside = np.abs(np.diff(values[max(place - 1, 0) : place + 2]))
+        if abs(values[place] - value) > beside.max(initial=0.0) / 2 + 1e-9:
+            raise SceneError("snapshots", value, f"values near steps of the path; the nearest is {values[place]:g}")
+        return place
 
     @property
     def traits(self) -> frozenset[Trait]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contactsim.errors import SceneError
+from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem
 from contactsim.loading import LoadStep
 from contactsim.solvers.base import Status
@@ -48,19 +49,25 @@ class Nested:
         if self.between > self.ratio:
             raise SceneError("between", self.between, f"at most the ratio of the coarse grid, {self.ratio}")
 
+    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+        """SceneError for a grid that cannot be made coarser, and for states asked for that the path does not visit."""
+        if points % (2 * self.ratio):
+            raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {points} points")
+        lost = [value for value, found in zip(self.settled, self._asked(steps).any(1), strict=True) if not found]
+        if lost:
+            raise SceneError("settled", lost, "steps of the path, which these are not")
+
+    def _asked(self, steps: Sequence[LoadStep]) -> Array:
+        """Whether each value asked for is each step, bool (settled, steps)."""
+        return np.abs(np.subtract.outer(self.settled, [step.value for step in steps])) <= CLOSE
+
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order."""
         size, tally = problem.grid.size, problem.tally
-        if size % (2 * self.ratio):
-            raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {size} points")
-        places = np.array([step.value for step in steps])
-        asked = np.abs(np.subtract.outer(self.settled, places)) <= CLOSE
-        lost = [value for value, found in zip(self.settled, asked.any(1), strict=True) if not found]
-        if lost:
-            raise SceneError("settled", lost, "steps of the path, which these are not")
-        walk = Walk(problem.coarser(size // self.ratio, self.walking), solver)
+        self.check(size, steps, solver)
+        walk = Walk(problem.coarser(size // self.ratio, self.walking), solver, divisions=0)
         between = problem.coarser(size // self.between, self.reading)
-        for step, settled in zip(steps, asked.any(0), strict=True):
+        for step, settled in zip(steps, self._asked(steps).any(0), strict=True):
             before = tally.transforms
             state = walk.advance(step)
             for level in (between, problem)[: 1 + settled]:

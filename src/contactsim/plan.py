@@ -165,7 +165,7 @@ class Plan:
                 "coordinates": run.coordinates,
                 "member": run.member,
                 "companion": run.companion,
-                "tight": run.tight,
+                "error": run.error,
                 "digest": run.digest,
             }
             for run in self.studies[study].runs()

@@ -17,7 +17,7 @@ import xarray as xr
 from contactsim.aggregate import load_name
 from contactsim.cost import REFERENCE
 from contactsim.priced import KNOBS, solutions
-from contactsim.solvers.base import Status
+from contactsim.solvers.base import solved
 
 ROUNDING = 1e-10
 """Errors below it are rounding: both solutions have the same contact."""
@@ -81,7 +81,7 @@ def _root_mean_square(errors: xr.DataArray) -> float:
 
 def _unconverged(data: xr.Dataset) -> float:
     """The share of solutions that did not converge."""
-    return float((data.status != Status.CONVERGED.value[0]).mean())
+    return float((~solved(data.status)).mean())
 
 
 def met(table: pd.DataFrame, quantity: str) -> pd.DataFrame:

@@ -21,7 +21,7 @@ from contactsim.config import Key, listed, positive, read, whole
 from contactsim.errors import SceneError
 from contactsim.hysteresis import CYCLE
 from contactsim.schema import is_smooth
-from contactsim.solvers.base import Status
+from contactsim.solvers.base import solved
 from contactsim.study import Study
 
 
@@ -168,7 +168,7 @@ def solutions(data: xr.Dataset) -> xr.Dataset:
     """Loads as they are; of paths what each amounts to, all its transforms, and its first status that is a failure."""
     if "step" not in data.dims:
         return data
-    failed = data.status != Status.CONVERGED.value[0]
+    failed = ~solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
     found = of_states(data)
     return found[[name for name in WholePath.quantities if name in found]].assign(

@@ -2,7 +2,8 @@
 
 Two bodies face each other, aligned on one periodic grid. Only the sum of their heights and the sum of their
 compliances matter, so a rigid body is absent rather than stiff. Which components exist and what a solver must be able
-to do (the traits) follow from what the scene lists.
+to do (the traits) follow from what the scene lists. Bodies alike in all do not slip against each other, nor do
+half-spaces that keep their volume: there a law that reads the tangential gap has none to read.
 
 The hard-wall problem is posed without units. Lengths are in grid steps, the typical height difference of neighbouring
 points (see `grid_step`); pressures in E*·step/spacing. Nothing a solver does can then depend on the units of the
@@ -77,21 +78,34 @@ class Scene:
         return tuple(body.elasticity for body in (self.lower, self.upper) if body.elasticity is not None)
 
     @cached_property
+    def slips(self) -> bool:
+        """Whether normal tractions move the surfaces along each other: not those of like bodies, nor of ν = 1/2."""
+        alike = self.lower.elasticity == self.upper.elasticity
+        return not alike and any(body.couples for body in self.elasticities)
+
+    @cached_property
+    def acting(self) -> tuple[HardWall | Law, ...]:
+        """The effects as they act: without a slip, exactly, laws without their coupling."""
+        if self.slips:
+            return self.effects
+        return tuple(effect.without_coupling() if "t" in effect.reads else effect for effect in self.effects)
+
+    @cached_property
     def components(self) -> tuple[str, ...]:
         """Displacement components that exist: those that an effect reads or exerts."""
-        used = reduce(frozenset.union, (effect.reads | effect.exerts for effect in self.effects))
+        used = reduce(frozenset.union, (effect.reads | effect.exerts for effect in self.acting))
         return tuple(component for component in ("n", "t") if component in used)
 
     @cached_property
     def exerted(self) -> tuple[str, ...]:
         """Components in which an effect exerts traction: the unknowns; those only read are derived from them."""
-        used = reduce(frozenset.union, (effect.exerts for effect in self.effects))
+        used = reduce(frozenset.union, (effect.exerts for effect in self.acting))
         return tuple(component for component in ("n", "t") if component in used)
 
     @cached_property
     def traits(self) -> frozenset[Trait]:
         """What a solver must accept: the union over effects, bodies, path and dimension."""
-        parts = [effect.traits for effect in self.effects] + [body.traits for body in self.elasticities]
+        parts = [effect.traits for effect in self.acting] + [body.traits for body in self.elasticities]
         dimension = {1: Trait.LINE, 2: Trait.SURFACE}[len(self.lengths)]
         return frozenset({dimension}).union(self.path.traits, *parts)
 

@@ -14,6 +14,7 @@ from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
 from contactsim.follow import INCREMENTS
 from contactsim.laws import EFFECTS
+from contactsim.leaving_out import LEFT_OUT
 from contactsim.observables import KEPT
 from contactsim.solvers import SOLVERS, solver_class, usual_kind
 from contactsim.surface import SURFACES, Flat
@@ -65,6 +66,8 @@ STUDY_KEYS = {
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "companion": Key(mapping, "a mapping with `points` and `members`", None),
     "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
+    "leave_out": Key(listed(choice(LEFT_OUT)), f"a list from {', '.join(LEFT_OUT)}", []),
+    "whole": Key(mapping, "a mapping with `members`, of runs with nothing left out", None),
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
     "tolerance": Key(positive, "a positive number of grid steps"),
     "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
@@ -81,14 +84,21 @@ PATH_KEYS = {
     "increment": Key(positive, "a positive number"),
     "origin": Key(choice(ORIGINS), f"one of {', '.join(ORIGINS)}", ORIGINS[0]),
 }
-COMPANION_KEYS = {
-    "points": Key(whole(2), "a whole number of grid points, fewer than the study's"),
-    "members": Key(whole(1), "a whole number, at most the study's members"),
+FEWER = {"members": Key(whole(1), "a whole number, at most the study's members")}
+COMPANIONS = {
+    "companion": (
+        "points",
+        "grid",
+        {"points": Key(whole(2), "a whole number of grid points, fewer than the study's")} | FEWER,
+    ),
+    "tight": (
+        "tolerance",
+        "tolerance",
+        {"tolerance": Key(positive, "a positive number of grid steps, below the study's")} | FEWER,
+    ),
+    "whole": ("leave_out", "left_out", FEWER),
 }
-TIGHT_KEYS = {
-    "tolerance": Key(positive, "a positive number of grid steps, below the study's"),
-    "members": COMPANION_KEYS["members"],
-}
+"""Sections that ask for runs that measure an error: the key in which they differ, what they measure, and their keys."""
 
 
 def read_load(settings: dict, file: object, prefix: str) -> dict:

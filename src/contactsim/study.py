@@ -14,22 +14,12 @@ from functools import cached_property
 from pathlib import Path
 
 from contactsim import dataset
-from contactsim.build import points_of, scene_of
+from contactsim.build import increments_of, points_of, scene_of
 from contactsim.config import Key, choice, keys_of, read
 from contactsim.errors import SceneError
 from contactsim.laws import EFFECTS
 from contactsim.provenance import digest, source_digest, versions
-from contactsim.schema import (
-    BODIES,
-    COMPANION_KEYS,
-    KINDS,
-    MODULI,
-    STUDY_KEYS,
-    TIGHT_KEYS,
-    is_smooth,
-    read_load,
-    usual_solver,
-)
+from contactsim.schema import BODIES, COMPANIONS, KINDS, MODULI, STUDY_KEYS, is_smooth, read_load, usual_solver
 from contactsim.solvers import module_of, solver
 from contactsim.solvers.base import require
 
@@ -38,7 +28,7 @@ from contactsim.solvers.base import require
 class Run:
     """One job: settings and its place among the varied values.
 
-    companion: whether it only measures an error, of the grid or, if tight, of the tolerance.
+    error: what it only measures, of `schema.COMPANIONS`; empty for the study's own runs.
     """
 
     study: str
@@ -46,8 +36,12 @@ class Run:
     member: int
     coordinates: dict[str, object]
     settings: dict
-    companion: bool
-    tight: bool = False
+    error: str = ""
+
+    @property
+    def companion(self) -> bool:
+        """Whether it only measures an error."""
+        return bool(self.error)
 
     @cached_property
     def source(self) -> str:
@@ -84,18 +78,9 @@ class Study:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": usual_solver(settings)} | settings["solver"]
         _refuse_unused(section, settings, file, prefix)
-        for part, keys, knob in (("companion", COMPANION_KEYS, "points"), ("tight", TIGHT_KEYS, "tolerance")):
-            if settings[part] is None:
-                continue
-            settings[part] = read(settings[part], keys, file, f"{prefix}.{part}")
-            if knob in settings["vary"]:
-                raise SceneError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)
-            if settings[part]["members"] > settings["members"]:
-                allowed = f"at most {settings['members']}, the study's members"
-                raise SceneError(f"{prefix}.{part}.members", settings[part]["members"], allowed, file)
-            if settings[knob] is None or settings[part][knob] >= settings[knob]:
-                allowed = f"below the study's {knob}, {settings[knob]}"
-                raise SceneError(f"{prefix}.{part}.{knob}", settings[part][knob], allowed, file)
+        for part in COMPANIONS:
+            if settings[part] is not None:
+                settings[part] = _companion(part, settings, file, prefix)
         study = cls(name, settings, str(file), seed)
         for run in study.runs():
             if run.member == 0:
@@ -132,13 +117,14 @@ class Study:
             dict(zip(names, values, strict=True))
             for values in itertools.product(*(self._values(name) for name in names))
         ]
-        changes = [({}, self.settings["members"])]
-        for part, knob in (("companion", "points"), ("tight", "tolerance")):
+        changes = [("", {}, self.settings["members"])]
+        for part, (knob, error, _) in COMPANIONS.items():
             if self.settings[part] is not None:
-                changes.append(({knob: self.settings[part][knob]}, self.settings[part]["members"]))
+                value = self.settings[part].get(knob, [])  # with nothing left out
+                changes.append((error, {knob: value}, self.settings[part]["members"]))
         return [
-            self._run(varied, member, change)
-            for change, members in changes
+            self._run(varied, member, change, error)
+            for error, change, members in changes
             for varied in variants
             for member in range(members)
         ]
@@ -156,8 +142,8 @@ class Study:
                 raise SceneError(key, value, "single values, which a dimension can have", self.file)
         return values
 
-    def _run(self, varied: dict, member: int, change: dict) -> Run:
-        """The run of one variant and member; change: points or tolerance of a run that measures their error."""
+    def _run(self, varied: dict, member: int, change: dict, error: str) -> Run:
+        """The run of one variant and member; change: what a run that measures an error does otherwise."""
         sections = {name: self.settings[name] for name in self._sections()}
         parts = {name: self._part(name, section) for name, section in sections.items()}
         grid = {"points": self.settings["points"]}
@@ -180,12 +166,14 @@ class Study:
         drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
         if "through" in shared["load"]:  # says all, and is short
             shared["load"] = {key: value for key, value in shared["load"].items() if key != "values"}
-        settings = drawn | shared | parts
+        less = change.get("leave_out", self.settings["leave_out"])
+        shared.pop("leave_out", None)
+        settings = drawn | shared | parts | ({"leave_out": less} if less else {})
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
         coordinates = {dataset.dimension(name): value for name, value in varied.items()}
         variant = digest(varied, *change.values() or [None])[:8]
-        return Run(self.name, variant, member, coordinates, settings, bool(change), "tolerance" in change)
+        return Run(self.name, variant, member, coordinates, settings, error)
 
     def _sections(self) -> list[str]:
         """Names of the sections that this study's runs depend on."""
@@ -220,11 +208,33 @@ class Study:
         """Build the run's scene once, so that nothing impossible is found out by a job."""
         try:
             scene = scene_of(run.settings)
-            require(solver(**run.settings["solver"]), scene)
-            scene.upper.surface.check(points_of(run.settings, scene.upper.surface))
+            method, points = solver(**run.settings["solver"]), points_of(run.settings, scene.upper.surface)
+            require(method, scene)
+            scene.upper.surface.check(points)
+            if is_smooth(run.settings):
+                increments_of(run.settings).check(points, scene.path.steps, method)
+                for value in run.settings["snapshots"] or ():
+                    scene.path.nearest(value)
         except SceneError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error
+
+
+def _companion(part: str, settings: dict, file: object, prefix: str) -> dict:
+    """What a study says of runs that measure an error."""
+    knob, _, keys = COMPANIONS[part]
+    given = read(settings[part], keys, file, f"{prefix}.{part}")
+    if knob in settings["vary"]:
+        raise SceneError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)
+    if given["members"] > settings["members"]:
+        allowed = f"at most {settings['members']}, the study's members"
+        raise SceneError(f"{prefix}.{part}.members", given["members"], allowed, file)
+    if knob not in keys and not settings[knob]:
+        raise SceneError(f"{prefix}.{part}", given, f"none, for the study has no {knob}", file)
+    if knob in keys and (settings[knob] is None or given[knob] >= settings[knob]):
+        allowed = f"below the study's {knob}, {settings[knob]}"
+        raise SceneError(f"{prefix}.{part}.{knob}", given[knob], allowed, file)
+    return given
 
 
 def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:

@@ -16,11 +16,11 @@ from contactsim import analytic, extrapolation
 from contactsim.adhesion import FINAL, SUMMARY
 from contactsim.aggregate import AVERAGED
 from contactsim.area_load import AREA_LOAD
+from contactsim.build import scene_of
 from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fit_line_area
 from contactsim.hysteresis import CYCLE
-from contactsim.laws import EFFECTS
-from contactsim.schema import is_smooth
+from contactsim.schema import COMPANIONS, is_smooth
 from contactsim.study import Study
 
 
@@ -178,10 +178,11 @@ def _path_quantities(study: Study) -> list[str]:
     """What a path amounts to, its grid errors, and what is varied."""
     known = set(AREA_LOAD)
     if is_smooth(study.settings):
-        slips = any("t" in EFFECTS[name].reads for name in study.settings["effects"])
+        slips = "t" in scene_of(study.runs()[0].settings).components
         known |= {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
-    if study.settings["companion"] is not None:
-        known |= {f"{name}_grid_error" for name in known}
+    for part, (_, error, _) in COMPANIONS.items():
+        if study.settings[part] is not None:
+            known |= {f"{name}_{error}_error" for name in known if not name.endswith("_error")}
     return sorted(known | (set(study.dimensions) - {"member", "step"}))
 
 

@@ -1,11 +1,13 @@
 """A walk along a load path: each state starts from the one before, since the past decides.
 
 The branch is that of a slow experiment: the equilibrium that the overdamped flow reaches from the last stable state.
+Where continuation fails, a step is divided, so that what it does at once is what small steps would do, and what is
+left in the end is a jump or none.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -20,6 +22,9 @@ from contactsim.traits import Trait
 SUDDEN, STEADY = 0.1, 5.0
 """A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
 is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
+
+DIVISIONS, DEEPEST = 32, 8
+"""Most halvings within one step, and of one part of it."""
 
 PATIENCE = 3
 """Steps in a row without a solution, each sought from the last stable state, after which a path breaks off."""
@@ -59,8 +64,9 @@ class PathState:
 class Walk:
     """Where a path stands: the last stable state, and the history that predicts the next."""
 
-    def __init__(self, problem: InterfaceProblem, solver: PathSolver) -> None:
+    def __init__(self, problem: InterfaceProblem, solver: PathSolver, divisions: int = DIVISIONS) -> None:
         self.problem, self.solver = problem, solver
+        self._divisions = divisions if solver.predicts else 0
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
         self._failed = 0
@@ -113,15 +119,41 @@ class Walk:
         if self._failed == PATIENCE:
             return PathState(step, here, self.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
         before = tally.transforms
-        found, spent, flowed = self.near(step) if self.solver.predicts else None, 0, False
-        if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
-            spent, flowed = found.iterations if found else 0, True
-            found = self.flow(step)
-        jump = self.accept(step, found, flowed) if found.settled else 0.0
+        found, jump, spent = self._reach(step)
         lost = found.status in (Status.PULLED_OFF, Status.NON_FINITE)  # nothing comes after that
         self._failed = 0 if found.settled else PATIENCE if lost else self._failed + 1
-        spent, cost = spent + found.iterations, tally.transforms - before
+        cost = tally.transforms - before
         return PathState(step, here, found.displacement, found.status, found.residual, jump, spent, cost, found)
+
+    def _reach(self, step: LoadStep) -> tuple[Equilibrium, float, int]:
+        """Go to a step, by way of others between if need be: the state, how far it jumped, iterations spent."""
+        goals, left, jump, spent = [step.value], self._divisions, 0.0, 0
+        while True:
+            goal = replace(step, value=goals[-1])
+            found, flowed = self.near(goal) if self.solver.predicts else None, False
+            spent += found.iterations if found else 0
+            if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
+                place = self.place(step.control)
+                divisible = left and len(goals) <= DEEPEST and place is not None
+                if divisible and self._length(goal, abs(goals[-1] - place)) > SUDDEN * self._small:
+                    goals.append((place + goals[-1]) / 2)
+                    left -= 1
+                    continue
+                found, flowed = self.flow(goal), True
+                spent += found.iterations
+            if found.settled:
+                jump += self.accept(goal, found, flowed)
+            elif len(goals) > 1:  # no solution on the way: straight on
+                goals, left = [step.value], 0
+                continue
+            goals.pop()
+            if not goals:
+                return found, jump, spent
+
+    @property
+    def _small(self) -> float:
+        """A step (nm) so short that no smooth motion during it is taken for a jump."""
+        return self.problem.reach / STEADY
 
     def _length(self, step: LoadStep, taken: float) -> float:
         """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""

@@ -13,7 +13,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
-from contactsim import dataset, ensemble
+from contactsim import dataset, ensemble, validity
 from contactsim.figures import style
 from contactsim.tabulate import tabulated
 
@@ -81,14 +81,16 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
-    for error in ("grid", "increment", "tolerance"):
+    if "beyond" in data and (far := validity.told(data)):
+        parts.append(f"beyond the model: {', '.join(far)} of the states")
+    for error in ("grid", "increment", "tolerance", "left_out"):
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
             for name, words in PRICED.items()
             if f"{name}_{error}_error" in data and not np.isnan(data[f"{name}_{error}_error"]).all()
         ]
         if sizes:
-            parts.append(f"{error} error up to: {', '.join(sizes)}")
+            parts.append(f"{error.replace('_', ' ')} error up to: {', '.join(sizes)}")
     return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])
 
 

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import Protocol
 
 import numpy as np
+import xarray as xr
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array
@@ -28,16 +29,27 @@ class Status(Enum):
     NON_FINITE = (2, "failed: a value that is not finite appeared")
     PULLED_OFF = (3, "no equilibrium: the load pulls the bodies apart")
     BROKEN_OFF = (4, "not tried: the path broke off before")
+    INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
 
     @property
     def sentence(self) -> str:
         """What the status means."""
         return self.value[1]
 
+    @property
+    def solved(self) -> bool:
+        """Whether there is a solution, or one interpolated between solutions."""
+        return self in (Status.CONVERGED, Status.INTERPOLATED)
+
 
 def sentence(number: int) -> str:
     """What the number of a status means."""
     return next(status.sentence for status in Status if status.value[0] == number)
+
+
+def solved(numbers: xr.DataArray) -> xr.DataArray:
+    """Whether numbers of a status stand for solutions, bool."""
+    return numbers.isin([status.value[0] for status in Status if status.solved])
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,8 @@ class Equilibrium:
     """A state of the interface: its displacement (exerted, m), coefficients, and how good it is.
 
     gap (read, n), nm; traction (exerted, n), GPa; residual: largest at any point, over the laws'
-    strength; moved: largest change (nm) from where it was looked for; iterations: steps of the method.
+    strength; moved: largest change (nm) from where it was looked for; iterations: steps of the method; unstable:
+    whether it was found to be no minimum, as the balance on a knife's edge is.
     """
 
     displacement: Array = field(repr=False)
@@ -33,11 +34,12 @@ class Equilibrium:
     residual: float
     moved: float
     iterations: int
+    unstable: bool = False
 
     @property
     def settled(self) -> bool:
-        """Whether it is a solution."""
-        return self.status is Status.CONVERGED
+        """Whether it is a solution that the least disturbance would not lead away from, as far as was looked."""
+        return self.status is Status.CONVERGED and not self.unstable
 
 
 class PathSolver(Protocol):

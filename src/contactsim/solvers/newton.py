@@ -9,6 +9,10 @@ state. It is followed by linearly implicit steps
 
 with a shift s, the inverse of the time step, that adapts to how far a step moves the surface. Steps uphill or too far
 are refused. Once s is small against the laws' tangent it is dropped, and the end is Newton's.
+
+A symmetric scene has symmetric equilibria, which nothing symmetric leaves, stable or not. So each is looked at: by the
+sign of the determinant of K + T', a by-product of the preconditioner, and at the end of a flow by its eigenvalues. A
+state from which a displacement grows by itself is left along it.
 """
 
 from __future__ import annotations
@@ -36,23 +40,28 @@ FIRST, RETURN, DROP = 0.03, 0.02, 1e-3
 
 STRAYED = 1e3
 """Newton is given up once it has moved this many times as far as is trusted."""
-OFTEN, HARD = 10, 5
-"""A preconditioner is made anew after so many linear solves, or after one that took more iterations than this."""
+HARD = 5
+"""A preconditioner is made anew after a linear solve that took more iterations than this."""
+NUDGE, NUDGES = 0.03, 5
+"""How far an unstable state is pushed along a displacement that grows, over the laws' length, and how often."""
 
 
 class Memory:
-    """The preconditioner of the last states of a walk, which serves the next ones nearly as well."""
+    """The preconditioner of the last state of a walk, which serves the next one nearly as well."""
 
     def __init__(self) -> None:
         self._kept: ZonePreconditioner | None = None
-        self._uses, self._held = 0, b""
+        self._held = b""
 
     def preconditioner(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
         """The one kept, or a new one for this tangent."""
-        held = problem.held.tobytes()
-        if self._kept is None or self._uses == OFTEN or self._held != held:
-            self._kept, self._uses, self._held = ZonePreconditioner(problem, tangent), 0, held
-        self._uses += 1
+        if self._kept is None or self._held != problem.held.tobytes():
+            return self.renew(problem, tangent)
+        return self._kept
+
+    def renew(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
+        """A new one for this tangent, to keep."""
+        self._kept, self._held = ZonePreconditioner(problem, tangent), problem.held.tobytes()
         return self._kept
 
     def learn(self, iterations: int) -> None:
@@ -109,26 +118,41 @@ class NewtonKrylov:
             change, iterations = self._solve(problem, tangent, precondition, residual, 0.0, forcing)
             memory.learn(iterations)
             displacement = displacement + change
-        return Equilibrium(displacement, gap, traction, judged(worst, problem), worst, strayed, count)
+        status = judged(worst, problem)
+        unstable = False
+        if status is Status.CONVERGED:
+            fresh = memory.renew(problem, tangent)
+            unstable = fresh.is_doubtful and self._growing(problem, tangent, fresh) is not None
+        return Equilibrium(displacement, gap, traction, status, worst, strayed, count, unstable)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
         displacement, shift, most = start, FIRST * problem.softening, self.flow_step * problem.reach
-        status, worst, count = Status.BUDGET, np.inf, 0
+        status, worst, count, nudges = Status.BUDGET, np.inf, 0, 0
         while count < self.flow_budget:
             count += 1
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
             worst = problem.size(residual)
-            if not np.isfinite(worst) or (shift == 0 and worst <= problem.tolerance):
-                status = judged(worst, problem)
+            if not np.isfinite(worst):
+                status = Status.NON_FINITE
                 break
             if apart(problem, gap):
                 status = Status.PULLED_OFF
                 break
-            forcing = np.clip(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST, ROUGH)
             precondition = ZonePreconditioner(problem, tangent, shift)
+            if shift == 0 and worst <= problem.tolerance:
+                growing = self._growing(problem, tangent, precondition)
+                if growing is None:
+                    status = Status.CONVERGED
+                    break
+                if nudges == NUDGES:
+                    break
+                nudges, shift = nudges + 1, FIRST * problem.softening
+                displacement = displacement + NUDGE * problem.reach * growing
+                continue
+            forcing = np.clip(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST, ROUGH)
             change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
             move = float(np.abs(problem.field(change)[: len(change)]).max())
             downhill = -np.vdot(change, residual).real > 0
@@ -140,6 +164,13 @@ class NewtonKrylov:
             shift = shift if shift > DROP * problem.softening else 0.0
         distance = moved(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
+
+    def _growing(self, problem: InterfaceProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:
+        """A displacement of largest value one that grows by itself from a state of that tangent; None if none does."""
+        wave = precondition.growing()
+        if wave is None or np.vdot(wave, problem.balanced(tangent(wave), wave)).real >= 0:
+            return None
+        return wave / np.abs(problem.field(wave)[: len(wave)]).max()
 
     def _solve(
         self,

@@ -24,6 +24,8 @@ SHIFT, LEAST = 0.3, 0.01
 """Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
 NEGLIGIBLE = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
+SEEN = 300
+"""Most entries of a zone whose growing displacements are looked for."""
 MOST = 400
 """Entries of the zone beyond which its factorisation would cost more than it saves: the coarse grid gets coarser."""
 
@@ -78,7 +80,39 @@ class ZonePreconditioner:
                     matrix[to, :, by] += kernel * self._values[row, by]
         square = matrix.reshape(read * count, -1)
         square[np.diag_indices(len(square))] += 1
-        self._lu = lu_factor(square, overwrite_a=True, check_finite=False)
+        self._matrix = square
+        self._lu = lu_factor(square, check_finite=False)
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether K + D + shift, as seen here, has an odd number of negative eigenvalues, by its determinant's sign."""
+        if not len(self._zone):
+            return False
+        factors, swaps = self._lu
+        negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
+        return bool(negative % 2)
+
+    def growing(self) -> Array | None:
+        """Displacement (exerted, m) that would grow by itself the most, as seen here; None if none would.
+
+        With w an eigenvector of 1 + C D and its eigenvalue μ < 0, (K + D) w = μ K w. None too for more entries than
+        `SEEN`, which would take long.
+        """
+        if not 0 < len(self._zone) * len(self._values) <= SEEN:
+            return None
+        values, vectors = np.linalg.eig(self._matrix)
+        lowest = int(np.argmin(values.real))
+        if values[lowest].real >= 0:
+            return None
+        wave = np.zeros(self._problem.unknowns, complex)
+        wave[:, : self._low] = self._spread(vectors[:, lowest].real.reshape(self._values.shape[1], -1))
+        return wave
+
+    def _spread(self, held: Array) -> Array:
+        """Displacement (exerted, low) under the tractions that displacements (read, zone) in the zone lead to."""
+        pull = np.zeros((len(self._values), self._nodes))
+        pull[:, self._zone] = contracted(self._values, held)
+        return self._compliance.apply(ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low])
 
     def __call__(self, residual: Array) -> Array:
         """Displacement (exerted, m) for a residual of the same shape."""
@@ -88,10 +122,7 @@ class ZonePreconditioner:
         if len(self._zone):
             free = self._field(long)[:, self._zone]
             held = lu_solve(self._lu, free.ravel(), check_finite=False).reshape(free.shape)
-            pull = np.zeros((len(residual), self._nodes))
-            pull[:, self._zone] = contracted(self._values, held)
-            spread = ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low]
-            long -= self._compliance.apply(spread)
+            long -= self._spread(held)
             self._problem.tally.add(len(free) + len(residual), self._nodes)
         out[:, : self._low] = long
         return out

@@ -1,0 +1,68 @@
+"""Effects left out of a scene because they are asked to be; what that costs in error is measured.
+
+What cancels is left out anyway: see `contactsim.scene`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import reduce
+
+from contactsim.elasticity import Elasticity, HalfSpace
+from contactsim.errors import SceneError
+from contactsim.scene import Scene
+
+Change = Callable[[object], object]
+
+
+def _of_laws(scene: Scene, change: Change) -> Scene:
+    return replace(scene, effects=tuple(change(effect) for effect in scene.effects))
+
+
+def _of_bodies(scene: Scene, change: Change) -> Scene:
+    bodies = {side: getattr(scene, side) for side in ("lower", "upper")}
+    return replace(
+        scene,
+        **{
+            side: replace(body, elasticity=change(body.elasticity))
+            for side, body in bodies.items()
+            if body.elasticity is not None
+        },
+    )
+
+
+def _without(name: str) -> Change:
+    """What a law says it is without an effect of that name; itself, where it says nothing."""
+    return lambda effect: getattr(effect, f"without_{name}", lambda: effect)()
+
+
+def _deep(body: Elasticity) -> Elasticity:
+    return HalfSpace(body.contact_modulus, body.poisson_ratio)
+
+
+def _incompressible(body: Elasticity) -> Elasticity:
+    return body if body.poisson_ratio is None else replace(body, poisson_ratio=0.5)
+
+
+LEFT_OUT: dict[str, Callable[[Scene], Scene]] = {
+    "coupling": lambda scene: _of_laws(scene, _without("coupling")),
+    "friction": lambda scene: _of_laws(scene, _without("friction")),
+    "height": lambda scene: _of_bodies(scene, _deep),
+    "compressibility": lambda scene: _of_bodies(scene, _incompressible),
+}
+"""What can be left out: that normal traction feels the tangential gap, tangential work, the finite height of bodies, by
+half-spaces of the same material, and their compressibility, at the same E*."""
+
+
+def left_out(scene: Scene, names: Sequence[str]) -> Scene:
+    """A scene without some of its effects; SceneError for one that it does not have."""
+
+    def without(one: Scene, name: str) -> Scene:
+        """The scene without one more."""
+        less = LEFT_OUT[name](one)
+        if less == one:
+            raise SceneError("leave_out", name, "effects that the scene has")
+        return less
+
+    return reduce(without, names, scene)

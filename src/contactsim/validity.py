@@ -1,0 +1,44 @@
+"""How far a state is within what its model describes: what goes beyond is computed all the same, and told."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+LIMITS = {
+    "overclosure": (3.0, "overlap over the laws' length"),
+    "slip": (2.0, "slip under repulsion over the laws' length"),
+    "process_zone_step": (0.2, "grid spacing over the process zone"),
+    "rms_gradient": (0.45, "rms slope"),
+}
+"""Largest value of each number, and what it is.
+
+Overlap: the laws' repulsion grows no faster than any; slip: beyond it shear kills the repulsion of a coupled law. At a
+fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %, at more it jumps from point to point. Slopes: half
+of the square, a tenth, is what small slopes leave out.
+"""
+FLAGS = {name: 1 << place for place, name in enumerate(LIMITS)}
+"""Bits of `beyond`, one for each limit."""
+
+
+def process_zone(contact_modulus: float, strength: float, reach: float) -> float:
+    """Length e²E*δn²/φn (nm) over which tractions fall, from E* (GPa), strength φn/(e δn) (GPa) and reach δn (nm)."""
+    return float(np.e * contact_modulus * reach / strength)
+
+
+def beyond(numbers: Mapping[str, float]) -> int:
+    """Which limits a state's numbers are beyond, as bits of `FLAGS`; a number that does not exist is within."""
+    return sum(FLAGS[name] for name, (limit, _) in LIMITS.items() if numbers.get(name, 0.0) > limit)
+
+
+def told(data: xr.Dataset) -> list[str]:
+    """In words, what the states of a dataset are beyond, how far and how many of them; empty if nothing is."""
+    found = []
+    flags = data.beyond.fillna(0).astype(int)
+    for name, (limit, words) in LIMITS.items():
+        share = float(((flags & FLAGS[name]) > 0).mean())
+        if share:
+            found.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {100 * share:.2g} %")
+    return found
