@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.solvers.base import Status
+from contactsim.solvers.base import solved
 
 CYCLE = ("dissipated_energy", "dissipated_work")
 """What a cycle amounts to."""
@@ -37,7 +37,7 @@ def dissipated(approach: Array, load: Array, jump: Array) -> tuple[float, float]
 
 def cycled(data: xr.Dataset) -> xr.Dataset:
     """A study of paths with what its cycles amount to (`CYCLE`); states that did not converge leave it unknown."""
-    converged = data.status == Status.CONVERGED.value[0]
+    converged = solved(data.status)
     energy, error = xr.apply_ufunc(
         dissipated,
         *(data.approach, data.line_load.where(converged), data.jump),
