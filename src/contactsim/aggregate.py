@@ -104,7 +104,7 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
         same = data.sel(member=other.member)
         known = [name for name in (*SUMMARY, *CYCLE, *AREA_LOAD) if name in other and name in same]
         data = data.assign({f"{name}{suffix}": abs(same[name] - other[name]).max("member") for name in known})
-        if data.member.size > 1:
+        if data.member.size > 1 or not smooth:
             data = data.merge(_change(data, other, suffix, names))
     return data
 
