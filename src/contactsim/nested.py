@@ -67,18 +67,24 @@ class Nested:
         self.check(size, steps, solver)
         walk = Walk(problem.coarser(size // self.ratio, self.walking), solver, divisions=0)
         between = problem.coarser(size // self.between, self.reading)
+        coarse, fine = (np.zeros(level.unknowns, complex) for level in (walk.problem, between))  # of the last state
         for step, settled in zip(steps, self._asked(steps).any(0), strict=True):
             before = tally.transforms
             state = walk.advance(step)
-            for level in (between, problem)[: 1 + settled]:
-                if state.status is Status.CONVERGED:
-                    state = _refined(level.at(step), solver, state)
+            if state.status is Status.CONVERGED:
+                expected = fine + between.refined(state.displacement - coarse)
+                refined = _refined(between.at(step), solver, state, expected)
+                if refined.status is Status.CONVERGED:
+                    coarse, fine = state.displacement, refined.displacement
+                state = refined
+            if settled and state.status is Status.CONVERGED:
+                state = _refined(problem.at(step), solver, state, problem.refined(state.displacement))
             yield replace(state, transforms=tally.transforms - before)
 
 
-def _refined(here: InterfaceProblem, solver: PathSolver, state: PathState) -> PathState:
-    """The state on a finer grid that one of a coarser grid leads to."""
-    start, count = here.refined(state.displacement), state.iterations
+def _refined(here: InterfaceProblem, solver: PathSolver, state: PathState, start: Array) -> PathState:
+    """The state on a finer grid that one of a coarser grid leads to, from where it is expected."""
+    count = state.iterations
     found = solver.near(here, start, solver.begin_walk())
     if not (found.settled and found.moved <= here.reach):
         count += found.iterations
