@@ -48,6 +48,8 @@ def test_a_path_that_only_loads_has_no_unloading():
         ([0, 1, 2, 1, 0, -1], [0, -3, 5, 1, -4, np.nan], 3.0, 4.0),  # pulled apart by a load
         ([0, 1, 2], [-4, -3, 5], np.nan, np.nan),  # pulls most where it begins
         ([0, 1, 2, 1, 0, 1, 0, -1, -2], [0, -3, 5, 1, -2, -2.5, -3, -9, 0], 3.0, np.nan),  # a second cycle is another
+        ([0, 1, 2, 1, 0, 1, 2, 3], [0, -3, 5, -6, 1, -9, 5, 6], 3.0, 6.0),  # and goes deeper
+        ([5, 4, 6, 7], [50, 20, 80, 90], np.nan, np.nan),  # never pulls
     ],
 )
 def test_a_leg_that_does_not_pass_its_largest_pull_has_no_pull_off(approach, load, loading, unloading):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -17,6 +17,7 @@ from contactsim.solvers import solver
 from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import APART
 from contactsim.solvers.newton import NewtonKrylov
+from contactsim.surface import Flat
 from contactsim.traits import Trait
 from smooth import LAWS, LAYER, LENGTH, along, scene_of, walk
 
@@ -330,3 +331,51 @@ def test_a_large_retraction_stays_in_contact_where_small_steps_hold_it():
     assert at_once.load[-1] == pytest.approx(slowly.load[-1], rel=1e-5)
     assert at_once.load[-1] < 10 * walk(scene_of(LAWS["uncoupled"], approach([-7.0]))).load[0] < 0
     assert not at_once.states[-1].jump
+
+
+@pytest.mark.parametrize("increment", [0.5, 4.0, 16.0])
+def test_all_jumps_within_an_increment_are_found(increment):
+    heights = np.array([0.0, -3.1, -6.4, -10.2, -12.9])
+    surface = Sinusoids(LENGTH, 10.0, heights)
+    sums = []
+    for step in (0.1, increment):
+        path = along(-16, 16, step) >> along(16 - step, -16, step)
+        found = walk(scene_of(NormalCohesiveZone(2.0), path, HalfSpace(77.0, 0.3), surface=surface))
+        jumps = np.array([state.jump for state in found.states])
+        turn = int(np.argmax([state.step.value for state in found.states])) + 1
+        sums.append([jumps[:turn].sum(), jumps[turn:].sum(), found.load[turn - 1]])
+    assert sums[0][0] > 15
+    assert np.allclose(*sums, rtol=0.15)  # the smallest may happen smoothly
+
+
+@dataclass(frozen=True)
+class Sinusoids(Flat):
+    """Asperities of one amplitude (nm) and of heights (n,), nm, side by side."""
+
+    amplitude: float = 10.0
+    tops: np.ndarray | None = None
+
+    def __init__(self, length, amplitude, tops):
+        object.__setattr__(self, "length", length)
+        object.__setattr__(self, "amplitude", amplitude)
+        object.__setattr__(self, "tops", tops)
+        object.__setattr__(self, "height", 0.0)
+
+    def heights(self, points):
+        place = np.arange(points) * len(self.tops) / points
+        return self.amplitude * np.cos(2 * np.pi * place) - self.amplitude + self.tops[(place + 0.5).astype(int) % 5]
+
+
+def test_a_path_that_changes_its_control_goes_on_from_its_last_state():
+    held = along(-10, 2, 0.2) >> along(1.8, -9, 0.2)
+    whole = walk(scene_of(LAWS["uncoupled"], held))
+    pressure = whole.load[-1] / LENGTH
+    found = walk(scene_of(LAWS["uncoupled"], held >> press([0.9 * pressure])))
+    other = walk(scene_of(LAWS["uncoupled"], held >> press([0.9 * pressure]) >> along(2.0, 3.0, 0.2)))
+    state = found.states[-1]
+    assert state.status is Status.CONVERGED
+    assert found.load[-1] == pytest.approx(0.9 * whole.load[-1], rel=1e-5)
+    back = walk(scene_of(LAWS["uncoupled"], along(-10, 3, 0.2)))
+    assert other.load[-1] == pytest.approx(back.load[-1], rel=1e-5)
+    # a load that this state carries, but no stable one near it: the jump is told
+    assert state.jump > 1

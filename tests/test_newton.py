@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from cases import refusal
-from contactsim.elasticity import Layer
+from contactsim.elasticity import HalfSpace, Layer
 from contactsim.interface import pose_interface
-from contactsim.laws import CohesiveZone
+from contactsim.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers import solver, solver_class
 from contactsim.solvers.base import require
 from contactsim.solvers.krylov import gmres
 from contactsim.solvers.zone import RATIO, ZonePreconditioner
-from contactsim.surface import Cylinder
+from contactsim.surface import Cylinder, Sinusoid
 from smooth import LAWS, along, scene_of, walk
 
 
@@ -148,6 +148,21 @@ def test_no_state_is_one_that_the_least_disturbance_leaves(ratio, length, work, 
         here = state.problem
         _, tangent = here.tangent(here.gap(state.displacement))
         assert np.linalg.eigvals(_dense(here, tangent)).real.min() > 0
+
+
+@pytest.mark.parametrize("periods", [3, 5])
+def test_alike_asperities_jump_one_by_one_where_all_at_once_would_be_unstable(periods):
+    wave = Sinusoid(length=10000.0, amplitude=20.0, periods=periods)
+    path = along(-30, -19, 0.1) >> along(-19.1, -32, 0.1)
+    found = walk(scene_of(NormalCohesiveZone(2.0), path, HalfSpace(77.0, 0.3), surface=wave), points=128)
+    for state in found.states[::2]:
+        here = state.problem
+        _, tangent = here.tangent(here.gap(state.displacement))
+        matrix = _dense(here, tangent)[1:, 1:]  # the mean is held
+        assert np.linalg.eigvals(matrix).real.min() > -1e-6
+    turn = int(np.argmax([state.step.value for state in found.states])) + 1
+    jumps = np.array([state.jump > 0 for state in found.states])
+    assert jumps[:turn].sum() >= periods - 1 and jumps[turn:].sum() >= periods - 1
 
 
 def test_a_contact_leaves_its_symmetry_where_that_is_unstable():

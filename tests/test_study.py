@@ -227,6 +227,13 @@ def test_keys_that_the_effects_have_no_use_for_are_refused(changes, key, effects
             "increments.least",
             "least and most in GPa",
         ),
+        ({"increments": {"kind": "nested", "settled": [-4.0], "walking": 0.5}}, "increments.walking", "at most 0.1"),
+        ({"tolerance": 0.5}, "tolerance", "at most 0.1"),
+        (
+            {"effects": ["cohesive_zone"], "normal_cohesive_zone": {}, "cohesive_zone": {"work_of_separation": 1.0}},
+            "body.poisson_ratio",
+            "of the lower body: it moves along x",
+        ),
         ({"snapshots": [-4.5, 3.0]}, "snapshots", "values near steps of the path; the nearest is -4"),
     ],
 )

@@ -24,8 +24,8 @@ from contactsim.walk import PathState, Walk
 
 SAFETY, SHRINK, GROW = 0.9, 0.4, 2.0
 """Of an adaptive increment: share of the length that the error allows, least and largest change."""
-SHORTEST, LONGEST = 0.01, 1.0
-"""Increments of an approach (nm)."""
+ALLOWED, SHORTEST, LONGEST = 0.005, 0.01, 1.0
+"""Error of a prediction, and increments of an approach, in the laws' length."""
 CLOSE = 1e-6
 """Of an increment: what is nearer counts as the same place."""
 REFUSED = 4.0
@@ -47,8 +47,9 @@ class Stretch:
 
     def near(self, problem: InterfaceProblem, place: float) -> Equilibrium:
         """The state at a place within, by the polynomial through the nearest states."""
-        nearest = np.argsort(np.abs(np.asarray(self.places) - place), kind="stable")[:POINTS]
-        places, states = [self.places[i] for i in nearest], [self.states[i] for i in nearest]
+        ahead = sum((other - place) * (self.places[0] - place) > 0 for other in self.places)  # before it on the walk
+        first = min(max(ahead - POINTS // 2, 0), max(len(self.places) - POINTS, 0))
+        places, states = (kept[first : first + POINTS] for kept in (self.places, self.states))
         if place in places:
             return states[places.index(place)]
 
@@ -71,10 +72,10 @@ class Stretch:
 class Adaptive:
     """Increments as long as the prediction is right to `error` (nm), from `least` to `most` (nm or GPa).
 
-    Left out, these two are `SHORTEST` and `LONGEST` of an approach; of a mean pressure they have to be given.
+    Left out, they are `ALLOWED`, `SHORTEST` and `LONGEST`; of a mean pressure the last two have to be given.
     """
 
-    error: float = 0.005
+    error: float | None = None
     least: float | None = None
     most: float | None = None
 
@@ -83,13 +84,12 @@ class Adaptive:
             value = getattr(self, name)
             if value is not None and not (is_number(value) and value > 0):
                 raise SceneError(name, value, "a positive number")
-        least, most = self._bounds
-        if least > most:
-            raise SceneError("least", least, f"at most the longest increment, {most:g}")
+        if self.least is not None and self.most is not None and self.least > self.most:
+            raise SceneError("least", self.least, f"at most the longest increment, {self.most:g}")
 
-    @property
-    def _bounds(self) -> tuple[float, float]:
-        return self.least or SHORTEST, self.most or LONGEST
+    def _allowed(self, problem: InterfaceProblem) -> float:
+        """Error of a prediction, nm."""
+        return self.error or ALLOWED * problem.reach
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
         """SceneError for a solver that makes no predictions, and where a pressure's increments have no bounds."""
@@ -102,35 +102,39 @@ class Adaptive:
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order, interpolated between those walked through."""
         self.check(problem.grid.size, steps, solver)
-        walk, begin, here = Walk(problem, solver), 0, None
+        walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
             end = _turn(steps, begin, walk.place(steps[begin].control))
             leg, spent = steps[begin:end], problem.tally.transforms
-            iterations, stretches, status = self._walk(walk, leg, here)
-            here = stretches[-1].states[-1] if stretches[-1].states else None
+            iterations, stretches, status = self._walk(walk, leg)
             spent = problem.tally.transforms - spent
+            lost = False
             for count, step in enumerate(leg):
                 shared = (iterations, spent) if count == 0 else (0, 0.0)
-                yield self._state(walk, step, leg, stretches, status, shared)
+                state = self._state(walk, step, leg, stretches, Status.BROKEN_OFF if lost else status, shared)
+                lost |= not state.status.solved
+                yield state
             begin = end
             if status is not Status.CONVERGED:
                 for step in steps[end:]:
                     yield PathState(step, walk.at(step), walk.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
                 return
 
-    def _walk(self, walk: Walk, leg: Sequence[LoadStep], here: Equilibrium | None) -> tuple[int, list[Stretch], Status]:
+    def _walk(self, walk: Walk, leg: Sequence[LoadStep]) -> tuple[int, list[Stretch], Status]:
         """Walk from where it stands to the last step of a leg: iterations spent, the stretches, and how it ended.
 
         Where a flow is needed it goes to the next state asked for, if that is within the least increment, so that a
         jump is found between the same two states as without adapting.
         """
         first, last = leg[0], leg[-1]
-        least, most = self._bounds
+        reach, error = walk.problem.reach, self._allowed(walk.problem)
+        most = self.most or max(LONGEST * reach, self.least or 0.0)
+        least = self.least or min(SHORTEST * reach, most)
         iterations, increment = 0, least
         stretches = [Stretch(0.0)]
         place = walk.place(first.control)
         if place is not None:
-            stretches[0].add(place, here)
+            stretches[0].add(place, walk.stands[1])
         while place != last.value:
             goal = first.value if place is None else _towards(place, last.value, increment)
             step = LoadStep(first.control, goal)
@@ -138,7 +142,7 @@ class Adaptive:
             iterations += found.iterations
             order = walk.history.order
             wrong = found.moved if found.settled and walk.history.places else np.inf
-            if not wrong <= REFUSED * self.error and increment > least and place is not None:
+            if not wrong <= REFUSED * error and increment > least and place is not None:
                 increment = max(increment * SHRINK, least)
                 continue
             if not (found.settled and found.moved <= walk.solver.trusted * walk.problem.reach):
@@ -151,7 +155,7 @@ class Adaptive:
             if jump:
                 stretches.append(Stretch(jump))
             stretches[-1].add(goal, found)
-            growth = GROW if flowed or not 0 < wrong < np.inf else SAFETY * (self.error / wrong) ** (1 / (order + 1))
+            growth = GROW if flowed or not 0 < wrong < np.inf else SAFETY * (error / wrong) ** (1 / (order + 1))
             increment = float(np.clip(increment * np.clip(growth, SHRINK, GROW), least, most))
             place = goal
         return iterations, stretches, Status.CONVERGED
@@ -175,7 +179,7 @@ class Adaptive:
         stretch = reached[-1]
         beyond = sign * (step.value - stretch.places[-1]) > 0  # by rounding
         found = stretch.near(problem, stretch.places[-1] if beyond else step.value)
-        if found.residual > problem.tolerance + self.error * problem.softening / problem.strength:
+        if found.residual > problem.tolerance + self._allowed(problem) * problem.softening / problem.strength:
             before = problem.tally.transforms
             found = walk.solver.near(problem, found.displacement, walk.solver.begin_walk())
             spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before

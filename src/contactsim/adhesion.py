@@ -2,7 +2,7 @@
 
 Loads are forces per unit thickness (N/m), compression positive (Eq. 4.2). Contact is `repulsive` where the normal gap
 is negative, to a fraction of a node, or `interacting` where the traction exceeds a part of the laws' strength. A path
-is cut into loading and unloading where the approach turns.
+is cut into loading and unloading where the approach turns first, and second.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def pull_off(approach: Array, load: Array) -> dict[str, float]:
         part = slice(max(leg.start - 1, 0), leg.stop)  # from the turn on
         pull, places = -load[part], approach[part]
         best = 0 if np.isnan(pull).all() else int(np.nanargmax(pull))
-        known = 0 < best < pull.size - 1
+        known = 0 < best < pull.size - 1 and pull[best] > 0
         beside = [other for other in (best - 1, best + 1) if known]
         found[f"pull_off_load_{name}"] = float(pull[best]) if known else np.nan
         found[f"pull_off_approach_{name}"] = float(places[best]) if known else np.nan
@@ -141,9 +141,11 @@ def pull_off(approach: Array, load: Array) -> dict[str, float]:
 
 
 def legs(approach: Array) -> tuple[slice, slice]:
-    """The steps of loading, to the first largest approach, and of unloading, until it grows again; approach (step,)."""
-    turn = int(np.argmax(approach)) + 1
-    again = np.flatnonzero(np.diff(approach[turn:]) > LEVEL)
+    """The steps of loading, as long as the approach grows, and of unloading, until it grows again; approach (step,)."""
+    changes = np.diff(approach)
+    back = np.flatnonzero(changes < -LEVEL)
+    turn = int(back[0]) + 1 if back.size else approach.size
+    again = np.flatnonzero(changes[turn:] > LEVEL)
     return slice(0, turn), slice(turn, turn + int(again[0]) + 1 if again.size else approach.size)
 
 

@@ -92,26 +92,29 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
-    if "line_load" not in fine:  # a hard wall pressed through given approaches
-        data = fine.assign(normalised_pressure=fine.mean_pressure / fine.contact_modulus)
-        return data.merge(_ensemble(data, (*AVERAGED, "normalised_pressure"))) if data.member.size > 1 else data
-    data = _of_states(summarised(fine))
+    smooth = "line_load" in fine  # else a hard wall pressed through given approaches
+    made, names = (_of_states, ALONG_PATHS) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
+    data = made(fine)
     if data.member.size > 1:
-        data = data.merge(_ensemble(data, ALONG_PATHS))
+        data = data.merge(_ensemble(data, names))
     for suffix, other in _others(runs):
-        other = _of_states(summarised(other))
+        other = made(other)
         same = data.sel(member=other.member)
-        changes = {
-            name: abs(same[name] - other[name]).max("member") for name in SUMMARY if name in other and name in same
-        }
-        data = data.assign({f"{name}{suffix}": change for name, change in changes.items()})
-        if data.member.size > 1:
-            data = data.merge(_change(data, other, suffix, ALONG_PATHS))
+        known = [name for name in SUMMARY if name in other and name in same]
+        data = data.assign({f"{name}{suffix}": abs(same[name] - other[name]).max("member") for name in known})
+        if data.member.size > 1 or not smooth:
+            data = data.merge(_change(data, other, suffix, names))
     return data
 
 
+def _of_contacts(data: xr.Dataset) -> xr.Dataset:
+    """States of a hard wall with their pressure over the modulus."""
+    return data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus)
+
+
 def _of_states(data: xr.Dataset) -> xr.Dataset:
-    """With what the numbers of states are as parts of the whole."""
+    """States of smooth laws as parts of the whole, and what their paths amount to."""
+    data = summarised(data)
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     for part in ("repulsive", "interacting"):
         ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient

@@ -73,7 +73,18 @@ def first_scene(study: Study) -> tuple[Scene, dict, int]:
 
 SHOWN = (
     *("mean_pressure", "relative_contact_area", "kappa", "kappa_r", "mean_gap", "non_uniformity"),
-    *("approach", "line_load", "repulsive_length", "overclosure", "slip", "residual", "jump", "transforms", "status"),
+    *(
+        "approach",
+        "line_load",
+        "repulsive_length",
+        "overclosure",
+        "slip",
+        "residual",
+        "jump",
+        "beyond",
+        "transforms",
+        "status",
+    ),
 )
 """What is printed of a simulation, as far as its scene has it."""
 
@@ -87,7 +98,8 @@ def explain_scene(options: argparse.Namespace) -> None:
     runs = len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {points} points, {runs} run{'s' * (runs > 1)}\n")
     increments = increments_of(settings) if "increments" in settings else None
-    sys.stdout.write(explain(scene, points, settings["solver"]["kind"], increments).text + "\n")
+    told = explain(scene, points, settings["solver"]["kind"], increments, study.settings["leave_out"])
+    sys.stdout.write(told.text + "\n")
     if options.draw:
         from contactsim.figures.sketch import save_sketch
 

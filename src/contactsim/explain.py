@@ -6,6 +6,7 @@ Everything said here is read off the scene and the solvers' own declarations, so
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -62,7 +63,9 @@ class Explanation:
         return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
 
 
-def explain(scene: Scene, points: int, method: str, increments: Increments | None = None) -> Explanation:
+def explain(
+    scene: Scene, points: int, method: str, increments: Increments | None = None, asked: Sequence[str] = ()
+) -> Explanation:
     """Explain a scene on a grid of `points`, with the solver named `method` and, of smooth laws, increments."""
     chosen = solver(method)
     size = math.prod(scene.upper.surface.shape(points))
@@ -74,7 +77,7 @@ def explain(scene: Scene, points: int, method: str, increments: Increments | Non
             for component in scene.components
             for field in ("displacement", *["traction"] * (component in scene.exerted))
         ),
-        left_out=_left_out(scene),
+        left_out=dict.fromkeys(asked, "as the study asks") | _left_out(scene),
         unknowns=size * len(scene.exerted),
         steps=len(scene.path.steps),
         increments="" if increments is None else _increments(increments),
@@ -140,7 +143,7 @@ def _left_out(scene: Scene) -> dict[str, str]:
         free, kept = "free on a half-space: zero by convention", "zero: an incompressible layer keeps its volume"
         out["mean displacement"] = free if Trait.HALF_SPACE in scene.traits else kept
     unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(on, kind) for on in scene.effects)]
-    return out | dict.fromkeys(unlisted, "not listed")
+    return out | dict.fromkeys(unlisted, "does not act")
 
 
 def _why_not(scene: Scene, name: str) -> str:

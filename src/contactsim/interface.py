@@ -234,10 +234,15 @@ class InterfaceProblem:
         return float(np.abs(field).max() / self.strength)
 
 
+def check_tolerance(tolerance: object, name: str = "tolerance") -> None:
+    """SceneError for what is no tolerance, or so loose that doing nothing would meet it."""
+    if not (is_number(tolerance) and 0 < tolerance <= LOOSEST):
+        raise SceneError(name, tolerance, f"a number above 0, at most {LOOSEST}, in parts of the laws' strength")
+
+
 def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> InterfaceProblem:
     """The problem that a scene of smooth laws poses on the grid of `heights` (n,), nm, at zero approach."""
-    if not (is_number(tolerance) and 0 < tolerance <= LOOSEST):
-        raise SceneError("tolerance", tolerance, f"a number above 0, at most {LOOSEST}, in parts of the laws' strength")
+    check_tolerance(tolerance)
     grid = Grid(heights.shape, scene.lengths, threads)
     compliance = relative_compliance(scene.lower.elasticity, scene.upper.elasticity, grid, scene.components)
     derived = None

@@ -10,7 +10,6 @@ from dataclasses import replace
 from functools import reduce
 
 from contactsim.elasticity import Elasticity, HalfSpace
-from contactsim.errors import SceneError
 from contactsim.scene import Scene
 
 Change = Callable[[object], object]
@@ -46,23 +45,15 @@ def _incompressible(body: Elasticity) -> Elasticity:
 
 
 LEFT_OUT: dict[str, Callable[[Scene], Scene]] = {
-    "coupling": lambda scene: _of_laws(scene, _without("coupling")),
     "friction": lambda scene: _of_laws(scene, _without("friction")),
-    "height": lambda scene: _of_bodies(scene, _deep),
+    "coupling": lambda scene: _of_laws(scene, _without("coupling")),
     "compressibility": lambda scene: _of_bodies(scene, _incompressible),
+    "height": lambda scene: _of_bodies(scene, _deep),
 }
-"""What can be left out: that normal traction feels the tangential gap, tangential work, the finite height of bodies, by
-half-spaces of the same material, and their compressibility, at the same E*."""
+"""What can be left out: tangential work; that normal traction feels the tangential gap, and friction with it; the
+compressibility of bodies, at the same E*; their finite height, by half-spaces of the same materials."""
 
 
 def left_out(scene: Scene, names: Sequence[str]) -> Scene:
-    """A scene without some of its effects; SceneError for one that it does not have."""
-
-    def without(one: Scene, name: str) -> Scene:
-        """The scene without one more."""
-        less = LEFT_OUT[name](one)
-        if less == one:
-            raise SceneError("leave_out", name, "effects that the scene has")
-        return less
-
-    return reduce(without, names, scene)
+    """A scene without some effects, in whatever order they are named; one that it does not have changes nothing."""
+    return reduce(lambda one, name: LEFT_OUT[name](one) if name in names else one, LEFT_OUT, scene)

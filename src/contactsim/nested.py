@@ -13,12 +13,14 @@ import numpy as np
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.interface import InterfaceProblem
+from contactsim.interface import InterfaceProblem, check_tolerance
 from contactsim.loading import LoadStep
 from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.walk import PathState, Walk
 
+STRAYING = 0.5
+"""Where a flow ends farther from its begin than this, in the laws' length, the next state is sought by flow too."""
 CLOSE = 1e-9
 """How near (nm or GPa) a step is to a value that asks for it."""
 
@@ -40,8 +42,7 @@ class Nested:
 
     def __post_init__(self) -> None:
         for name in ("walking", "reading"):
-            if not getattr(self, name) > 0:
-                raise SceneError(name, getattr(self, name), "a positive number, in parts of the laws' strength")
+            check_tolerance(getattr(self, name), name)
         for name in ("ratio", "between"):
             value = getattr(self, name)
             if value < 1 or value & (value - 1):
@@ -65,38 +66,42 @@ class Nested:
         """States at all steps, in order."""
         size, tally = problem.grid.size, problem.tally
         self.check(size, steps, solver)
-        walk = Walk(problem.coarser(size // self.ratio, self.walking), solver, divisions=0)
+        walk = Walk(problem.coarser(size // self.ratio, self.walking), solver, divides=False)
         between = problem.coarser(size // self.between, self.reading)
         coarse, fine = (np.zeros(level.unknowns, complex) for level in (walk.problem, between))  # of the last state
+        middle, finest = (Level(level, solver) for level in (between, problem))
         for step, settled in zip(steps, self._asked(steps).any(0), strict=True):
             before = tally.transforms
             state = walk.advance(step)
             if state.status is Status.CONVERGED:
                 expected = fine + between.refined(state.displacement - coarse)
-                refined = _refined(between.at(step), solver, state, expected)
+                refined = middle.state(state, expected)
                 if refined.status is Status.CONVERGED:
                     coarse, fine = state.displacement, refined.displacement
                 state = refined
             if settled and state.status is Status.CONVERGED:
-                state = _refined(problem.at(step), solver, state, problem.refined(state.displacement))
+                state = finest.state(state, problem.refined(state.displacement))
             yield replace(state, transforms=tally.transforms - before)
 
 
-def _refined(here: InterfaceProblem, solver: PathSolver, state: PathState, start: Array) -> PathState:
-    """The state on a finer grid that one of a coarser grid leads to, from where it is expected."""
-    count = state.iterations
-    found = solver.near(here, start, solver.begin_walk())
-    if not (found.settled and found.moved <= here.reach):
+class Level:
+    """A finer grid than that of a walk, on which its states are solved for."""
+
+    def __init__(self, problem: InterfaceProblem, solver: PathSolver) -> None:
+        self._problem, self._solver = problem, solver
+        self._strays = False
+
+    def state(self, coarse: PathState, start: Array) -> PathState:
+        """The state here that one of a coarser grid leads to, from where it is expected.
+
+        Where the last one was found far from there, or not without a flow, the flow is tried at once.
+        """
+        here, count = self._problem.at(coarse.step), coarse.iterations
+        found = None if self._strays else self._solver.near(here, start, self._solver.begin_walk())
+        if found is None or not (found.settled and found.moved <= here.reach):
+            count += found.iterations if found else 0
+            found = self._solver.flow(here, start)
+            self._strays = found.moved > STRAYING * here.reach
         count += found.iterations
-        found = solver.flow(here, start)
-    return PathState(
-        state.step,
-        here,
-        found.displacement,
-        found.status,
-        found.residual,
-        state.jump,
-        count + found.iterations,
-        0.0,
-        found,
-    )
+        rest = found.status, found.residual, coarse.jump, count, 0.0, found
+        return PathState(coarse.step, here, found.displacement, *rest)

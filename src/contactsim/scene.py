@@ -68,6 +68,11 @@ class Scene:
         for step in self.path.steps if Trait.WALL in self.traits else ():
             if step.control is Trait.MEAN_PRESSURE and step.value < 0:
                 raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
+        for side in ("lower", "upper") if "t" in self.components else ():
+            body = getattr(self, side).elasticity
+            if body is not None and body.poisson_ratio is None:
+                allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
+                raise SceneError("poisson_ratio", None, allowed)
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise SceneError("length", lengths, "the same periods for both surfaces")

@@ -17,7 +17,9 @@ from contactsim import dataset
 from contactsim.build import increments_of, points_of, scene_of
 from contactsim.config import Key, choice, keys_of, read
 from contactsim.errors import SceneError
+from contactsim.interface import check_tolerance
 from contactsim.laws import EFFECTS
+from contactsim.leaving_out import LEFT_OUT
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.schema import BODIES, COMPANIONS, KINDS, MODULI, STUDY_KEYS, is_smooth, read_load, usual_solver
 from contactsim.solvers import module_of, solver
@@ -85,8 +87,16 @@ class Study:
         for run in study.runs():
             if run.member == 0:
                 study._check(run)
+        study._check_left_out()
         study._check_fits()
         return study
+
+    def _check_left_out(self) -> None:
+        """What is left out must be an effect of one variant at least."""
+        whole = [scene_of(run.settings | {"leave_out": []}) for run in self.runs() if run.member == 0]
+        for name in self.settings["leave_out"]:
+            if all(LEFT_OUT[name](scene) == scene for scene in whole):
+                raise SceneError(f"studies.{self.name}.leave_out", name, "effects that the study has", self.file)
 
     def _check_fits(self) -> None:
         """Fits need two loads below the limit, and Hurst exponents alone to be varied."""
@@ -212,6 +222,7 @@ class Study:
             require(method, scene)
             scene.upper.surface.check(points)
             if is_smooth(run.settings):
+                check_tolerance(run.settings["tolerance"])
                 increments_of(run.settings).check(points, scene.path.steps, method)
                 for value in run.settings["snapshots"] or ():
                     scene.path.nearest(value)

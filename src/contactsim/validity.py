@@ -40,5 +40,6 @@ def told(data: xr.Dataset) -> list[str]:
     for name, (limit, words) in LIMITS.items():
         share = float(((flags & FLAGS[name]) > 0).mean())
         if share:
-            found.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {100 * share:.2g} %")
+            part = "all" if share == 1 else f"{100 * share:.2g} %"
+            found.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {part}")
     return found

@@ -23,8 +23,8 @@ SUDDEN, STEADY = 0.1, 5.0
 """A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
 is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
 
-DIVISIONS, DEEPEST = 32, 8
-"""Most halvings within one step, and of one part of it."""
+DEEPEST = 8
+"""Most times that a step, or a part of it, is halved."""
 
 PATIENCE = 3
 """Steps in a row without a solution, each sought from the last stable state, after which a path breaks off."""
@@ -64,21 +64,36 @@ class PathState:
 class Walk:
     """Where a path stands: the last stable state, and the history that predicts the next."""
 
-    def __init__(self, problem: InterfaceProblem, solver: PathSolver, divisions: int = DIVISIONS) -> None:
+    def __init__(self, problem: InterfaceProblem, solver: PathSolver, divides: bool = True) -> None:
         self.problem, self.solver = problem, solver
-        self._divisions = divisions if solver.predicts else 0
+        self._divides = divides and solver.predicts
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
         self._failed = 0
         self._memory = solver.begin_walk()
-        self._control: Trait | None = None
+        self.stands: tuple[LoadStep, Equilibrium] | None = None  # the last state and its step
         self._pace: float | None = None
 
     def place(self, control: Trait) -> float | None:
-        """Where it stands, nm or GPa; None at the beginning, and where another control has led to."""
-        if control is not self._control:  # places along another control predict nothing
-            self.history, self._control, self._pace = History(), control, None
+        """Where it stands, nm or GPa; None at the beginning."""
+        if self.stands is not None and control is not self.stands[0].control:
+            self._turn(control)
         return self.history.places[-1] if self.history.places else None
+
+    def _turn(self, control: Trait) -> None:
+        """Go on from the last state under the other control, where it has another place and another uniform mode."""
+        step, state = self.stands
+        here, last = self.at(step), state.displacement.copy()
+        if control is Trait.MEAN_PRESSURE:
+            place = -float(state.traction[0].mean())
+            last[0, 0] -= here.approach
+        else:
+            place = here.yielded - float(last[0, 0].real) - here.origin
+            last[0, 0] = here.yielded
+        self.last, self._pace = last, None
+        self.stands = LoadStep(control, place), replace(state, displacement=last)
+        self.history = History()
+        self.history.add(place, last)
 
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The problem at a load step."""
@@ -110,7 +125,7 @@ class Walk:
             self.history.restart(step.value, found.displacement)
         else:
             self.history.add(step.value, found.displacement)
-        self.last = found.displacement
+        self.last, self.stands = found.displacement, (step, found)
         return jump
 
     def advance(self, step: LoadStep) -> PathState:
@@ -127,24 +142,23 @@ class Walk:
 
     def _reach(self, step: LoadStep) -> tuple[Equilibrium, float, int]:
         """Go to a step, by way of others between if need be: the state, how far it jumped, iterations spent."""
-        goals, left, jump, spent = [step.value], self._divisions, 0.0, 0
+        goals, divides, jump, spent = [step.value], self._divides, 0.0, 0
         while True:
             goal = replace(step, value=goals[-1])
             found, flowed = self.near(goal) if self.solver.predicts else None, False
             spent += found.iterations if found else 0
             if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
                 place = self.place(step.control)
-                divisible = left and len(goals) <= DEEPEST and place is not None
+                divisible = divides and len(goals) <= DEEPEST and place is not None
                 if divisible and self._length(goal, abs(goals[-1] - place)) > SUDDEN * self._small:
                     goals.append((place + goals[-1]) / 2)
-                    left -= 1
                     continue
                 found, flowed = self.flow(goal), True
                 spent += found.iterations
             if found.settled:
                 jump += self.accept(goal, found, flowed)
             elif len(goals) > 1:  # no solution on the way: straight on
-                goals, left = [step.value], 0
+                goals, divides = [step.value], False
                 continue
             goals.pop()
             if not goals:

@@ -10,9 +10,9 @@ state. It is followed by linearly implicit steps
 with a shift s, the inverse of the time step, that adapts to how far a step moves the surface. Steps uphill or too far
 are refused. Once s is small against the laws' tangent it is dropped, and the end is Newton's.
 
-A symmetric scene has symmetric equilibria, which nothing symmetric leaves, stable or not. So each is looked at: by the
-sign of the determinant of K + T', a by-product of the preconditioner, and at the end of a flow by its eigenvalues. A
-state from which a displacement grows by itself is left along it.
+A symmetric scene has symmetric equilibria, which nothing symmetric leaves, stable or not. So each is looked at: by
+the sign of the determinant of K + T' and by its eigenvalue nearest zero, by-products of the preconditioner, and at the
+end of a flow by all eigenvalues. A state from which a displacement grows by itself is left along it.
 """
 
 from __future__ import annotations
@@ -47,11 +47,12 @@ NUDGE, NUDGES = 0.03, 5
 
 
 class Memory:
-    """The preconditioner of the last state of a walk, which serves the next one nearly as well."""
+    """The preconditioner of the last state, which serves the next one nearly as well, and its softest wave."""
 
     def __init__(self) -> None:
         self._kept: ZonePreconditioner | None = None
         self._held = b""
+        self._wave: Array | None = None
 
     def preconditioner(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
         """The one kept, or a new one for this tangent."""
@@ -63,6 +64,13 @@ class Memory:
         """A new one for this tangent, to keep."""
         self._kept, self._held = ZonePreconditioner(problem, tangent), problem.held.tobytes()
         return self._kept
+
+    def doubts(self) -> bool:
+        """Whether the state that the one kept was made for may be one that a disturbance leaves."""
+        if self._wave is None or self._wave.shape != self._kept.any_wave.shape:
+            self._wave = self._kept.any_wave
+        doubtful, self._wave = self._kept.softest(self._wave)
+        return doubtful
 
     def learn(self, iterations: int) -> None:
         """Drop it if it served badly."""
@@ -122,7 +130,7 @@ class NewtonKrylov:
         unstable = False
         if status is Status.CONVERGED:
             fresh = memory.renew(problem, tangent)
-            unstable = fresh.is_doubtful and self._growing(problem, tangent, fresh) is not None
+            unstable = memory.doubts() and self._growing(problem, tangent, fresh) is not None
         return Equilibrium(displacement, gap, traction, status, worst, strayed, count, unstable)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:

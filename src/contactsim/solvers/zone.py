@@ -24,7 +24,9 @@ SHIFT, LEAST = 0.3, 0.01
 """Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
 NEGLIGIBLE = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
-SEEN = 300
+TURNS, FADING = 2, 0.5
+"""Steps of inverse iteration a state; what is left of a wave where the zone is no more."""
+SEEN = 160
 """Most entries of a zone whose growing displacements are looked for."""
 MOST = 400
 """Entries of the zone beyond which its factorisation would cost more than it saves: the coarse grid gets coarser."""
@@ -52,6 +54,11 @@ class ZonePreconditioner:
     def _acting(self, values: Array) -> Array:
         """Points where the tangent is not negligible, bool."""
         return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.softening
+
+    @property
+    def any_wave(self) -> Array:
+        """A wave (read, nodes) of no symmetry, to begin with."""
+        return np.cos(np.arange(len(self._problem.shape) * self._nodes) ** 2.0).reshape(-1, self._nodes)
 
     def _field(self, coefficients: Array) -> Array:
         """Values (rows, nodes) on the coarse grid of long waves (rows, low), with the derived component."""
@@ -83,14 +90,25 @@ class ZonePreconditioner:
         self._matrix = square
         self._lu = lu_factor(square, check_finite=False)
 
-    @property
-    def is_doubtful(self) -> bool:
-        """Whether K + D + shift, as seen here, has an odd number of negative eigenvalues, by its determinant's sign."""
+    def softest(self, wave: Array) -> tuple[bool, Array]:
+        """Whether K + D + shift may have negative eigenvalues, and a wave (read, nodes) to ask the next one with.
+
+        An odd number of them is told by the sign of the determinant. Of an even number, as alike asperities have, the
+        one nearest zero is found by inverse iteration from the wave of the state before, in which it was the next to
+        cross: w' = (1 + C D)⁻¹ w, and w·w' is negative.
+        """
         if not len(self._zone):
-            return False
+            return False, wave
         factors, swaps = self._lu
         negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
-        return bool(negative % 2)
+        here = wave[:, self._zone].ravel()
+        for _ in range(TURNS):
+            here /= np.linalg.norm(here)
+            after = lu_solve(self._lu, here, check_finite=False)
+            falls, here = here @ after < 0, after
+        kept = FADING * wave
+        kept[:, self._zone] = (here / np.linalg.norm(here)).reshape(len(wave), -1)
+        return bool(negative % 2) or bool(falls), kept
 
     def growing(self) -> Array | None:
         """Displacement (exerted, m) that would grow by itself the most, as seen here; None if none would.
