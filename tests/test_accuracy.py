@@ -299,7 +299,7 @@ def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers
         "tolerance turned at 32 points and increment 0.5 nm, reference tolerance 1e-06 · increment",
         "increment turned at 32 points and tolerance 0.001, reference increment 0.02 nm",
         "without a ring: thesis, with increment 0.02 nm",
-        "increments that adapt, so without a ring: quick",
+        "increments of their own, so without a ring: quick",
     ):
         assert part in text
     assert "adapt" not in accuracy.footer_text(drawn()[1], PLAN)

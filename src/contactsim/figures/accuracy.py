@@ -93,7 +93,7 @@ def footer_text(table: pd.DataFrame, plan: Mapping) -> str:
     parts += [f"not on the curve of {own_solver(table)}, so without a ring: {'; '.join(beyond)}"] * bool(beyond)
     adaptive = [name for name, own in plan["marks"].items() if name != "thesis" and "increment" not in own]
     adapts = "increment" in turned(table) and bool(adaptive)
-    parts += [f"increments that adapt, so without a ring: {', '.join(adaptive)}"] * adapts
+    parts += [f"increments of their own, so without a ring: {', '.join(adaptive)}"] * adapts
     return " · ".join(parts)
 
 

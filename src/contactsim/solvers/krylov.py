@@ -60,4 +60,7 @@ def gmres(product: Map, precondition: Map, target: Array, tolerance: float, budg
     if not count:
         return np.zeros_like(target), 0
     weights = solve_triangular(hessenberg[:count, :count], right[:count])
-    return np.tensordot(weights, np.array(steps), 1), count
+    out = np.zeros_like(target)
+    for weight, step in zip(weights, steps, strict=True):
+        out += weight * step
+    return out, count
