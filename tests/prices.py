@@ -61,7 +61,10 @@ def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
     states |= {name: np.ones(shape) for name in ("repulsive_length", "repulsive_load", "adhesive_load")}
     states |= {name: np.ones(shape) for name in ("largest_pressure", "largest_pull", "jump")}
     states |= {"transforms": np.full(shape, 10.0), "status": np.zeros(shape, np.int8)}
-    variables = {name: (dims, value) for name, value in states.items()} | {"points": points}
+    of_area = ("interacting_length_hundredth", "rms_gradient_repulsive", "rms_gradient_interacting", "rms_gradient")
+    states |= {name: np.ones(shape) for name in of_area} | {"mean_pressure": load / 1000.0}
+    variables = {name: (dims, value) for name, value in states.items()}
+    variables |= {"points": points, "length": 1000.0, "contact_modulus": 1.0}
     return xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)})
 
 

@@ -59,6 +59,8 @@ SYMBOLS = {
     "pressure_at_fiftieth": "p/E* at aᵣₑₗ = 0.02",
     "pressure_at_tenth": "p/E* at aᵣₑₗ = 0.1",
     "pressure_at_third": "p/E* at aᵣₑₗ = 1/3",
+    "dissipated_energy": "energy of a cycle",
+    "dissipated_work": "energy of a cycle by area",
     "area_at_twelve": "aᵣₑₗ at 12 nm",
     "pressure_at_twelve": "p/E* at 12 nm",
     "gradient_at_fiftieth": "ḡᵣ/ḡ at aᵣₑₗ = 0.02",

@@ -38,11 +38,12 @@ SLOWLY = "mass_weighted_verlet"
 
 @dataclass(frozen=True)
 class PathCase:
-    """A scene of smooth laws, symmetric about its middle, and how its path must end.
+    """A scene of smooth laws, and how its path must end.
 
     tolerance: in parts of the laws' strength; ends: status of the last step, that of all others is converged; begin:
     datum from which the path comes, and parts: into how many smaller increments each of its own is divided to compare
-    the branch, 0 not to compare; twin: laws by which a scene has the same answer, None where there are none.
+    the branch, 0 not to compare; even: whether scene and answer are mirror images of themselves; twin:
+    laws by which a scene has the same answer, None where there are none.
     """
 
     scene: Scene
@@ -51,6 +52,7 @@ class PathCase:
     ends: Status = Status.CONVERGED
     begin: float = -10.0
     parts: int = 0
+    even: bool = True
     twin: tuple[Law, ...] | None = None
 
     @property

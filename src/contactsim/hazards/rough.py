@@ -1,6 +1,7 @@
 """Rough adhesive contacts that get harder: from severity 0 to 100, and what is right at each.
 
-The rough line is a small one of Chapter 5, its own mirror image, so that what comes of it must be so too.
+The rough line is a small one of Chapter 5. It is not its own mirror image: ridges that are would jump one by one, and
+which of them is first would be a matter of rounding.
 """
 
 from __future__ import annotations
@@ -24,13 +25,12 @@ POINTS, HEIGHT, HURST = 256, 2.5, 0.8
 MODULUS, RATIO, WORK = 70.0, 0.45, 10.5
 """Of Chapter 5: Young's modulus (GPa), Poisson's ratio, and the strong work of separation (N/m), φn* = 0.15."""
 MIDDLE = 0.4 * WORK
-"""Adhesion of which the branch is still that of smaller increments: beyond, ridges that are mirror images of each other
-compete, and what decides between them is rounding, and in large steps every method leaves the branch."""
+"""Adhesion of which the branch is still that of smaller increments: beyond, in large steps every method leaves it."""
 
 
 @dataclass(frozen=True)
 class Ridges:
-    """A self-affine line, even about the middle of its period: waves of the amplitudes of Eq. 3.10, up or down.
+    """A self-affine line: waves of the amplitudes of Eq. 3.10 and of any phase.
 
     rms_height (nm) is met exactly.
     """
@@ -60,11 +60,10 @@ class Ridges:
     def heights(self, points: int) -> Array:
         """Heights (points,), nm."""
         wave = np.arange(1, self.modes)
-        up = np.random.default_rng(5).choice([-1.0, 1.0], wave.size)
-        size = up * np.maximum(wave * ROLLOFF / self.length, 1.0) ** (-(1 + 2 * self.hurst) / 2)
+        phase = np.random.default_rng(5).uniform(0.0, 2 * np.pi, wave.size)
+        size = np.maximum(wave * ROLLOFF / self.length, 1.0) ** (-(1 + 2 * self.hurst) / 2)
         size *= self.rms_height / np.sqrt(np.sum(size**2) / 2)
-        half = np.cos(2 * np.pi * np.outer(np.arange(points // 2 + 1) / points - 0.5, wave)) @ size
-        return np.concatenate((half, half[-2:0:-1]))
+        return np.cos(2 * np.pi * np.outer(np.arange(points) / points, wave) + phase) @ size
 
 
 def _pressed(law: Law, depths: list[float], ratio: float = RATIO, surface: Ridges | None = None) -> Scene:
@@ -84,7 +83,7 @@ def _steps(begin: float, end: float, size: float = 0.25) -> list[float]:
 
 def _case(scene: Scene, depth: float, parts: int) -> PathCase:
     """A path from 8 nm before its first step, the depth (nm) of which is beyond first touch; parts as `PathCase`."""
-    return PathCase(scene, POINTS, begin=scene.path.steps[0].value - depth - 8.0, parts=parts)
+    return PathCase(scene, POINTS, begin=scene.path.steps[0].value - depth - 8.0, parts=parts, even=False)
 
 
 def soft_wall(severity: float) -> PathCase:
@@ -118,8 +117,8 @@ def one_large_step(severity: float) -> PathCase:
 
 
 def frictionless_flow(severity: float) -> PathCase:
-    """A rough compressible body, coupled but frictionless, pressed from -3 to 6 nm: no energy, so it must flow."""
-    depth = -3.0 + 9.0 * severity / 100
+    """A rough compressible body, coupled but frictionless, pressed from -3 nm to touch: no energy, so it must flow."""
+    depth = -3.0 + 3.0 * severity / 100
     return _case(_pressed(CohesiveZone(WORK), [-4.0, depth], 0.1), -4.0, 0)
 
 
