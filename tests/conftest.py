@@ -11,6 +11,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
+from threadpoolctl import threadpool_limits
 
 from contactsim import aggregate, costs, dataset, march
 from contactsim.build import scene_of
@@ -20,6 +21,11 @@ from contactsim.plan import Plan
 
 ROOT = Path(__file__).parents[1]
 FILES = (("datasets", ".nc"), ("costs", ".csv"))
+
+
+def pytest_configure() -> None:
+    """One BLAS thread, as `simulate` has: on small dense systems more would only wait for each other."""
+    threadpool_limits(1, "blas")
 
 
 def solved(job: tuple) -> None:

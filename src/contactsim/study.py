@@ -93,8 +93,9 @@ class Study:
 
     def _check_left_out(self) -> None:
         """What is left out must be an effect of one variant at least."""
-        whole = [scene_of(run.settings | {"leave_out": []}) for run in self.runs() if run.member == 0]
-        for name in self.settings["leave_out"]:
+        names = self.settings["leave_out"]
+        whole = [scene_of(run.settings | {"leave_out": []}) for run in self.runs() if names and run.member == 0]
+        for name in names:
             if all(LEFT_OUT[name](scene) == scene for scene in whole):
                 raise SceneError(f"studies.{self.name}.leave_out", name, "effects that the study has", self.file)
 
