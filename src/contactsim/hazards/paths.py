@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from contactsim.elasticity import Elasticity, HalfSpace, Layer
 from contactsim.follow import Requested
@@ -129,7 +130,8 @@ class PathCase:
     def follow(self, method: PathSolver) -> tuple[InterfaceProblem, list[PathState]]:
         """The problem, which has counted the work, and the states that a solver finds."""
         problem = pose_interface(self.scene, -self.shape[0], self.tolerance)
-        return problem, list(Requested().follow(problem, method, self.steps))
+        with threadpool_limits(1, "blas"):  # on small dense systems more would only wait for each other
+            return problem, list(Requested().follow(problem, method, self.steps))
 
     @cached_property
     def exact(self) -> Array | None:
