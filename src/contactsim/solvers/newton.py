@@ -40,8 +40,6 @@ FIRST, RETURN, DROP = 0.03, 0.02, 1e-3
 
 STRAYED = 1e3
 """Newton is given up once it has moved this many times as far as is trusted."""
-SELDOM = 5
-"""Of so many states one at least is looked at."""
 HARD = 5
 """A preconditioner is made anew after a linear solve that took more iterations than this."""
 NUDGE, NUDGES = 0.03, 5
@@ -55,7 +53,6 @@ class Memory:
         self._kept: ZonePreconditioner | None = None
         self._held = b""
         self._wave: Array | None = None
-        self._least, self._rest, self._since = 1.0, 0, 0
 
     def preconditioner(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
         """The one kept, or a new one for this tangent."""
@@ -68,22 +65,12 @@ class Memory:
         self._kept, self._held = ZonePreconditioner(problem, tangent), problem.held.tobytes()
         return self._kept
 
-    def doubts(self, problem: InterfaceProblem, tangent: Tangent) -> bool:
-        """Whether a state of that tangent may be one that a disturbance leaves.
-
-        The softer it gets the more states are looked at: the next after half of what would take it to zero.
-        """
-        self._since += 1
-        if self._since <= self._rest:
-            return False
-        kept = self.renew(problem, tangent)
-        if self._wave is None or self._wave.shape != kept.any_wave.shape:
-            self._wave = kept.any_wave
-        least, self._wave = kept.softest(self._wave)
-        falls = (self._least - least) / self._since
-        self._rest = SELDOM - 1 if falls <= 0 else int(min(max(least / falls / 2, 1), SELDOM)) - 1
-        self._least, self._since = least, 0
-        return least < 0
+    def doubts(self) -> bool:
+        """Whether the state that the one kept was made for may be one that a disturbance leaves."""
+        if self._wave is None or self._wave.shape != self._kept.any_wave.shape:
+            self._wave = self._kept.any_wave
+        doubtful, self._wave = self._kept.softest(self._wave)
+        return doubtful
 
     def learn(self, iterations: int) -> None:
         """Drop it if it served badly."""
@@ -142,8 +129,8 @@ class NewtonKrylov:
         status = judged(worst, problem)
         unstable = False
         if status is Status.CONVERGED:
-            doubtful = memory.doubts(problem, tangent)
-            unstable = doubtful and self._growing(problem, tangent, memory.preconditioner(problem, tangent)) is not None
+            fresh = memory.renew(problem, tangent)
+            unstable = memory.doubts() and self._growing(problem, tangent, fresh) is not None
         return Equilibrium(displacement, gap, traction, status, worst, strayed, count, unstable)
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:

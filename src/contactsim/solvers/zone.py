@@ -90,25 +90,25 @@ class ZonePreconditioner:
         self._matrix = square
         self._lu = lu_factor(square, check_finite=False)
 
-    def softest(self, wave: Array) -> tuple[float, Array]:
-        """Least eigenvalue of 1 + C D as far as is seen, and a wave (read, nodes) to ask the next one with.
+    def softest(self, wave: Array) -> tuple[bool, Array]:
+        """Whether K + D + shift may have negative eigenvalues, and a wave (read, nodes) to ask the next one with.
 
         An odd number of them is told by the sign of the determinant. Of an even number, as alike asperities have, the
         one nearest zero is found by inverse iteration from the wave of the state before, in which it was the next to
         cross: w' = (1 + C D)⁻¹ w, and w·w' is negative.
         """
         if not len(self._zone):
-            return 1.0, wave
+            return False, wave
         factors, swaps = self._lu
         negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
         here = wave[:, self._zone].ravel()
         for _ in range(TURNS):
             here /= np.linalg.norm(here)
             after = lu_solve(self._lu, here, check_finite=False)
-            least, here = 1 / (here @ after), after
+            falls, here = here @ after < 0, after
         kept = FADING * wave
         kept[:, self._zone] = (here / np.linalg.norm(here)).reshape(len(wave), -1)
-        return -abs(least) if negative % 2 else least, kept
+        return bool(negative % 2) or bool(falls), kept
 
     def growing(self) -> Array | None:
         """Displacement (exerted, m) that would grow by itself the most, as seen here; None if none would.
