@@ -18,9 +18,10 @@ import numpy as np
 from contactsim.build import scene_of
 from contactsim.grid import Array, Grid, Tally
 from contactsim.plan import Plan
-from contactsim.scene import Certificate, Scale, Scene, WallProblem, pose
+from contactsim.scene import Scene
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
+from contactsim.wall import Certificate, Scale, WallProblem, pose
 
 CAP = 120
 """CPU seconds that one solution may take."""

@@ -18,9 +18,9 @@ from scipy.fft import rfft2
 
 from contactsim.grid import Array
 from contactsim.plan import Plan
-from contactsim.scene import Scale, WallProblem, pose
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
+from contactsim.wall import Scale, WallProblem, pose
 
 OURS = "conjugate_gradients"
 

@@ -12,7 +12,7 @@ import time
 from dataclasses import dataclass
 
 from contactsim.grid import Array
-from contactsim.scene import WallProblem
+from contactsim.wall import WallProblem
 
 RUNGS = tuple(10 ** (-power / 2) for power in range(8, 29))
 """Tolerances tried: 1e-4 to 1e-14, two a decade."""

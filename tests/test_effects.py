@@ -18,10 +18,11 @@ from contactsim.explain import explain
 from contactsim.figures.sketch import save_sketch
 from contactsim.laws import HardWall
 from contactsim.march import simulate
-from contactsim.scene import Body, Scene, pose
+from contactsim.scene import Body, Scene
 from contactsim.solvers import solver
 from contactsim.solvers.base import solve
 from contactsim.surface import Cylinder, Flat, Sinusoid, Sphere
+from contactsim.wall import pose
 
 WALL = (HardWall(),)
 

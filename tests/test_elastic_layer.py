@@ -21,7 +21,7 @@ from contactsim.explain import explain
 from contactsim.figures.sketch import sketch
 from contactsim.hazards.cases import Case, layer_response
 from contactsim.laws import HardWall
-from contactsim.scene import Body, Scene, pose
+from contactsim.scene import Body, Scene
 from contactsim.solvers import solver, solver_class
 from contactsim.solvers.active_set import ActiveSet, BlockStiffness, Continuation
 from contactsim.solvers.base import Status, require, solve
@@ -29,6 +29,7 @@ from contactsim.stability import judge
 from contactsim.surface import Flat, Sinusoid
 from contactsim.traits import Trait
 from contactsim.verdicts import Outcome
+from contactsim.wall import pose
 
 UNIAXIAL = 0.7**2 / 0.4
 """C11 at E* = 1 and ν = 0.3."""

@@ -17,12 +17,13 @@ from contactsim.explain import explain
 from contactsim.laws import HardWall
 from contactsim.measured import Profile, prepare
 from contactsim.roughness import rms_gradient
-from contactsim.scene import Body, Scene, pose
+from contactsim.scene import Body, Scene
 from contactsim.solvers import SOLVERS, solver
 from contactsim.solvers.active_set import ActiveSet, BlockStiffness, Continuation
 from contactsim.solvers.base import Status, require, solve
 from contactsim.surface import Flat, SelfAffine, generator
 from contactsim.traits import Trait
+from contactsim.wall import pose
 
 
 def assert_solved(result, tolerance=1e-3):

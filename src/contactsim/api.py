@@ -10,12 +10,13 @@ from contactsim.elasticity import Elasticity, HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.laws import HardWall
 from contactsim.measured import Profile
-from contactsim.scene import Body, Scene, pose
+from contactsim.scene import Body, Scene
 from contactsim.solvers import solver as named
 from contactsim.solvers import usual
 from contactsim.solvers.base import Result, Solver, require, solve
 from contactsim.surface import Flat, Sampled
 from contactsim.topography import Topography
+from contactsim.wall import pose
 
 
 def press(

@@ -55,6 +55,14 @@ class Law(Protocol):
         """Traction (exerts, n), GPa, and its derivatives (exerts, reads, n), GPa/nm."""
         ...
 
+    def without_coupling(self) -> Law:
+        """What it is where nothing slips: it neither reads nor exerts anything tangential."""
+        ...
+
+    def without_friction(self) -> Law:
+        """The same without tangential work."""
+        ...
+
 
 @dataclass(frozen=True)
 class HardWall:
@@ -63,6 +71,14 @@ class HardWall:
     reads = frozenset({"n"})
     exerts = frozenset({"n"})
     traits = frozenset({Trait.WALL})
+
+    def without_coupling(self) -> HardWall:
+        """Itself, as it reads the normal gap alone."""
+        return self
+
+    def without_friction(self) -> HardWall:
+        """Itself, as it has none."""
+        return self
 
 
 @dataclass(frozen=True)
@@ -197,6 +213,14 @@ class NormalCohesiveZone:
         """Traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
         pull, slope = _pull(gap / self.normal_length)
         return self.work_of_separation / self.normal_length * pull, self.stiffness * slope[None]
+
+    def without_coupling(self) -> NormalCohesiveZone:
+        """Itself, as it reads the normal gap alone."""
+        return self
+
+    def without_friction(self) -> NormalCohesiveZone:
+        """Itself, as it has none."""
+        return self
 
     def energy(self, gap: Array) -> Array:
         """Potential of the traction (n,), N/m, zero far apart: -φn (1 + Δn/δn) exp(-Δn/δn)."""

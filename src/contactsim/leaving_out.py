@@ -31,11 +31,6 @@ def _of_bodies(scene: Scene, change: Change) -> Scene:
     )
 
 
-def _without(name: str) -> Change:
-    """What a law says it is without an effect of that name; itself, where it says nothing."""
-    return lambda effect: getattr(effect, f"without_{name}", lambda: effect)()
-
-
 def _deep(body: Elasticity) -> Elasticity:
     return HalfSpace(body.contact_modulus, body.poisson_ratio)
 
@@ -45,8 +40,8 @@ def _incompressible(body: Elasticity) -> Elasticity:
 
 
 LEFT_OUT: dict[str, Callable[[Scene], Scene]] = {
-    "friction": lambda scene: _of_laws(scene, _without("friction")),
-    "coupling": lambda scene: _of_laws(scene, _without("coupling")),
+    "friction": lambda scene: _of_laws(scene, lambda effect: effect.without_friction()),
+    "coupling": lambda scene: _of_laws(scene, lambda effect: effect.without_coupling()),
     "compressibility": lambda scene: _of_bodies(scene, _incompressible),
     "height": lambda scene: _of_bodies(scene, _deep),
 }

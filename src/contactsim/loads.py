@@ -24,8 +24,9 @@ from contactsim.grid import Array, Grid
 from contactsim.loading import LoadStep
 from contactsim.observables import KEPT, wall_observables
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
-from contactsim.scene import Scene, pose
+from contactsim.scene import Scene
 from contactsim.solvers.base import Result, Solver, sentence, solve
+from contactsim.wall import pose
 
 logger = logging.getLogger(__name__)
 

@@ -54,13 +54,10 @@ class Nested:
         """SceneError for a grid that cannot be made coarser, and for states asked for that the path does not visit."""
         if points % (2 * self.ratio):
             raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {points} points")
-        lost = [value for value, found in zip(self.settled, self._asked(steps).any(1), strict=True) if not found]
+        found = np.abs(np.subtract.outer(self.settled, [step.value for step in steps])).min(1) <= CLOSE
+        lost = [value for value, is_found in zip(self.settled, found, strict=True) if not is_found]
         if lost:
             raise SceneError("settled", lost, "steps of the path, which these are not")
-
-    def _asked(self, steps: Sequence[LoadStep]) -> Array:
-        """Whether each value asked for is each step, bool (settled, steps)."""
-        return np.abs(np.subtract.outer(self.settled, [step.value for step in steps])) <= CLOSE
 
     def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
         """States at all steps, in order."""
@@ -70,7 +67,7 @@ class Nested:
         between = problem.coarser(size // self.between, self.reading)
         coarse, fine = (np.zeros(level.unknowns, complex) for level in (walk.problem, between))  # of the last state
         middle, finest = (Level(level, solver) for level in (between, problem))
-        for step, settled in zip(steps, self._asked(steps).any(0), strict=True):
+        for step in steps:
             before = tally.transforms
             state = walk.advance(step)
             if state.status is Status.CONVERGED:
@@ -79,6 +76,7 @@ class Nested:
                 if refined.status is Status.CONVERGED:
                     coarse, fine = state.displacement, refined.displacement
                 state = refined
+            settled = min((abs(value - step.value) for value in self.settled), default=np.inf) <= CLOSE
             if settled and state.status is Status.CONVERGED:
                 state = finest.state(state, problem.refined(state.displacement))
             yield replace(state, transforms=tally.transforms - before)

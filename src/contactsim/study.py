@@ -171,15 +171,17 @@ class Study:
         parts = {name: self._part(name, section) for name, section in sections.items()}
         smooth = is_smooth(self.settings)
         kept = "snapshots" if smooth else "keep"
-        shared = {name: self.settings[name] for name in ("effects", "load", "tolerance", kept)} | grid | change
+        shared = (
+            {name: self.settings[name] for name in ("effects", "load", "tolerance", "leave_out", kept)} | grid | change
+        )
         if smooth:
             shared["keep_fields"] = member < (self.settings["snapshot_members"] or self.settings["members"])
         drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
         if "through" in shared["load"]:  # says all, and is short
             shared["load"] = {key: value for key, value in shared["load"].items() if key != "values"}
-        less = change.get("leave_out", self.settings["leave_out"])
-        shared.pop("leave_out", None)
-        settings = drawn | shared | parts | ({"leave_out": less} if less else {})
+        settings = drawn | shared | parts
+        if not settings["leave_out"]:
+            del settings["leave_out"]  # as if it were not thought of
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
         coordinates = {dataset.dimension(name): value for name, value in varied.items()}

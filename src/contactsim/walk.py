@@ -34,8 +34,8 @@ PATIENCE = 3
 class PathState:
     """One state of the path: its load step, the problem there, its coefficients (exerted, m), and how it was found.
 
-    residual: over the laws' strength, NaN where interpolated; jump: how far (nm) the surface jumped since the state
-    before; iterations and transforms: spent since the state before; found: the solution, unless interpolated.
+    residual: over the laws' strength; jump: how far (nm) the surface jumped since the state before; iterations and
+    transforms: spent since the state before; found: the solution or what was interpolated, None after a break-off.
     """
 
     step: LoadStep
@@ -150,7 +150,7 @@ class Walk:
             if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
                 place = self.place(step.control)
                 divisible = divides and len(goals) <= DEEPEST and place is not None
-                if divisible and self._length(goal, abs(goals[-1] - place)) > SUDDEN * self._small:
+                if divisible and self._length(goal, abs(goals[-1] - place)) > self._small:
                     goals.append((place + goals[-1]) / 2)
                     continue
                 found, flowed = self.flow(goal), True
@@ -166,8 +166,8 @@ class Walk:
 
     @property
     def _small(self) -> float:
-        """A step (nm) so short that no smooth motion during it is taken for a jump."""
-        return self.problem.reach / STEADY
+        """A step (nm) not worth dividing: what moves smoothly during it is not taken for a jump."""
+        return SUDDEN * self.problem.reach / STEADY
 
     def _length(self, step: LoadStep, taken: float) -> float:
         """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""

@@ -33,9 +33,9 @@ import numpy as np
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
-from contactsim.scene import WallProblem
 from contactsim.solvers.base import State, check_cascade, iterate
 from contactsim.traits import Trait
+from contactsim.wall import WallProblem
 
 
 class Continuation:

@@ -17,8 +17,9 @@ import xarray as xr
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.scene import Certificate, Scale, Scene, WallProblem
+from contactsim.scene import Scene
 from contactsim.traits import Trait
+from contactsim.wall import Certificate, Scale, WallProblem
 
 
 class Status(Enum):

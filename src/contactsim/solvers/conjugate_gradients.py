@@ -30,11 +30,11 @@ import numpy as np
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
-from contactsim.scene import WallProblem
 from contactsim.solvers import kernels, refinement
 from contactsim.solvers.base import State, check_cascade
 from contactsim.solvers.preconditioner import CELL, Preconditioner
 from contactsim.traits import Trait
+from contactsim.wall import WallProblem
 
 ROUNDING = 5e-7
 """Fall of the residual after which rounding in single precision begins to show, and the gap is computed anew."""

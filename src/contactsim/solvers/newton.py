@@ -67,8 +67,6 @@ class Memory:
 
     def doubts(self) -> bool:
         """Whether the state that the one kept was made for may be one that a disturbance leaves."""
-        if self._wave is None or self._wave.shape != self._kept.any_wave.shape:
-            self._wave = self._kept.any_wave
         doubtful, self._wave = self._kept.softest(self._wave)
         return doubtful
 

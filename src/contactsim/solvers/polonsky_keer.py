@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.grid import Array
-from contactsim.scene import WallProblem
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
+from contactsim.wall import WallProblem
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ import numpy as np
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.scene import WallProblem
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
+from contactsim.wall import WallProblem
 
 
 @dataclass(frozen=True)

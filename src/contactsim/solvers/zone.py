@@ -11,6 +11,8 @@ that is free (its stiffness zero, under load control) is given the stiffness of 
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import ducc0
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
@@ -24,8 +26,8 @@ SHIFT, LEAST = 0.3, 0.01
 """Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
 NEGLIGIBLE = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
-TURNS, FADING = 2, 0.5
-"""Steps of inverse iteration a state; what is left of a wave where the zone is no more."""
+TURNS, FAINT = 2, 0.1
+"""Steps of inverse iteration a state; size of a wave where the zone has not been yet, over its rms in the zone."""
 SEEN = 160
 """Most entries of a zone whose growing displacements are looked for."""
 MOST = 400
@@ -54,11 +56,6 @@ class ZonePreconditioner:
     def _acting(self, values: Array) -> Array:
         """Points where the tangent is not negligible, bool."""
         return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.softening
-
-    @property
-    def any_wave(self) -> Array:
-        """A wave (read, nodes) of no symmetry, to begin with."""
-        return np.cos(np.arange(len(self._problem.shape) * self._nodes) ** 2.0).reshape(-1, self._nodes)
 
     def _field(self, coefficients: Array) -> Array:
         """Values (rows, nodes) on the coarse grid of long waves (rows, low), with the derived component."""
@@ -90,7 +87,7 @@ class ZonePreconditioner:
         self._matrix = square
         self._lu = lu_factor(square, check_finite=False)
 
-    def softest(self, wave: Array) -> tuple[bool, Array]:
+    def softest(self, wave: Array | None) -> tuple[bool, Array | None]:
         """Whether K + D + shift may have negative eigenvalues, and a wave (read, nodes) to ask the next one with.
 
         An odd number of them is told by the sign of the determinant. Of an even number, as alike asperities have, the
@@ -99,15 +96,15 @@ class ZonePreconditioner:
         """
         if not len(self._zone):
             return False, wave
+        kept = _arbitrary(len(self._problem.shape), self._nodes).copy()
         factors, swaps = self._lu
         negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
-        here = wave[:, self._zone].ravel()
+        here = (kept if wave is None or wave.shape != kept.shape else wave)[:, self._zone].ravel()
         for _ in range(TURNS):
             here /= np.linalg.norm(here)
             after = lu_solve(self._lu, here, check_finite=False)
             falls, here = here @ after < 0, after
-        kept = FADING * wave
-        kept[:, self._zone] = (here / np.linalg.norm(here)).reshape(len(wave), -1)
+        kept[:, self._zone] = (here * np.sqrt(len(here)) / np.linalg.norm(here)).reshape(len(kept), -1)
         return bool(negative % 2) or bool(falls), kept
 
     def growing(self) -> Array | None:
@@ -144,6 +141,12 @@ class ZonePreconditioner:
             self._problem.tally.add(len(free) + len(residual), self._nodes)
         out[:, : self._low] = long
         return out
+
+
+@lru_cache(maxsize=8)
+def _arbitrary(rows: int, nodes: int) -> Array:
+    """A faint wave (rows, nodes) of no symmetry."""
+    return FAINT * np.cos(np.arange(rows * nodes) ** 2.0).reshape(rows, nodes)
 
 
 def _averaged(values: Array, ratio: int) -> Array:
