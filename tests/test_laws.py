@@ -7,6 +7,7 @@ import pytest
 
 from cases import refusal
 from contactsim.laws import OVERCLOSED, CohesiveZone, NormalCohesiveZone
+from contactsim.superposition import Superposition, superposed
 
 LAWS = (
     NormalCohesiveZone(2.0),
@@ -15,17 +16,18 @@ LAWS = (
     CohesiveZone(2.0, 1.0),
     CohesiveZone(0.7, 3.0, normal_length=0.4, tangential_length=2.5),
 )
+TWO = Superposition((NormalCohesiveZone(0.5, 2.0), CohesiveZone(1.5, 0.3)))
 RNG = np.random.default_rng(5)
 
 
 def gaps(law, count=200):
     """Gaps from deep overlap to far apart, over the laws' lengths (reads, n)."""
-    normal = RNG.uniform(-1.5 * OVERCLOSED, 8.0, count) * law.normal_length
+    normal = RNG.uniform(-1.5 * OVERCLOSED, 8.0, count) * law.reach
     sideways = RNG.uniform(-3.0, 3.0, count) * getattr(law, "tangential_length", 1.0)
     return np.stack([normal, sideways][: len(law.reads)])
 
 
-@pytest.mark.parametrize("law", LAWS, ids=repr)
+@pytest.mark.parametrize("law", [*LAWS, TWO], ids=repr)
 def test_the_tangent_is_the_derivative_of_the_traction(law):
     gap, step = gaps(law), 1e-5
     traction, tangent = law.tangent(gap)
@@ -38,6 +40,18 @@ def test_the_tangent_is_the_derivative_of_the_traction(law):
         size = np.abs(tangent[:, column]) + np.abs(traction) + law.stiffness
         # central differences: truncation step²/6 of the third derivative, rounding eps/step; more at the kink of T''
         assert (np.abs(slope - tangent[:, column]) <= 1e-7 * size).all()
+
+
+def test_laws_together_are_their_sum_and_one_law_is_itself():
+    gap = gaps(TWO)
+    normal, mixed = TWO.laws
+    total = TWO.traction(gap)
+    assert np.array_equal(total[0], normal.traction(gap[:1])[0] + mixed.traction(gap)[0])
+    assert np.array_equal(total[1], mixed.traction(gap)[1])
+    assert (TWO.reads, TWO.exerts, TWO.traits) == (mixed.reads, mixed.exerts, normal.traits | mixed.traits)
+    assert (TWO.strength, TWO.reach) == (normal.strength + mixed.strength, 1.0)
+    assert TWO.tangential_length == mixed.tangential_length
+    assert superposed((mixed,)) is mixed
 
 
 @pytest.mark.parametrize("law", [law for law in LAWS if hasattr(law, "energy")], ids=repr)

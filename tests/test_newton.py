@@ -7,7 +7,7 @@ import pytest
 
 from cases import refusal
 from contactsim.elasticity import HalfSpace, Layer
-from contactsim.interface import pose_interface
+from contactsim.interface import Tangent, pose_interface
 from contactsim.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers import solver, solver_class
 from contactsim.solvers.base import require
@@ -81,6 +81,24 @@ def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_w
     assert np.abs(residual[:, low:]).max() < 1e-12 * np.abs(residual).max()
     residual[:, low:] = 0
     assert np.allclose(precondition(residual), change, rtol=0, atol=1e-9 * np.abs(change).max())
+
+
+def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
+    scene = scene_of(LAWS["uncoupled"])
+    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    tangent = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1]
+    values = np.zeros_like(tangent.values)
+    zones = []
+    for place in (40, 200):
+        here = values.copy()
+        here[..., place : place + 20] = -0.2 * problem.softening
+        zones.append(ZonePreconditioner(problem, Tangent(problem, here)))
+    wave = None
+    for _ in range(1100):  # a wave that faded by half a state would be gone
+        wave = zones[0].softest(wave)[1]
+    unstable, wave = zones[1].softest(wave)
+    assert np.isfinite(wave).all()
+    assert unstable == zones[1].softest(None)[0]
 
 
 @pytest.mark.parametrize("kind", ["newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation"])

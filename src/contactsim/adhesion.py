@@ -57,7 +57,7 @@ def repulsive_length(gap: Array, spacing: float) -> float:
     after = np.concatenate((gap[1:], gap[:1]))
     inside, crossing = (gap < 0) & (after < 0), (gap < 0) != (after < 0)
     ends = np.minimum(gap, after)[crossing]
-    return float(spacing * (inside.sum() + (ends / (ends - np.maximum(gap, after)[crossing])).sum()))
+    return float(spacing * (np.count_nonzero(inside) + (ends / (ends - np.maximum(gap, after)[crossing])).sum()))
 
 
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
@@ -71,22 +71,24 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength
     repulsive = gap[0] < 0
+    mean, pull = -float(traction[0].mean()), float(np.maximum(traction[0], 0.0).mean())
+    smallest, pushed, pulled = float(gap[0].min()), -float(traction[0].min()), float(traction[0].max())
     numbers = {
-        "line_load": float(-traction[0].mean() * length),
-        "repulsive_load": float(-np.minimum(traction[0], 0.0).mean() * length),
-        "adhesive_load": float(np.maximum(traction[0], 0.0).mean() * length),
-        "mean_pressure": float(-traction[0].mean()),
+        "line_load": mean * length,
+        "repulsive_load": (mean + pull) * length,
+        "adhesive_load": pull * length,
+        "mean_pressure": mean,
         "mean_gap": float(gap[0].mean()),
         "repulsive_length": repulsive_length(gap[0], spacing),
-        "smallest_gap": float(gap[0].min()),
-        "largest_pressure": float(max(-traction[0].min(), 0.0)),
-        "largest_pull": float(max(traction[0].max(), 0.0)),
-        "overclosure": float(max(-gap[0].min(), 0.0) / problem.reach),
+        "smallest_gap": smallest,
+        "largest_pressure": max(pushed, 0.0),
+        "largest_pull": max(pulled, 0.0),
+        "overclosure": max(-smallest, 0.0) / problem.reach,
     }
-    numbers |= {name: float(spacing * (size > level).sum()) for name, level in INTERACTING.items()}
+    numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
     for row in range(1, len(gap)):
         slip = float(np.abs(gap[row]).max(where=repulsive, initial=0.0))
-        numbers["slip"] = slip / min(law.tangential_length for law in problem.laws if "t" in law.reads)
+        numbers["slip"] = slip / problem.law.tangential_length
     for row in range(1, len(traction)):
         numbers["friction_force"] = float(traction[row].mean() * length)
     return numbers

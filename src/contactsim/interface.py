@@ -30,6 +30,7 @@ from contactsim.grid import Array, Grid, Tally
 from contactsim.laws import Law
 from contactsim.loading import LoadStep
 from contactsim.scene import Scene
+from contactsim.superposition import Superposition, superposed
 from contactsim.symbols import Symbol
 from contactsim.traits import Trait
 
@@ -70,7 +71,7 @@ class InterfaceProblem:
 
     grid: Grid
     shape: Array
-    laws: tuple[Law, ...]
+    law: Law | Superposition
     stiffness: Symbol
     derived: Array | None
     tolerance: float
@@ -106,20 +107,20 @@ class InterfaceProblem:
         uniform = float(self.stiffness.diagonal[0, 0])
         return self.load / uniform if self.load is not None and uniform else 0.0
 
-    @cached_property
+    @property
     def strength(self) -> float:
-        """Sum of the laws' strengths, GPa."""
-        return sum(law.strength for law in self.laws)
+        """Of the laws together, GPa."""
+        return self.law.strength
 
-    @cached_property
+    @property
     def softening(self) -> float:
-        """Sum of the laws' largest tangents, GPa/nm."""
-        return sum(law.stiffness for law in self.laws)
+        """Largest tangent of the laws together, GPa/nm."""
+        return self.law.stiffness
 
-    @cached_property
+    @property
     def reach(self) -> float:
         """Shortest length over which a law changes, nm."""
-        return min(law.reach for law in self.laws)
+        return self.law.reach
 
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The same scene at another load step."""
@@ -167,32 +168,20 @@ class InterfaceProblem:
         return gap
 
     def traction(self, gap: Array) -> Array:
-        """Sum of the laws' tractions (exerted, n), GPa."""
-        total = np.zeros((self.unknowns[0], gap.shape[1]))
-        for law in self.laws:
-            total[: len(law.exerts)] += law.traction(gap[: len(law.reads)])
-        return total
+        """The laws' traction (exerted, n), GPa."""
+        return self.law.traction(gap)
 
     def tangent(self, gap: Array) -> tuple[Array, Tangent]:
-        """Sum of the laws' tractions (exerted, n) and its derivative."""
-        if len(self.laws) == 1:
-            traction, values = self.laws[0].tangent(gap)
-            return traction, Tangent(self, values)
-        total = np.zeros((self.unknowns[0], gap.shape[1]))
-        values = np.zeros((self.unknowns[0], *gap.shape))
-        for law in self.laws:
-            rows, columns = len(law.exerts), len(law.reads)
-            traction, derivative = law.tangent(gap[:columns])
-            total[:rows] += traction
-            values[:rows, :columns] += derivative
-        return total, Tangent(self, values)
+        """The laws' traction (exerted, n) and its derivative."""
+        traction, values = self.law.tangent(gap)
+        return traction, Tangent(self, values)
 
     def energy(self, displacement: Array, gap: Array) -> float:
         """Elastic energy plus the laws' potentials, less the work of the load, over the period, N/m; they need one."""
         weighted = self.balanced(np.zeros_like(displacement), displacement) * self.weights
         stored = 0.5 * float(np.vdot(displacement, weighted).real)
         pressed = 0.0 if self.load is None else self.load * float(displacement[0, 0].real)
-        return stored + pressed + sum(float(law.energy(gap[: len(law.reads)]).mean()) for law in self.laws)
+        return stored + pressed + float(self.law.energy(gap).mean())
 
     @cached_property
     def weights(self) -> Array:
@@ -252,5 +241,5 @@ def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int 
     shape[0] = -heights
     origin = scene.path.origin(heights)
     return InterfaceProblem(
-        grid, shape, scene.acting, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin
+        grid, shape, superposed(scene.acting), compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin
     )

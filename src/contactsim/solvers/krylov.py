@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.linalg import solve_triangular
+from scipy.linalg.lapack import dtrtrs
 
 from contactsim.grid import Array
 
@@ -59,7 +59,7 @@ def gmres(product: Map, precondition: Map, target: Array, tolerance: float, budg
     count = len(steps)
     if not count:
         return np.zeros_like(target), 0
-    weights = solve_triangular(hessenberg[:count, :count], right[:count])
+    weights = dtrtrs(hessenberg[:count, :count], right[:count])[0]
     out = np.zeros_like(target)
     for weight, step in zip(weights, steps, strict=True):
         out += weight * step

@@ -51,6 +51,7 @@ class Memory:
 
     def __init__(self) -> None:
         self._kept: ZonePreconditioner | None = None
+        self._last: ZonePreconditioner | None = None
         self._held = b""
         self._wave: Array | None = None
 
@@ -62,7 +63,10 @@ class Memory:
 
     def renew(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
         """A new one for this tangent, to keep."""
-        self._kept, self._held = ZonePreconditioner(problem, tangent), problem.held.tobytes()
+        held = problem.held.tobytes()
+        before = self._last if held == self._held else None
+        self._kept = self._last = ZonePreconditioner(problem, tangent, before=before)
+        self._held = held
         return self._kept
 
     def doubts(self) -> bool:

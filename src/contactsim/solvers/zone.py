@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import ducc0
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg.lapack import dgetrf, dgetrs
 
 from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, Tangent, contracted
@@ -24,6 +24,8 @@ RATIO, NODES = 8, 128
 """Points of the grid to one on which long waves are solved for, unless these would be fewer than so many."""
 SHIFT, LEAST = 0.3, 0.01
 """Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
+ALIKE = 2.0
+"""Ratio of largest tangential tangents up to which short waves are shifted alike."""
 NEGLIGIBLE = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
 TURNS, FAINT = 2, 0.1
@@ -37,7 +39,14 @@ MOST = 400
 class ZonePreconditioner:
     """Approximate inverse of K + D + shift, for coefficients (exerted, m)."""
 
-    def __init__(self, problem: InterfaceProblem, tangent: Tangent, shift: float = 0.0) -> None:
+    def __init__(
+        self,
+        problem: InterfaceProblem,
+        tangent: Tangent,
+        shift: float = 0.0,
+        before: ZonePreconditioner | None = None,
+    ) -> None:
+        """before: one of the same shift and path, from which is taken over what does not depend on the tangent."""
         self._problem = problem
         rows, modes = problem.unknowns
         ratio = min(RATIO, max(problem.grid.size // NODES, 1))
@@ -47,11 +56,19 @@ class ZonePreconditioner:
             values = _averaged(tangent.values, ratio)
         self._nodes = values.shape[-1]
         self._low = min(self._nodes // 2, modes)
-        sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
-        extra = shift + SHIFT * np.array([problem.softening, sideways][:rows])
-        self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
-        self._compliance = problem.supported.modes(slice(0, self._low)).inverse(shift)
-        self._factor(values, rows)
+        self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
+        alike = before is not None and before._nodes == self._nodes
+        if alike and 1 / ALIKE <= self._sideways / before._sideways <= ALIKE:
+            self._high, self._sideways = before._high, before._sideways
+        else:
+            extra = shift + SHIFT * np.array([problem.softening, self._sideways][:rows])
+            self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
+        if alike:
+            self._compliance, self._responses = before._compliance, before._responses
+        else:
+            self._compliance = problem.supported.modes(slice(0, self._low)).inverse(shift)
+            self._responses = [self._response(row) for row in range(rows)]
+        self._factor(values)
 
     def _acting(self, values: Array) -> Array:
         """Points where the tangent is not negligible, bool."""
@@ -66,7 +83,13 @@ class ZonePreconditioner:
         wide[:, : self._low] = coefficients
         return ducc0.fft.c2r(wide, axes=(1,), lastsize=self._nodes, forward=False)
 
-    def _factor(self, values: Array, rows: int) -> None:
+    def _response(self, row: int) -> Array:
+        """Displacement (read, nodes) under a unit of traction in one component at the first node."""
+        unit = np.zeros((len(self._compliance.diagonal), self._low), complex)
+        unit[row] = 1 / self._nodes
+        return self._field(self._compliance.apply(unit))
+
+    def _factor(self, values: Array) -> None:
         self._zone = np.flatnonzero(self._acting(values))
         self._values = values[..., self._zone]
         count, read = len(self._zone), len(self._problem.shape)
@@ -74,10 +97,7 @@ class ZonePreconditioner:
             return
         apart = (self._zone[:, None] - self._zone) % self._nodes
         matrix = np.zeros((read, count, read, count))
-        for row in range(rows):  # response of all components to a traction in this one, at one point
-            unit = np.zeros((rows, self._low), complex)
-            unit[row] = 1 / self._nodes
-            response = self._field(self._compliance.apply(unit))
+        for row, response in enumerate(self._responses):
             for to in range(read):
                 kernel = response[to][apart]
                 for by in range(read):
@@ -85,7 +105,7 @@ class ZonePreconditioner:
         square = matrix.reshape(read * count, -1)
         square[np.diag_indices(len(square))] += 1
         self._matrix = square
-        self._lu = lu_factor(square, check_finite=False)
+        self._lu = dgetrf(square)[:2]
 
     def softest(self, wave: Array | None) -> tuple[bool, Array | None]:
         """Whether K + D + shift may have negative eigenvalues, and a wave (read, nodes) to ask the next one with.
@@ -102,7 +122,7 @@ class ZonePreconditioner:
         here = (kept if wave is None or wave.shape != kept.shape else wave)[:, self._zone].ravel()
         for _ in range(TURNS):
             here /= np.linalg.norm(here)
-            after = lu_solve(self._lu, here, check_finite=False)
+            after = dgetrs(*self._lu, here)[0]
             falls, here = here @ after < 0, after
         kept[:, self._zone] = (here * np.sqrt(len(here)) / np.linalg.norm(here)).reshape(len(kept), -1)
         return bool(negative % 2) or bool(falls), kept
@@ -136,7 +156,7 @@ class ZonePreconditioner:
         long = self._compliance.apply(residual[:, : self._low])
         if len(self._zone):
             free = self._field(long)[:, self._zone]
-            held = lu_solve(self._lu, free.ravel(), check_finite=False).reshape(free.shape)
+            held = dgetrs(*self._lu, free.ravel())[0].reshape(free.shape)
             long -= self._spread(held)
             self._problem.tally.add(len(free) + len(residual), self._nodes)
         out[:, : self._low] = long
