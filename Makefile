@@ -3,6 +3,7 @@ PYTHON ?= python3
 CORES ?= 2
 TIER ?= $(tier)
 READY := .venv/.ready
+unexport PYTHONDONTWRITEBYTECODE  # jobs start faster where compiled code is kept
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 
 .PHONY: setup test help FORCE
@@ -10,7 +11,6 @@ help: $(READY)
 	@$(SNAKEMAKE) --dry-run 2>.venv/help || { cat .venv/help >&2; exit 1; }
 
 setup: $(READY)
-
 $(READY): environment.txt pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed")'
 	$(PYTHON) -m venv .venv

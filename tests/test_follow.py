@@ -215,8 +215,8 @@ class Refusing(NewtonKrylov):
 
     refused = (-4.75, -4.5)
 
-    def near(self, problem, guess, memory):
-        return self._spoiled(problem, super().near(problem, guess, memory))
+    def near(self, problem, guess, memory, within=np.inf):
+        return self._spoiled(problem, super().near(problem, guess, memory, within))
 
     def flow(self, problem, start):
         return self._spoiled(problem, super().flow(problem, start))

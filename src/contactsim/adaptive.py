@@ -18,7 +18,7 @@ from contactsim.interface import InterfaceProblem
 from contactsim.loading import LoadStep
 from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import Equilibrium, PathSolver
-from contactsim.solvers.predictor import POINTS, lagrange
+from contactsim.solvers.predictor import POINTS, lagrange, shares
 from contactsim.traits import Trait
 from contactsim.walk import PathState, Walk
 
@@ -60,10 +60,9 @@ class Stretch:
         gap = between("gap")
         traction = problem.traction(gap)
         left = traction - between("traction")
-        free = problem.held.copy()
-        free[0] |= problem.load is not None
-        left[free] -= left[free].mean(axis=1, keepdims=True)
-        residual = float(np.abs(left).max() / problem.strength) + max(state.residual for state in states)
+        left[problem.held] -= left[problem.held].mean(axis=1, keepdims=True)
+        parts = zip(shares(places, place), states, strict=True)
+        residual = float(np.abs(left).max() / problem.strength) + sum(abs(part) * of.residual for part, of in parts)
         status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
         return Equilibrium(between("displacement"), gap, traction, status, residual, 0.0, 0)
 
@@ -145,7 +144,7 @@ class Adaptive:
             if not wrong <= REFUSED * error and increment > least and place is not None:
                 increment = max(increment * SHRINK, least)
                 continue
-            if not (found.settled and found.moved <= walk.solver.trusted * walk.problem.reach):
+            if not (found.settled and found.moved <= walk.near_by):
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
                 found, flowed = walk.flow(LoadStep(first.control, goal)), True
                 iterations += found.iterations
@@ -193,9 +192,11 @@ class Adaptive:
 
 
 def _towards(place: float, end: float, increment: float) -> float:
-    """One increment from a place towards the end, which is not overshot nor approached by less than a millionth."""
+    """One increment from a place towards the end; the last two are alike, as states close by interpolate badly."""
     left = end - place
-    return end if abs(left) <= increment * (1 + CLOSE) else place + np.copysign(increment, left)
+    if abs(left) <= increment * (1 + CLOSE):
+        return end
+    return place + np.copysign(min(increment, abs(left) / 2), left)
 
 
 def _between(place: float | None, value: float, goal: float) -> bool:

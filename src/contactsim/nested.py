@@ -95,7 +95,7 @@ class Level:
         Where the last one was found far from there, or not without a flow, the flow is tried at once.
         """
         here, count = self._problem.at(coarse.step), coarse.iterations
-        found = None if self._strays else self._solver.near(here, start, self._solver.begin_walk())
+        found = None if self._strays else self._solver.near(here, start, self._solver.begin_walk(), here.reach)
         if found is None or not (found.settled and found.moved <= here.reach):
             count += found.iterations if found else 0
             found = self._solver.flow(here, start)

@@ -105,9 +105,14 @@ class Walk:
             return self.last
         return self.history.guess(step.value)
 
+    @property
+    def near_by(self) -> float:
+        """How far (nm) a state may lie from where it is expected, to be believed on the same branch."""
+        return self.solver.trusted * self.problem.reach
+
     def near(self, step: LoadStep) -> Equilibrium:
         """The state by continuation alone."""
-        return self.solver.near(self.at(step), self.guess(step), self._memory)
+        return self.solver.near(self.at(step), self.guess(step), self._memory, self.near_by)
 
     def flow(self, step: LoadStep) -> Equilibrium:
         """The state by flow from the last stable one."""
@@ -147,7 +152,7 @@ class Walk:
             goal = replace(step, value=goals[-1])
             found, flowed = self.near(goal) if self.solver.predicts else None, False
             spent += found.iterations if found else 0
-            if found is None or not (found.settled and found.moved <= self.solver.trusted * self.problem.reach):
+            if found is None or not (found.settled and found.moved <= self.near_by):
                 place = self.place(step.control)
                 divisible = divides and len(goals) <= DEEPEST and place is not None
                 if divisible and self._length(goal, abs(goals[-1] - place)) > self._small:

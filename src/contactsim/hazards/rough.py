@@ -24,8 +24,6 @@ POINTS, HEIGHT, HURST = 256, 2.5, 0.8
 """Points; rms height (nm) and Hurst exponent."""
 MODULUS, RATIO, WORK = 70.0, 0.45, 10.5
 """Of Chapter 5: Young's modulus (GPa), Poisson's ratio, and the strong work of separation (N/m), φn* = 0.15."""
-MIDDLE = 0.4 * WORK
-"""Adhesion of which the branch is still that of smaller increments: beyond, in large steps every method leaves it."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +98,7 @@ def steep_slopes(severity: float) -> PathCase:
 def jagged_line(severity: float) -> PathCase:
     """A rough line gets more jagged, H from 0.8 down to 0 at equal rms height: the branch is that of small steps."""
     surface = Ridges(hurst=HURST * (1 - severity / 100))
-    return _case(_pressed(NormalCohesiveZone(MIDDLE), _steps(-5.0, 0.0), surface=surface), -4.75, 2)
+    return _case(_pressed(NormalCohesiveZone(WORK), _steps(-5.0, 0.0), surface=surface), -4.75, 2)
 
 
 def rough_process_zone(severity: float) -> PathCase:
@@ -113,7 +111,7 @@ def one_large_step(severity: float) -> PathCase:
     """Rough bodies meet in ever fewer steps, from 0.25 nm to one of 4 nm: as in the smallest of them."""
     count = max(round(16 ** (1 - severity / 100)), 1)
     depths = [-5.0 + 4.0 * k / count for k in range(1, count + 1)]
-    return _case(_pressed(NormalCohesiveZone(MIDDLE), depths), depths[0], round(16 / count))
+    return _case(_pressed(NormalCohesiveZone(WORK), depths), depths[0], round(16 / count))
 
 
 def frictionless_flow(severity: float) -> PathCase:

@@ -48,7 +48,7 @@ class _Dynamics:
     def begin_walk(self) -> None:
         """Nothing is kept."""
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: None) -> Equilibrium:
+    def near(self, problem: InterfaceProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """The equilibrium reached from a guess."""
         return self.flow(problem, guess)
 

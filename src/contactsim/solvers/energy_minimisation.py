@@ -43,7 +43,7 @@ class EnergyMinimisation:
     def begin_walk(self) -> None:
         """Nothing is kept."""
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: None) -> Equilibrium:
+    def near(self, problem: InterfaceProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """The minimum below a guess."""
         return self.flow(problem, guess)
 

@@ -63,8 +63,8 @@ class PathSolver(Protocol):
         """What `near` keeps between the states of one walk."""
         ...
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: object) -> Equilibrium:
-        """The equilibrium near a guess."""
+    def near(self, problem: InterfaceProblem, guess: Array, memory: object, within: float = np.inf) -> Equilibrium:
+        """The equilibrium near a guess; one farther than `within` (nm) is of no use, and may be given up."""
         ...
 
     def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:

@@ -31,15 +31,17 @@ from contactsim.solvers.krylov import gmres
 from contactsim.solvers.zone import ZonePreconditioner
 from contactsim.traits import Trait
 
-TIGHTEST = 1e-3
-"""Smallest relative residual asked of a linear solve."""
+TIGHTEST, LOOSEST = 1e-3, 0.1
+"""Smallest and largest relative residual asked of a linear solve."""
+MARGIN = 0.3
+"""By how much the residual should fall below the tolerance, at the place where it is largest."""
 ROUGH = 3e-2
 """The same for a step of the flow: its direction need not be exact."""
 FIRST, RETURN, DROP = 0.03, 0.02, 1e-3
 """Shift over the laws' largest tangent: at the start, at least after a refusal, and below which it is zero."""
 
-STRAYED = 1e3
-"""Newton is given up once it has moved this many times as far as is trusted."""
+STRAYED = 3.0
+"""Newton is given up once it has moved this many times as far as is of use."""
 HARD = 5
 """A preconditioner is made anew after a linear solve that took more iterations than this."""
 NUDGE, NUDGES = 0.03, 5
@@ -111,9 +113,9 @@ class NewtonKrylov:
         """What is kept between the states of one walk."""
         return Memory()
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: Memory) -> Equilibrium:
+    def near(self, problem: InterfaceProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
         """Newton's method from a guess."""
-        displacement, far, strayed = guess, STRAYED * self.trusted * problem.reach, 0.0
+        displacement, far, strayed = guess, STRAYED * within, 0.0
         for count in range(self.newton_budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
@@ -123,7 +125,7 @@ class NewtonKrylov:
                 strayed = moved(problem, displacement - guess, self.trusted * problem.reach)
             if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
                 break
-            forcing = max(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST)
+            forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, LOOSEST)
             precondition = memory.preconditioner(problem, tangent)
             change, iterations = self._solve(problem, tangent, precondition, residual, 0.0, forcing)
             memory.learn(iterations)
@@ -162,7 +164,7 @@ class NewtonKrylov:
                 nudges, shift = nudges + 1, FIRST * problem.softening
                 displacement = displacement + NUDGE * problem.reach * growing
                 continue
-            forcing = np.clip(0.1 * problem.tolerance / np.linalg.norm(residual / problem.strength), TIGHTEST, ROUGH)
+            forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, ROUGH)
             change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
             move = float(np.abs(problem.field(change)[: len(change)]).max())
             downhill = -np.vdot(change, residual).real > 0

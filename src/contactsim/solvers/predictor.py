@@ -13,11 +13,16 @@ POINTS = 4
 """Most states that a polynomial goes through."""
 
 
+def shares(places: Sequence[float], place: float) -> list[float]:
+    """How much each of the states at `places`, all different, counts in the polynomial through them at `place`."""
+    return [math.prod((place - other) / (own - other) for other in places if other != own) for own in places]
+
+
 def lagrange(places: Sequence[float], states: Sequence[Array], place: float) -> Array:
     """The polynomial through (place, state) pairs, evaluated at `place`; places differ from each other."""
     out = np.zeros_like(states[0])
-    for own, state in zip(places, states, strict=True):
-        out += math.prod((place - other) / (own - other) for other in places if other != own) * state
+    for share, state in zip(shares(places, place), states, strict=True):
+        out += share * state
     return out
 
 
