@@ -64,7 +64,7 @@ def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
     of_area = ("interacting_length_hundredth", "rms_gradient_repulsive", "rms_gradient_interacting", "rms_gradient")
     states |= {name: np.ones(shape) for name in of_area} | {"mean_pressure": load / 1000.0}
     variables = {name: (dims, value) for name, value in states.items()}
-    variables |= {"points": points, "length": 1000.0, "contact_modulus": 1.0}
+    variables |= {"points": points, "length": 1000.0, "contact_modulus": 1.0, "approach_first_touch": 0.0}
     return xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)})
 
 

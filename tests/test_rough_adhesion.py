@@ -113,5 +113,6 @@ def test_figures_5_6_to_5_8_label_every_case(studies):
     ch5.fig_5_7(main, hurst, coarse, coarsest, axes)
     assert [len(one.get_legend().get_texts()) for one in axes] == [6, 2, 2]
     axes = panels(2)
-    ch5.fig_5_8(studies["rough_adhesive_coupled"], main, axes)
-    assert len(axes[0].get_legend().get_texts()) == 7
+    coupled = studies["rough_adhesive_coupled"]
+    ch5.fig_5_8(coupled, main, axes)
+    assert len(axes[0].get_legend().get_texts()) == coupled.poisson_ratio.size * coupled.work_ratio.size + 1

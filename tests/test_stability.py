@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from cases import ALL, ON_SURFACES
 from conftest import ROOT
-from contactsim import dataset, press, scene
+from contactsim import dataset, press, wall
 from contactsim.errors import SceneError
 from contactsim.figures.render import render
 from contactsim.figures.stability import COLOURS, footer, refusals, short_reason, stability, taken
@@ -95,7 +95,7 @@ def test_every_outcome_can_be_reached(case, method, outcome, reason):
 
 
 def test_a_wrong_answer_that_the_certificate_lets_pass_is_found_out(monkeypatch):
-    monkeypatch.setattr(scene.Certificate, "met", lambda self, tolerance: True)
+    monkeypatch.setattr(wall.Certificate, "met", lambda self, tolerance: True)
     verdict = judge(CASE, Stuck(1.0))
     assert verdict.outcome is Outcome.WRONG
     assert "contact condition" in verdict.reason

@@ -64,7 +64,7 @@ SYMBOLS = {
     "area_at_twelve": "aᵣₑₗ at 12 nm",
     "pressure_at_twelve": "p/E* at 12 nm",
     "gradient_at_fiftieth": "ḡᵣ/ḡ at aᵣₑₗ = 0.02",
-    "surface_rms_height": "h_rms",
+    "surface_rms_height": "hᵣₘₛ",
     "least_step": "least step",
     "largest_step": "largest step",
     "spread_ratio": "ratio of spreads",
