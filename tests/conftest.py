@@ -37,7 +37,7 @@ def shown(plan: Plan, name: str) -> None:
     """One figure, in a process of its own."""
     names = [plan.dataset_name(study) for study in plan.figures[name].studies]
     files = [[plan.results / kind.format(study) for study in names] for kind in ("datasets/{}.nc", "costs/{}.csv")]
-    targets = {kind: f"{plan.results}/figures/{name}.{kind}" for kind in ("png", "pdf", "csv")}
+    targets = {kind: f"{plan.results}/figures/{name}.{kind}" for kind in plan.figures[name].endings}
     render(json.loads(json.dumps(plan.figure_settings(name))), *files, targets)
 
 

@@ -11,11 +11,11 @@ from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
 errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws superposition
-loading scene wall interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet solvers.tamaas
-solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
+pairing loading scene wall interface solvers.base solvers solvers.active_set solvers.polonsky_keer solvers.verlet
+solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
-observables adhesion analytic provenance validity dataset config build schema study tabulate branch loads march
+observables adhesion sliding analytic provenance validity dataset config schema build study tabulate branch loads march
 extrapolation ensemble fits hysteresis area_load aggregate costs joblog takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards
 verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision

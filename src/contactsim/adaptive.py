@@ -8,7 +8,7 @@ interpolated traction.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -103,7 +103,7 @@ class Adaptive:
         self.check(problem.grid.size, steps, solver)
         walk, begin = Walk(problem, solver), 0
         while begin < len(steps):
-            end = _turn(steps, begin, walk.place(steps[begin].control))
+            end = _turn(steps, begin, walk.place(steps[begin]))
             leg, spent = steps[begin:end], problem.tally.transforms
             iterations, stretches, status = self._walk(walk, leg)
             spent = problem.tally.transforms - spent
@@ -131,12 +131,12 @@ class Adaptive:
         least = self.least or min(SHORTEST * reach, most)
         iterations, increment = 0, least
         stretches = [Stretch(0.0)]
-        place = walk.place(first.control)
+        place = walk.place(first)
         if place is not None:
             stretches[0].add(place, walk.stands[1])
         while place != last.value:
             goal = first.value if place is None else _towards(place, last.value, increment)
-            step = LoadStep(first.control, goal)
+            step = replace(first, value=goal)
             found, flowed = walk.near(step), False
             iterations += found.iterations
             order = walk.history.order
@@ -146,11 +146,11 @@ class Adaptive:
                 continue
             if not (found.settled and found.moved <= walk.near_by):
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
-                found, flowed = walk.flow(LoadStep(first.control, goal)), True
+                found, flowed = walk.flow(replace(first, value=goal)), True
                 iterations += found.iterations
             if not found.settled:
                 return iterations, stretches, found.status
-            jump = walk.accept(LoadStep(first.control, goal), found, flowed)
+            jump = walk.accept(replace(first, value=goal), found, flowed)
             if jump:
                 stretches.append(Stretch(jump))
             stretches[-1].add(goal, found)
@@ -183,12 +183,14 @@ class Adaptive:
             found = walk.solver.near(problem, found.displacement, walk.solver.begin_walk())
             spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before
         earlier = [other.value for other in leg if sign * (step.value - other.value) > 0]
-        jumped = sum(
-            item.jump
+        since = [
+            item
             for item in reached
-            if not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0
-        )
-        return PathState(step, problem, found.displacement, found.status, found.residual, jumped, *spent, found)
+            if item.jump and (not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0)
+        ]
+        numbers = found.status, found.residual, sum(item.jump for item in since), *spent
+        jumped_at = since[-1].places[0] if since else np.nan
+        return PathState(step, problem, found.displacement, *numbers, found, jumped_at)
 
 
 def _towards(place: float, end: float, increment: float) -> float:

@@ -65,8 +65,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
 
     line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; repulsive_length,
     lengths for `INTERACTING`, mean_gap, smallest_gap, nm; largest_pressure and largest_pull: normal traction at its
-    largest, GPa; overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, over the
-    laws' lengths.
+    largest, GPa; overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, of springs
+    that to the nearest site, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength
@@ -86,8 +86,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
         "overclosure": max(-smallest, 0.0) / problem.reach,
     }
     numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
-    for row in range(1, len(gap)):
-        slip = float(np.abs(gap[row]).max(where=repulsive, initial=0.0))
+    if len(gap) > 1:
+        slip = float(np.abs(problem.offset(gap)).max(where=repulsive, initial=0.0))
         numbers["slip"] = slip / problem.law.tangential_length
     for row in range(1, len(traction)):
         numbers["friction_force"] = float(traction[row].mean() * length)

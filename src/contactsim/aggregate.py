@@ -19,6 +19,7 @@ from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fits
 from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
+from contactsim.sliding import ONSET, THRESHOLD, slid
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""
@@ -102,7 +103,7 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     for suffix, other in _others(runs):
         other = made(other)
         same = data.sel(member=other.member)
-        known = [name for name in (*SUMMARY, *CYCLE, *AREA_LOAD) if name in other and name in same]
+        known = [name for name in (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET, *THRESHOLD) if name in other and name in same]
         data = data.assign({f"{name}{suffix}": abs(same[name] - other[name]).max("member") for name in known})
         if data.member.size > 1 or not smooth:
             data = data.merge(_change(data, other, suffix, names))
@@ -117,6 +118,7 @@ def _of_contacts(data: xr.Dataset) -> xr.Dataset:
 def of_states(data: xr.Dataset) -> xr.Dataset:
     """States of smooth laws as parts of the whole, and what their paths amount to."""
     data = cycled(summarised(data))
+    data = slid(data) if "slid" in data else data
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     for part in ("repulsive", "interacting"):
         ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient

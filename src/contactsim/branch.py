@@ -18,6 +18,7 @@ from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.roughness import local_squares
 from contactsim.scene import Scene
+from contactsim.sliding import slide_observables
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.traits import Trait
 from contactsim.walk import PathState
@@ -47,8 +48,8 @@ def simulate_path(
     """Follow a scene's load path and return one dataset with dimension `step`.
 
     tolerance: in parts of the laws' strength; increments: of `follow.INCREMENTS`, as requested where None; snapshots:
-    approaches (nm) or mean pressures (GPa) whose first steps near them keep histograms and, unless told not to, fields;
-    NaN where there is no solution.
+    slides (nm) of a path that slides, else approaches (nm) or mean pressures (GPa), whose first steps near them keep
+    histograms and, unless told not to, fields; NaN where there is no solution.
     """
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_interface(scene, heights, tolerance, threads)
@@ -96,12 +97,16 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
         **gradients(slopes[state.points], problem, gap, traction),
         "process_zone_step": problem.grid.spacing[0] / zone,
     }
+    if scene.sliding:
+        numbers |= slide_observables(problem, gap, state.displacement)
+        numbers["slid"] = state.step.slid if state.step.held else np.nan
     return numbers | {
         "beyond": validity.beyond(numbers),
         "residual": state.residual,
         "status": state.status.value[0],
         "solved_points": state.points,
         "jump": state.jump,
+        "jumped_at": state.jumped_at,
         "iterations": state.iterations,
         "transforms": state.transforms,
     }
@@ -143,4 +148,6 @@ def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int,
         "control": scene.path.steps[0].control.name.lower(),
         "strength": sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits),
     }
+    if scene.sliding:
+        variables["lattice_constant"] = getattr(scene.pairing, "lattice_constant", np.nan)
     return dataset.described(xr.Dataset(variables, coordinates))

@@ -13,9 +13,11 @@ from contactsim.follow import INCREMENTS, Increments
 from contactsim.grid import Grid
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import left_out
-from contactsim.loading import LoadPath
+from contactsim.loading import LoadPath, LoadStep
+from contactsim.pairing import PAIRINGS, Aligned, Pairing
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
+from contactsim.schema import RIGID
 from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
 from contactsim.traits import Trait
 
@@ -30,16 +32,29 @@ def scene_of(settings: dict) -> Scene:
     if kind is SelfAffine:
         surface["rng"] = generator(settings["seed"], settings["study"], surface["hurst"], settings["member"])
     upper = kind(**surface)
-    elasticity = elastic(settings["body"])
-    counter = None if settings.get("counter_body") is None else elastic(settings["counter_body"])
+    elasticity, counter = elastic(settings["body"]), elastic(settings.get("counter_body"))
+    if elasticity is None and counter is None:
+        raise SceneError("counter_body", None, "an elastic body, as the one below is rigid")
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
-    path = load_path(settings, upper, elasticity)
-    scene = Scene(Body(Flat.facing(upper), elasticity), Body(upper, counter), effects, path)
+    path = load_path(settings, upper, elasticity or counter)
+    bodies = Body(Flat.facing(upper), elasticity), Body(upper, counter)
+    scene = Scene(*bodies, effects, path, paired(settings.get("pairing")))
     return left_out(scene, settings.get("leave_out", ()))
 
 
-def elastic(settings: dict) -> Elasticity:
-    """A body from its settings, by contact modulus E* or, with a Poisson's ratio ν, by Young's modulus E = (1-ν²)E*."""
+def paired(settings: dict | None) -> Pairing:
+    """How the surfaces are joined: aligned, where nothing is said."""
+    given = dict(settings or {})
+    return PAIRINGS[given.pop("kind")](**given) if given else Aligned()
+
+
+def elastic(settings: dict | None) -> Elasticity | None:
+    """A body from its settings, by contact modulus E* or, with a Poisson's ratio ν, by Young's modulus E = (1-ν²)E*.
+
+    None for one that is rigid.
+    """
+    if settings is None or settings["kind"] == RIGID:
+        return None
     given = {name: value for name, value in settings.items() if name not in ("kind", "youngs_modulus")}
     young = settings.get("youngs_modulus")
     if (young is None) == (given.get("contact_modulus") is None):
@@ -78,8 +93,11 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
     """
     contact_modulus = elasticity.contact_modulus
     if "control" in settings["load"]:
-        load = settings["load"]
-        return _path(load["control"], tuple(load["through"]), load["increment"], load.get("origin") == "first_touch")
+        load, slide = settings["load"], settings.get("slide")
+        described = load["control"], tuple(load["through"]), load["increment"], load.get("origin") == "first_touch"
+        if slide is None:
+            return _path(*described)
+        return _sliding(*described, tuple(slide["through"]), slide["increment"], *_held(slide))
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -107,3 +125,28 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
 def _path(control: str, points: tuple[float, ...], increment: float, from_touch: bool) -> LoadPath:
     """The same for all variants of a study, of which there may be many."""
     return loading.through(Trait[control.upper()], points, increment, from_touch)
+
+
+def _held(slide: dict) -> tuple[str, float]:
+    """What is held while sliding, and at which value."""
+    return next((name, slide[name]) for name in ("approach", "mean_pressure") if name in slide)
+
+
+@lru_cache(maxsize=64)
+def _sliding(
+    control: str,
+    points: tuple[float, ...],
+    increment: float,
+    from_touch: bool,
+    slides: tuple[float, ...],
+    slide_increment: float,
+    held: str,
+    value: float,
+) -> LoadPath:
+    """A path that presses, then slides: under its own control it goes on to what is held, else by one step."""
+    kind = Trait[held.upper()]
+    further = (value,) if held == control and points[-1] != value else ()
+    path = loading.through(Trait[control.upper()], (*points, *further), increment, from_touch)
+    if held != control:
+        path = path >> LoadPath((LoadStep(kind, value),), from_touch)
+    return path >> loading.slide(slides, slide_increment, LoadStep(kind, value), from_touch)

@@ -48,6 +48,13 @@ SETTINGS = {
     "work_ratio": ("1", "tangential over normal work of separation"),
     "normal_length": ("nm", "normal characteristic length"),
     "tangential_length": ("nm", "tangential characteristic length"),
+    "lattice_constant": ("nm", "lattice constant of the sites that springs join"),
+    "window": ("1", "window of the springs, over the tangential characteristic length"),
+    "depth": ("1", "largest gap that springs bridge, over the normal characteristic length"),
+    "weight": ("1", "weight of a spring"),
+    "approach": ("nm", "approach at which surfaces slide"),
+    "mean_pressure": ("GPa", "mean pressure under which surfaces slide"),
+    "damping": ("1", "damping of the dynamics"),
 }
 """Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""
 
@@ -114,7 +121,7 @@ VARIABLES = {
     "unconverged": ("1", "steps that did not converge"),
     "steps": ("1", "steps of the path"),
     "step": ("1", "step of the path"),
-    "snapshot": ("nm", "approach or mean pressure at which fields are kept"),
+    "snapshot": ("nm", "approach, slide or mean pressure at which fields are kept"),
     "x": ("nm", "position along x"),
     "approach": ("nm", "approach"),
     "line_load": ("N/m", "load, compression positive"),
@@ -150,6 +157,40 @@ VARIABLES = {
     "beyond": ("1", "which limits of what the model describes the state is beyond"),
     "solved_points": ("1", "grid points on which the state is a solution"),
     "jump": ("nm", "how far the surface jumped since the step before"),
+    "jumped_at": ("nm", "approach or slide (or, in GPa, mean pressure) by which the surface had jumped"),
+    "lattice_constant": ("nm", "lattice constant of the sites that springs join"),
+    "slid": ("nm", "how far the upper body has moved along x"),
+    "contact_trailing": ("nm", "trailing edge of the contact, from the highest point of the upper surface"),
+    "contact_leading": ("nm", "leading edge of the contact, from the highest point of the upper surface"),
+    "contact_slip": ("nm", "mean tangential gap where surfaces are closest"),
+    "elastic_energy": ("nJ/m", "elastic energy, of bodies of unit thickness"),
+    "static_friction": ("N/m", "largest tangential force before the first slip"),
+    "mean_friction": ("N/m", "mean of the largest and the smallest tangential force from the onset of sliding on"),
+    "average_friction": ("N/m", "tangential force averaged over whole lattice constants of sliding"),
+    "onset_slide": ("nm", "slide at the largest tangential force before the first slip"),
+    "onset_repulsive_length": ("nm", "length of the contact at the onset of sliding"),
+    "initial_repulsive_length": ("nm", "length of the contact before the slide"),
+    "initial_load": ("N/m", "normal load before the slide"),
+    "peeled": ("1", "part of the contact lost between the beginning of the slide and its onset"),
+    "reattached": ("1", "length of the contact after the first slip over that before the slide"),
+    "asymmetry_early": ("1", "trailing less leading peel over their sum, half way to the onset of sliding"),
+    "asymmetry": ("1", "trailing less leading peel over their sum, at the onset of sliding"),
+    "quadratic_coefficient": ("nm (m/N)^2", "coefficient of the quadratic law of contact length and force (Eq. 6.8)"),
+    "quadratic_agreement": ("1", "coefficient of determination of the quadratic law (Eq. 6.8)"),
+    "slips": ("1", "number of slips"),
+    "first_drop": ("N/m", "drop of the tangential force at the first slip"),
+    "first_periods": ("1", "how far the contact slips at first, in lattice constants"),
+    "first_released_energy": ("nJ/m", "elastic energy that the first slip releases"),
+    "loop_energy": ("nJ/m", "energy that a slide to and fro dissipates"),
+    "event_slide": ("nm", "slide by which a slip had come"),
+    "event_drop": ("N/m", "drop of the tangential force at a slip"),
+    "event_length_before": ("nm", "length of the contact before a slip"),
+    "event_length_after": ("nm", "length of the contact after a slip"),
+    "event_released_energy": ("nJ/m", "elastic energy that a slip releases"),
+    "event_periods": ("1", "how far the contact slips, in lattice constants"),
+    "shear_strength": ("GPa", "slope of force against contact length at the onset of sliding (Eq. 6.9)"),
+    "friction_without_contact": ("N/m", "tangential force at the onset without contact (Eq. 6.9)"),
+    "threshold_agreement": ("1", "coefficient of determination of the threshold law (Eq. 6.9)"),
     "control": ("1", "what the path prescribes"),
     "strength": ("GPa", "strength of the laws"),
     "pull_off_load_loading": ("N/m", "largest pull on loading"),
@@ -200,7 +241,7 @@ def described(data: xr.Dataset) -> xr.Dataset:
         base, kind = base_name(str(name))
         unit, text = (
             VARIABLES.get(base)
-            or SETTINGS.get(re.sub("^(surface|body|counter_body|solver)_", "", base))
+            or SETTINGS.get(re.sub("^(surface|body|counter_body|solver|pairing|slide)_", "", base))
             or ("1", f"option {base}")
         )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")

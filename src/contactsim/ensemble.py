@@ -15,6 +15,9 @@ from contactsim import extrapolation
 from contactsim.errors import SceneError
 from contactsim.solvers.base import solved
 
+ROUNDING = 1e-9
+"""Of the ends of a selection."""
+
 
 def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
     """Values with NaN where the solution did not converge."""
@@ -22,8 +25,14 @@ def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
 
 
 def left_out(data: xr.Dataset) -> tuple[int, int]:
-    """How many solutions did not converge, and how many there are."""
-    return int((~solved(data.status)).sum()), data.status.size
+    """How many solutions did not converge, and how many there are; paths of a study need not be equally long."""
+    exist = data.status.notnull()
+    return int((exist & ~solved(data.status)).sum()), int(exist.sum())
+
+
+def widened(least: float, largest: float) -> tuple[float, float]:
+    """The ends of a selection, a rounding apart from what they would leave out."""
+    return least - ROUNDING * abs(least), largest + ROUNDING * abs(largest)
 
 
 def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:

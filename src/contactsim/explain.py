@@ -14,6 +14,7 @@ import numpy as np
 from contactsim.dataset import SETTINGS
 from contactsim.follow import Increments
 from contactsim.laws import EFFECTS
+from contactsim.pairing import Pairing
 from contactsim.scene import Scene
 from contactsim.solvers import SOLVERS, installed, solver, solver_class
 from contactsim.traits import Trait
@@ -25,15 +26,17 @@ COMPONENTS = {"n": "normal", "t": "tangential"}
 class Explanation:
     """A scene in words and numbers.
 
-    effects: those that are on, with what they read and exert; fields: what exists at each point; left_out: what does
-    not, and why; unknowns: of one load step; increments: how smooth laws are walked; transforms: of an iteration;
-    megabytes: peak, about; solvers: for each that exists, why not, or nothing; chosen: the solver that will be used.
+    effects: those that are on, with what they read and exert; pairing: which points face which; fields: what exists at
+    each point; left_out: what does not, and why; unknowns: of one load step; increments: how smooth laws are walked;
+    transforms: of an iteration; megabytes: peak, about; solvers: for each that exists, why not, or nothing; chosen: the
+    solver that will be used.
     """
 
     bodies: tuple[str, str]
     effects: dict[str, str]
     fields: tuple[str, ...]
     left_out: dict[str, str]
+    pairing: str
     unknowns: int
     steps: int
     increments: str
@@ -53,6 +56,7 @@ class Explanation:
             "above": [self.bodies[0]],
             "below": [self.bodies[1]],
             "effects on": [f"{name}: {what}" for name, what in self.effects.items()],
+            "pairing": [self.pairing],
             "fields that exist": list(self.fields),
             "left out, and why": [f"{name}: {why}" for name, why in self.left_out.items()],
             "unknowns": [f"{self.unknowns} at each of {self.steps} load steps"],
@@ -78,9 +82,10 @@ def explain(
             for field in ("displacement", *["traction"] * (component in scene.exerted))
         ),
         left_out=dict.fromkeys(asked, "as the study asks") | _left_out(scene),
+        pairing=_described(scene.pairing),
         unknowns=size * len(scene.exerted),
         steps=len(scene.path.steps),
-        increments="" if increments is None else _increments(increments),
+        increments="" if increments is None else _described(increments),
         transforms=chosen.transforms(points),
         megabytes=chosen.fields * len(scene.components) * size * 8 / 1e6,
         solvers={name: _why_not(scene, name) for name in SOLVERS},
@@ -114,11 +119,11 @@ def _effect(effect: object) -> str:
     return f"{first}; reads the {reads} gap, exerts {exerts} traction"
 
 
-def _increments(increments: Increments) -> str:
+def _described(kind: Increments | Pairing) -> str:
     """What the class says of itself, and its options that are given."""
-    given = {entry.name: getattr(increments, entry.name) for entry in fields(increments)}
+    given = {entry.name: getattr(kind, entry.name) for entry in fields(kind)}
     options = ", ".join(f"{name} {value}" for name, value in given.items() if value is not None)
-    return type(increments).__doc__.split("\n")[0] + f" ({options})" * bool(options)
+    return type(kind).__doc__.split("\n")[0] + f" ({options})" * bool(options)
 
 
 def _left_out(scene: Scene) -> dict[str, str]:

@@ -22,10 +22,11 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.ensemble import widened
 from contactsim.takes import TAKES, averaged, grid_error, needs, quantity
 
 NAN = float("nan")
-ALONG_PATHS = ("step", "snapshot", "x")
+ALONG_PATHS = ("step", "snapshot", "x", "event")
 """Dimensions of which a path's numbers are free, so that two studies need not share them."""
 
 
@@ -45,7 +46,7 @@ def find(claim: Mapping, data: Sequence[xr.Dataset], condition: Mapping | None =
     """
     parts = [claim] if condition is None else [claim, condition]
     for dim, (least, largest) in [ends for part in parts for ends in part["select"].items()]:
-        part = {dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}
+        part = {dim: slice(*widened(least, largest))}
         data = [one.sel(part) if dim in one.dims else one for one in data]
     data = xr.align(*data, join="inner", exclude={"member", *ALONG_PATHS})
     if any(0 in one.sizes.values() for one in data):

@@ -14,6 +14,8 @@ stiffness itself would hold the others fast.
 Normal approach enters as the uniform mode of the gap. Where the uniform compliance is zero (a half-space, by
 convention, and an incompressible layer) that mode of v is held at zero. Under a prescribed mean pressure the uniform
 mode of the gap is free, its stiffness zero, and the equation says that the law carries the load; the approach follows.
+A slide enters as the uniform mode of the tangential gap: the far boundary of a layer, or the mean of a half-space, is
+what moves. Springs between sites of two lattices are one law, of the gap to the site that is opposite without a slide.
 """
 
 from __future__ import annotations
@@ -29,6 +31,7 @@ from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Tally
 from contactsim.laws import Law
 from contactsim.loading import LoadStep
+from contactsim.pairing import Springs
 from contactsim.scene import Scene
 from contactsim.superposition import Superposition, superposed
 from contactsim.symbols import Symbol
@@ -66,12 +69,12 @@ class InterfaceProblem:
     shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
     derived: factor (m,) by which the tangential displacement follows the normal one, where it is read but not exerted;
     approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work;
-    origin: approach (nm) at which those of load steps are zero.
+    origin: approach (nm) at which those of load steps are zero; slid: how far (nm) the upper body has moved along x.
     """
 
     grid: Grid
     shape: Array
-    law: Law | Superposition
+    law: Law | Superposition | Springs
     stiffness: Symbol
     derived: Array | None
     tolerance: float
@@ -79,6 +82,7 @@ class InterfaceProblem:
     approach: float | None = 0.0
     load: float | None = None
     origin: float = 0.0
+    slid: float = 0.0
 
     @property
     def unknowns(self) -> tuple[int, int]:
@@ -124,9 +128,10 @@ class InterfaceProblem:
 
     def at(self, step: LoadStep) -> InterfaceProblem:
         """The same scene at another load step."""
-        if step.control is Trait.APPROACH:
-            return replace(self, approach=step.value + self.origin)
-        return replace(self, approach=None, load=step.value)
+        normal = step.normal
+        if normal.control is Trait.APPROACH:
+            return replace(self, approach=normal.value + self.origin, load=None, slid=step.slid)
+        return replace(self, approach=None, load=normal.value, slid=step.slid)
 
     def coarser(self, points: int, tolerance: float) -> InterfaceProblem:
         """The same scene on fewer points, an even number: without the waves that these cannot carry, in heights too."""
@@ -165,7 +170,13 @@ class InterfaceProblem:
         gap += self.shape
         if self.approach is not None:
             gap[0] -= self.approach
+        if self.slid:
+            gap[1] += self.slid
         return gap
+
+    def offset(self, gap: Array) -> Array:
+        """Tangential gap (n,), nm, between what faces each other; gap: (2, n)."""
+        return self.law.offset(gap) if isinstance(self.law, Springs) else gap[1]
 
     def traction(self, gap: Array) -> Array:
         """The laws' traction (exerted, n), GPa."""
@@ -239,7 +250,6 @@ def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int 
         derived, compliance = compliance.slip(), compliance.without_shear()
     shape = np.zeros((len(scene.components), grid.size))
     shape[0] = -heights
+    law = scene.pairing.joined(superposed(scene.acting), scene.lower.surface.heights(grid.size), scene.length)
     origin = scene.path.origin(heights)
-    return InterfaceProblem(
-        grid, shape, superposed(scene.acting), compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin
-    )
+    return InterfaceProblem(grid, shape, law, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin)

@@ -2,7 +2,8 @@
 
 A step prescribes the mean pressure (GPa) or the approach (nm). Approach is measured from the position in which the
 undeformed mean plane of the elastic surface and height zero of the counter-body coincide; the approach of first touch
-is then minus the largest height. A path may count from there instead. Paths are joined with `>>`.
+is then minus the largest height. A path may count from there instead. Surfaces that are pressed may then slide: such a
+step prescribes how far the upper body has moved along x, and holds approach or pressure. Paths are joined with `>>`.
 """
 
 from __future__ import annotations
@@ -21,20 +22,31 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class LoadStep:
-    """One state asked for: control is Trait.MEAN_PRESSURE (value in GPa) or Trait.APPROACH (value in nm).
+    """One state asked for: control is Trait.MEAN_PRESSURE (value in GPa), Trait.APPROACH or Trait.SLIDE (nm).
 
-    label: how whoever asked for it calls it, for the log.
+    label: how whoever asked for it calls it, for the log; held: while sliding, the approach or pressure that is kept.
     """
 
     control: Trait
     value: float
     label: str = ""
+    held: LoadStep | None = None
 
     def __post_init__(self) -> None:
-        pressure = self.control is Trait.MEAN_PRESSURE
-        key = "mean_pressure" if pressure else "approach"
         if not is_number(self.value):
-            raise SceneError(key, self.value, "a finite number")
+            raise SceneError(self.control.name.lower(), self.value, "a finite number")
+        if (self.held is not None) != (self.control is Trait.SLIDE):
+            raise SceneError("held", self.held, "an approach or a mean pressure while sliding, and only then")
+
+    @property
+    def normal(self) -> LoadStep:
+        """What is prescribed normal to the surfaces."""
+        return self.held or self
+
+    @property
+    def slid(self) -> float:
+        """How far (nm) the upper body has moved along x."""
+        return self.value if self.held else 0.0
 
     @property
     def text(self) -> str:
@@ -49,6 +61,11 @@ class LoadPath:
     steps: tuple[LoadStep, ...]
     from_touch: bool = False
 
+    def __post_init__(self) -> None:
+        sliding = [step.control is Trait.SLIDE for step in self.steps]
+        if sliding != sorted(sliding):
+            raise SceneError("path", "pressed after sliding", "a path that presses first, then slides")
+
     def __rshift__(self, later: LoadPath) -> LoadPath:
         if later.from_touch is not self.from_touch:
             raise SceneError("from_touch", later.from_touch, "the same for all parts of a path")
@@ -61,11 +78,12 @@ class LoadPath:
     def nearest(self, value: float) -> int:
         """Number of the first of the steps that are nearest to a value; SceneError if the path passes none that near.
 
-        Near is within half of the longer increment beside that step.
+        Near is within half of the longer increment beside that step. Of a path that slides, steps that slide count.
         """
-        values = np.array([step.value for step in self.steps])
+        values = np.array([step.value if step.control is self.steps[-1].control else np.inf for step in self.steps])
         place = int(np.argmin(np.round(np.abs(values - value), 9)))
-        beside = np.abs(np.diff(values[max(place - 1, 0) : place + 2]))
+        beside = np.abs(values[max(place - 1, 0) : place + 2] - values[place])
+        beside = beside[np.isfinite(beside)]
         if abs(values[place] - value) > beside.max(initial=0.0) / 2 + 1e-9:
             raise SceneError("snapshots", value, f"values near steps of the path; the nearest is {values[place]:g}")
         return place
@@ -73,7 +91,7 @@ class LoadPath:
     @property
     def traits(self) -> frozenset[Trait]:
         """The kinds of control in use."""
-        return frozenset(step.control for step in self.steps)
+        return frozenset(kind for step in self.steps for kind in (step.control, step.normal.control))
 
 
 def press(mean_pressures: Sequence[float], labels: Sequence[str] = ()) -> LoadPath:
@@ -98,3 +116,12 @@ def through(control: Trait, points: Sequence[float], increment: float, from_touc
     """Through turning points, the first of which is not a step itself, in equal increments of about that size."""
     legs = [leg(control, *ends, increment) for ends in itertools.pairwise(points)]
     return LoadPath(reduce(LoadPath.__rshift__, legs).steps, from_touch)
+
+
+def slide(points: Sequence[float], increment: float, held: LoadStep, from_touch: bool = False) -> LoadPath:
+    """Along x through turning points (nm), the first included, in equal increments of about that size.
+
+    held: the approach or mean pressure under which the surfaces slide.
+    """
+    values = [points[0], *(step.value for step in through(Trait.APPROACH, points, increment).steps)]
+    return LoadPath(tuple(LoadStep(Trait.SLIDE, value, held=held) for value in values), from_touch)

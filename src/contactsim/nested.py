@@ -101,5 +101,5 @@ class Level:
             found = self._solver.flow(here, start)
             self._strays = found.moved > STRAYING * here.reach
         count += found.iterations
-        rest = found.status, found.residual, coarse.jump, count, 0.0, found
+        rest = found.status, found.residual, coarse.jump, count, 0.0, found, coarse.jumped_at
         return PathState(coarse.step, here, found.displacement, *rest)

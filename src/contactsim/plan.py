@@ -10,7 +10,8 @@ from pathlib import Path
 from contactsim import stability
 from contactsim.build import scene_of
 from contactsim.claims import Claim, selection
-from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, read, size, text, whole
+from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, positive, read, size, text, whole
+from contactsim.ensemble import widened
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
 from contactsim.study import Run, Study
@@ -64,6 +65,7 @@ FIGURE_KEYS = {
     "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
     "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
+    "film": Key(positive, "frames a second, for a film through the snapshots of the study beside the figure", None),
 }
 
 
@@ -75,6 +77,11 @@ class Figure:
     chapter: str
     settings: dict
     compare: list[str]
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Endings of its files."""
+        return ("png", "pdf", "csv") if self.settings["film"] is None else ("png", "pdf", "csv", "gif")
 
     @property
     def studies(self) -> list[str]:
@@ -187,7 +194,7 @@ class Plan:
 
     def map_figure(self) -> dict:
         """What the figure of the map depends on; in the form of `figure_settings`."""
-        layout = {"panels": 2, "select": {}, "reference": {}, "law": None}
+        layout = {"panels": 2, "select": {}, "reference": {}, "law": None, "film": None}
         settings = {key: self.stability[key] for key in ("title", "caption", "size")} | layout
         code = source_digest("contactsim.figures.stability", "contactsim.figures.render")
         data = digest(self.map_settings())
@@ -258,6 +265,8 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
             raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
     dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
     settings["select"] = selection(settings["select"], dims, file, f"{prefix}.select")
+    if settings["film"] is not None and not (dims and studies[settings["study"]].settings["snapshots"]):
+        raise SceneError(f"{prefix}.film", settings["film"], "left out, for the study keeps no snapshots", file)
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
@@ -278,7 +287,8 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
     places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
     places = [place | {load["name"]: value} for place in places for value in load["values"]]
     for dim, (least, largest) in settings["select"].items():
-        places = [place for place in places if least * (1 - 1e-9) <= place[dim] <= largest * (1 + 1e-9)]
+        low, high = widened(least, largest)
+        places = [place for place in places if low <= place[dim] <= high]
     if len(places) != 1:
         allowed = f"what leaves one load of one member to draw; this leaves {len(places)}"
         raise SceneError(f"{prefix}.select", settings["select"], allowed, file)

@@ -18,6 +18,7 @@ from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.laws import HardWall, Law
 from contactsim.loading import LoadPath
+from contactsim.pairing import ALIGNED, Pairing
 from contactsim.surface import Surface
 from contactsim.traits import Trait
 
@@ -38,6 +39,7 @@ class Scene:
     upper: Body
     effects: tuple[HardWall | Law, ...]
     path: LoadPath
+    pairing: Pairing = ALIGNED
 
     def __post_init__(self) -> None:
         if not self.elasticities:
@@ -52,6 +54,9 @@ class Scene:
             if body is not None and body.poisson_ratio is None:
                 allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
                 raise SceneError("poisson_ratio", None, allowed)
+        if self.sliding and "t" not in self.components:
+            raise SceneError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
+        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise SceneError("length", lengths, "the same periods for both surfaces")
@@ -61,9 +66,19 @@ class Scene:
         """The bodies that give way."""
         return tuple(body.elasticity for body in (self.lower, self.upper) if body.elasticity is not None)
 
+    @property
+    def sliding(self) -> bool:
+        """Whether the bodies are moved along each other."""
+        return Trait.SLIDE in self.path.traits
+
     @cached_property
     def slips(self) -> bool:
-        """Whether normal tractions move the surfaces along each other: not those of like bodies, nor of ν = 1/2."""
+        """Whether something moves the surfaces along each other: a slide, or normal tractions.
+
+        Those of like bodies do not, nor those of ν = 1/2.
+        """
+        if self.sliding:
+            return True
         alike = self.lower.elasticity == self.upper.elasticity
         return not alike and any(body.couples for body in self.elasticities)
 

@@ -7,6 +7,7 @@ law's own name.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from contactsim import loading
 from contactsim.config import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
@@ -16,6 +17,7 @@ from contactsim.follow import INCREMENTS
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.observables import KEPT
+from contactsim.pairing import PAIRINGS
 from contactsim.solvers import SOLVERS, solver_class, usual_kind
 from contactsim.surface import SURFACES, Flat
 from contactsim.traits import Trait
@@ -36,10 +38,21 @@ def some_of(known: Mapping[str, object]) -> Callable[[object], list[str]]:
 ORIGINS = ("mean_plane", "first_touch")
 """Where approach is zero: see `contactsim.loading`."""
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
+RIGID = "rigid"
+"""Kind of a body that does not give way, and has no keys."""
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """No elasticity, and nothing to say of it."""
+
+
+SOLIDS = ELASTICITIES | {RIGID: Rigid}
 KINDS: dict[str, tuple[Mapping[str, object], Callable[[str], type]]] = {
     "surface": (SURFACES, SURFACES.__getitem__),
-    "body": (ELASTICITIES, ELASTICITIES.__getitem__),
+    "body": (SOLIDS, SOLIDS.__getitem__),
     "counter_body": (ELASTICITIES, ELASTICITIES.__getitem__),
+    "pairing": (PAIRINGS, PAIRINGS.__getitem__),
     "solver": (SOLVERS, solver_class),
     "increments": (INCREMENTS, INCREMENTS.__getitem__),
 }
@@ -61,8 +74,12 @@ STUDY_KEYS = {
         mapping, "a mapping with one of approach and mean_pressure, a list of turning points, and increment", None
     ),
     "counter_body": Key(mapping, "a mapping as `body`, of the body above; rigid without it", None),
+    "pairing": Key(mapping, "a mapping with `kind` and that kind's keys; aligned without it", None),
+    "slide": Key(mapping, "a mapping with through, increment, and one of approach and mean_pressure", None),
     "increments": Key(mapping, "a mapping with `kind` and that kind's keys", {"kind": "requested"}),
-    "snapshots": Key(listed(number), "a list of approaches or pressures at which histograms and fields are kept", None),
+    "snapshots": Key(
+        listed(number), "a list of approaches, pressures or slides at which histograms and fields are kept", None
+    ),
     "snapshot_members": Key(whole(1), "of how many members fields are kept, 1 or more; left out, of all", None),
     "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
     "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
@@ -88,6 +105,12 @@ PATH_KEYS = {
     "mean_pressure": Key(turning, "a list of turning points in GPa, two or more", None),
     "increment": Key(positive, "a positive number"),
     "origin": Key(choice(ORIGINS), f"one of {', '.join(ORIGINS)}", ORIGINS[0]),
+}
+SLIDE_KEYS = {
+    "through": Key(turning, "a list of turning points in nm, two or more; the first is where the slide begins"),
+    "increment": Key(positive, "a positive number of nm"),
+    "approach": Key(number, "the approach in nm at which surfaces slide, to which the path goes on, or left out", None),
+    "mean_pressure": Key(number, "the mean pressure in GPa under which surfaces slide, or left out", None),
 }
 FEWER = {"members": Key(whole(1), "a whole number, at most the study's members")}
 COMPANIONS = {
@@ -143,6 +166,27 @@ def _path(section: dict, file: object, prefix: str) -> dict:
             raise SceneError(f"{prefix}.origin", section["origin"], "left out, for pressure has none", file)
         given["origin"] = section["origin"]
     return {"name": "step"} | given | {"values": [step.value for step in path.steps]}
+
+
+def read_slide(settings: dict, file: object, prefix: str) -> dict | None:
+    """How surfaces slide after the path has pressed them; None where they do not."""
+    if settings["slide"] is None:
+        return None
+    if not is_smooth(settings) or settings["path"] is None:
+        raise SceneError(f"{prefix}.slide", settings["slide"], "left out, but for smooth laws and a path", file)
+    section = slide_part(settings["slide"], file, f"{prefix}.slide")
+    if "approach" in section and settings["load"]["control"] != "approach":
+        raise SceneError(f"{prefix}.slide.approach", section["approach"], "mean_pressure, as the path has", file)
+    return section
+
+
+def slide_part(section: dict, file: object, prefix: str) -> dict:
+    """The section of a slide, with the one thing that is held."""
+    section = read(section, SLIDE_KEYS, file, prefix)
+    left_out = [name for name in ("approach", "mean_pressure") if section[name] is None]
+    if len(left_out) != 1:
+        raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
+    return {name: value for name, value in section.items() if name not in left_out}
 
 
 def usual_solver(settings: dict) -> str:

@@ -21,7 +21,19 @@ from contactsim.interface import check_tolerance
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.provenance import digest, source_digest, versions
-from contactsim.schema import BODIES, COMPANIONS, KINDS, MODULI, STUDY_KEYS, is_smooth, read_load, usual_solver
+from contactsim.schema import (
+    BODIES,
+    COMPANIONS,
+    KINDS,
+    MODULI,
+    RIGID,
+    STUDY_KEYS,
+    is_smooth,
+    read_load,
+    read_slide,
+    slide_part,
+    usual_solver,
+)
 from contactsim.solvers import module_of, solver
 from contactsim.solvers.base import require
 
@@ -76,6 +88,7 @@ class Study:
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
         settings["load"] = read_load(settings, file, prefix)
+        settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": usual_solver(settings)} | settings["solver"]
@@ -191,20 +204,23 @@ class Study:
     def _sections(self) -> list[str]:
         """Names of the sections that this study's runs depend on."""
         path = ["increments"] if is_smooth(self.settings) else []
-        counter = ["counter_body"] if self.settings["counter_body"] is not None else []
+        others = [name for name in ("counter_body", "pairing", "slide") if self.settings[name] is not None]
         laws = [name for name in self.settings["effects"] if name in self.settings]
-        return ["surface", "body", *counter, "solver", *path, *laws]
+        return ["surface", "body", *others, "solver", *path, *laws]
 
     def _part(self, name: str, section: dict) -> dict:
         """A section with the defaults filled in; its keys are those of its `kind`, or of the effect it is named for."""
         prefix = f"studies.{self.name}.{name}"
         if name in EFFECTS:
             return read(section, keys_of(EFFECTS[name]), self.file, prefix)
+        if name == "slide":
+            return slide_part(section, self.file, prefix)
         known, class_of = KINDS[name]
         kind = Key(choice(known), f"one of {', '.join(sorted(known))}")
         given = {"kind": section["kind"]} if "kind" in section else {}
         chosen = read(given, {"kind": kind}, self.file, prefix)["kind"]
-        keys = {"kind": kind} | keys_of(class_of(chosen)) | (MODULI if name in BODIES else {})
+        moduli = MODULI if name in BODIES and chosen != RIGID else {}
+        keys = {"kind": kind} | keys_of(class_of(chosen)) | moduli
         return {
             key: value for key, value in read(section, keys, self.file, prefix).items() if key not in MODULI or value
         }

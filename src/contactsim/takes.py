@@ -21,6 +21,7 @@ from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fit_line_area
 from contactsim.hysteresis import CYCLE
 from contactsim.schema import COMPANIONS, is_smooth
+from contactsim.sliding import ALONG, ONSET, THRESHOLD
 from contactsim.study import Study
 
 
@@ -178,8 +179,11 @@ def _path_quantities(study: Study) -> list[str]:
     """What a path amounts to, its grid errors, and what is varied."""
     known = set(AREA_LOAD)
     if is_smooth(study.settings):
-        slips = "t" in scene_of(study.runs()[0].settings).components
+        scene = scene_of(study.runs()[0].settings)
+        slips = "t" in scene.components
         known |= {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
+        known |= {name for name in ONSET if scene.sliding}
+        known |= {name for name in THRESHOLD if scene.sliding and ALONG in study.dimensions}
     for part, (_, error, _) in COMPANIONS.items():
         if study.settings[part] is not None:
             known |= {f"{name}_{error}_error" for name in known if not name.endswith("_error")}
@@ -201,7 +205,7 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
     if name == "contact_radius":
         return np.sqrt(quantity(data, "relative_contact_area") * data.length * data.length_y / np.pi)
     if "step" in data.dims:
-        whole = name in (*CYCLE, *AREA_LOAD)  # what one member never reaches is not known of the others' mean
+        whole = name in (*CYCLE, *AREA_LOAD, *ONSET)  # what one member never reaches is not known of the others' mean
         return data[name].mean("member", skipna=not whole) if "member" in data[name].dims else data[name]
     return converged(data[name], data).mean("member")
 
@@ -209,4 +213,4 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
 def averaged(name: str) -> str | None:
     """The averaged quantity, with an error of the grid, that another is made from; None for what is exact."""
     made = "relative_contact_area" if name in (*FITTED, "half_width", "contact_radius") else name.removesuffix(LIMIT)
-    return made if made in (*AVERAGED, *SUMMARY, *CYCLE, *AREA_LOAD) else None
+    return made if made in (*AVERAGED, *SUMMARY, *CYCLE, *AREA_LOAD, *ONSET, *THRESHOLD) else None

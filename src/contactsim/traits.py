@@ -21,3 +21,4 @@ class Trait(Enum):
     LAYER = "layer on a rigid base: long waves meet a stiffness that depends on thickness and Poisson's ratio"
     MEAN_PRESSURE = "load step given by a mean pressure"
     APPROACH = "load step given by an approach"
+    SLIDE = "load step given by a displacement along the surfaces"

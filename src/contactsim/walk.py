@@ -34,8 +34,9 @@ PATIENCE = 3
 class PathState:
     """One state of the path: its load step, the problem there, its coefficients (exerted, m), and how it was found.
 
-    residual: over the laws' strength; jump: how far (nm) the surface jumped since the state before; iterations and
-    transforms: spent since the state before; found: the solution or what was interpolated, None after a break-off.
+    residual: over the laws' strength; jump: how far (nm) the surface jumped since the state before; jumped_at: by
+    which value of what the path prescribes it had, NaN without a jump; iterations and transforms: spent since the state
+    before; found: the solution or what was interpolated, None after a break-off.
     """
 
     step: LoadStep
@@ -47,6 +48,7 @@ class PathState:
     iterations: int
     transforms: float
     found: Equilibrium | None = field(default=None, repr=False)
+    jumped_at: float = np.nan
 
     @property
     def points(self) -> int:
@@ -74,24 +76,30 @@ class Walk:
         self.stands: tuple[LoadStep, Equilibrium] | None = None  # the last state and its step
         self._pace: float | None = None
 
-    def place(self, control: Trait) -> float | None:
-        """Where it stands, nm or GPa; None at the beginning."""
-        if self.stands is not None and control is not self.stands[0].control:
-            self._turn(control)
+    def place(self, to: LoadStep) -> float | None:
+        """Where it stands, nm or GPa, on the way to a step; None at the beginning."""
+        if self.stands is not None and to.control is not self.stands[0].control:
+            self._turn(to)
         return self.history.places[-1] if self.history.places else None
 
-    def _turn(self, control: Trait) -> None:
-        """Go on from the last state under the other control, where it has another place and another uniform mode."""
+    def _turn(self, to: LoadStep) -> None:
+        """Go on from the last state under another control, where it has another place and maybe uniform mode."""
         step, state = self.stands
         here, last = self.at(step), state.displacement.copy()
-        if control is Trait.MEAN_PRESSURE:
-            place = -float(state.traction[0].mean())
-            last[0, 0] -= here.approach
-        else:
-            place = here.yielded - float(last[0, 0].real) - here.origin
-            last[0, 0] = here.yielded
+        stands = step.normal
+        if to.normal.control is not step.normal.control:
+            if to.normal.control is Trait.MEAN_PRESSURE:
+                place = -float(state.traction[0].mean())
+                last[0, 0] -= here.approach
+            else:
+                place = here.yielded - float(last[0, 0].real) - here.origin
+                last[0, 0] = here.yielded
+            stands = LoadStep(to.normal.control, place)
+        if to.control is Trait.SLIDE:
+            stands = LoadStep(Trait.SLIDE, step.slid, held=stands)
+        place = stands.value
         self.last, self._pace = last, None
-        self.stands = LoadStep(control, place), replace(state, displacement=last)
+        self.stands = stands, replace(state, displacement=last)
         self.history = History()
         self.history.add(place, last)
 
@@ -101,7 +109,7 @@ class Walk:
 
     def guess(self, step: LoadStep) -> Array:
         """Where the state is expected."""
-        if self.place(step.control) is None or not self.solver.predicts:
+        if self.place(step) is None or not self.solver.predicts:
             return self.last
         return self.history.guess(step.value)
 
@@ -120,7 +128,7 @@ class Walk:
 
     def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> float:
         """Move on to a state; how far the surface jumped to it."""
-        before = self.place(step.control)
+        before = self.place(step)
         taken = np.inf if before is None else abs(step.value - before)
         expected = np.inf if taken == np.inf else STEADY * self._length(step, taken)
         jump = found.moved if flowed and found.moved > max(SUDDEN * self.problem.reach, expected) else 0.0
@@ -139,21 +147,22 @@ class Walk:
         if self._failed == PATIENCE:
             return PathState(step, here, self.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
         before = tally.transforms
-        found, jump, spent = self._reach(step)
+        found, jump, jumped_at, spent = self._reach(step)
         lost = found.status in (Status.PULLED_OFF, Status.NON_FINITE)  # nothing comes after that
         self._failed = 0 if found.settled else PATIENCE if lost else self._failed + 1
         cost = tally.transforms - before
-        return PathState(step, here, found.displacement, found.status, found.residual, jump, spent, cost, found)
+        numbers = found.status, found.residual, jump, spent, cost
+        return PathState(step, here, found.displacement, *numbers, found, jumped_at)
 
-    def _reach(self, step: LoadStep) -> tuple[Equilibrium, float, int]:
-        """Go to a step, by way of others between if need be: the state, how far it jumped, iterations spent."""
-        goals, divides, jump, spent = [step.value], self._divides, 0.0, 0
+    def _reach(self, step: LoadStep) -> tuple[Equilibrium, float, float, int]:
+        """Go to a step, by way of others between if need be: the state, how far it jumped and by where, iterations."""
+        goals, divides, jump, jumped_at, spent = [step.value], self._divides, 0.0, np.nan, 0
         while True:
             goal = replace(step, value=goals[-1])
             found, flowed = self.near(goal) if self.solver.predicts else None, False
             spent += found.iterations if found else 0
             if found is None or not (found.settled and found.moved <= self.near_by):
-                place = self.place(step.control)
+                place = self.place(step)
                 divisible = divides and len(goals) <= DEEPEST and place is not None
                 if divisible and self._length(goal, abs(goals[-1] - place)) > self._small:
                     goals.append((place + goals[-1]) / 2)
@@ -161,13 +170,14 @@ class Walk:
                 found, flowed = self.flow(goal), True
                 spent += found.iterations
             if found.settled:
-                jump += self.accept(goal, found, flowed)
+                leapt = self.accept(goal, found, flowed)
+                jump, jumped_at = jump + leapt, goal.value if leapt else jumped_at
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False
                 continue
             goals.pop()
             if not goals:
-                return found, jump, spent
+                return found, jump, jumped_at, spent
 
     @property
     def _small(self) -> float:
@@ -176,6 +186,6 @@ class Walk:
 
     def _length(self, step: LoadStep, taken: float) -> float:
         """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""
-        if step.control is Trait.APPROACH:
+        if step.control is not Trait.MEAN_PRESSURE:
             return taken
         return np.inf if self._pace is None else self._pace * taken

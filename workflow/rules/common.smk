@@ -33,7 +33,8 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
 
 
 def figure_files(name):
-    return [RESULTS / "figures" / f"{name}{ending}" for ending in (".png", ".pdf", ".csv")]
+    kinds = PLAN.figures[name].endings if name in PLAN.figures else ("png", "pdf", "csv")
+    return [RESULTS / "figures" / f"{name}.{kind}" for kind in kinds]
 
 
 def all_figures(wildcards):

@@ -37,6 +37,7 @@ for _name, _figure in PLAN.figures.items():
             png=RESULTS / f"figures/{_name}.png",
             pdf=RESULTS / f"figures/{_name}.pdf",
             csv=RESULTS / f"figures/{_name}.csv",
+            **{kind: RESULTS / f"figures/{_name}.{kind}" for kind in _figure.endings[3:]},
         log: RESULTS / f"logs/figures/{_name}.log"
         params: plan=canonical(PLAN.figure_settings(_name))
         message: f"{_name}: {RESULTS}/figures/{_name}.png"

@@ -11,6 +11,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import xarray as xr
+from matplotlib.animation import PillowWriter
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from contactsim import dataset, ensemble, validity
@@ -19,6 +22,8 @@ from contactsim.tabulate import tabulated
 
 LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
+FILM_DPI, CLOSE = 110, 1e-6
+"""Of a film's frames; of a slide, nm: what is nearer counts as the same."""
 PRICED = {
     "kappa": "κ",
     "kappa_r": "κᵣ",
@@ -34,20 +39,43 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     """Draw one figure into its files.
 
     plan: `Plan.figure_settings`; data: paths of the datasets; costs: of the studies' costs, none where the module of
-    the figure writes a `footer` of its own; targets: png, pdf and csv.
+    the figure writes a `footer` of its own; targets: png, pdf and csv, and gif where there is a film.
     """
     settings, shown_data = plan["settings"], [dataset.read(path) for path in data]
     if settings["law"] is not None:
         shown_data = [tabulated(settings["law"])]
     module = import_module(f"contactsim.figures.{plan['chapter']}")
     draw = getattr(module, plan["name"])
-    for dim, (least, largest) in settings["select"].items():
-        part = {dim: slice(least * (1 - 1e-9), largest * (1 + 1e-9))}
+    for dim, ends in settings["select"].items():
+        part = {dim: slice(*ensemble.widened(*ends))}
         shown_data = [one.sel(part) if dim in one.dims else one for one in shown_data]
     priced = [footer_text(one, pd.read_csv(path)) for one, path in zip(shown_data, costs, strict=bool(costs))]
     figure, panels = framed(settings, " — ".join(priced) if priced else module.footer(*shown_data))
-    shown = draw(*shown_data, panels if len(panels) > 1 else panels[0], **settings["reference"])
+    panels = panels if len(panels) > 1 else panels[0]
+    shown = draw(*shown_data, panels, **settings["reference"])
     save(figure, shown, targets)
+    if settings["film"] is not None:
+        move(targets["gif"], lambda path: film(figure, panels, draw, shown_data[0], settings["film"], path))
+
+
+def film(
+    figure: Figure, panels: list[Axes] | Axes, draw: Callable, data: xr.Dataset, frames_per_second: float, path: Path
+) -> None:
+    """The figure drawn again for each snapshot of a slide, of the states up to it, within the axes of the whole."""
+    FigureCanvasAgg(figure).draw()
+    figure.set_layout_engine("none")
+    every = np.atleast_1d(panels)
+    ends = [(panel.get_xlim(), panel.get_ylim()) for panel in every]
+    writer = PillowWriter(fps=frames_per_second)
+    with writer.saving(figure, str(path), dpi=FILM_DPI):
+        for count, value in enumerate(data.snapshot.values):
+            reached = ~(data.slid.isel(member=0) > value + CLOSE)
+            for panel in every:
+                panel.clear()
+            draw(data.isel(snapshot=slice(count + 1), step=np.flatnonzero(reached)), panels)
+            for panel, (across, up) in zip(every, ends, strict=True):
+                panel.set(xlim=across, ylim=up)
+            writer.grab_frame()
 
 
 def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float] | None = None) -> tuple[Figure, list]:

@@ -12,7 +12,8 @@ from contactsim.interface import InterfaceProblem
 from contactsim.solvers.base import Status
 from contactsim.traits import Trait
 
-SMOOTH_PATHS = frozenset({Trait.LINE, Trait.SMOOTH, Trait.HALF_SPACE, Trait.LAYER, Trait.APPROACH, Trait.MEAN_PRESSURE})
+CONTROLS = {Trait.APPROACH, Trait.MEAN_PRESSURE, Trait.SLIDE}
+SMOOTH_PATHS = frozenset({Trait.LINE, Trait.SMOOTH, Trait.HALF_SPACE, Trait.LAYER, *CONTROLS})
 """What every one of these solvers takes; laws without a potential are for those that minimise nothing."""
 APART = 40.0
 """Smallest gap, in the laws' length, from which on a load has pulled the bodies apart."""
