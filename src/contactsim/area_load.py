@@ -79,7 +79,8 @@ def curve_numbers(indentation: Array, area: Array, pressure: Array, gradient: Ar
     found = [how(area[few], one) for one in kinds for how in (nonlinearity, curvature)]
     found += [first_reached(area, level, pressure) for level in LEVELS.values()]
     found += [first_reached(indentation, DEEP, one) for one in (area, pressure)]
-    return *found, first_reached(area, LEVELS["pressure_at_fiftieth"], gradient / whole)
+    share = gradient / whole if whole > 0 else np.full_like(gradient, np.nan)
+    return *found, first_reached(area, LEVELS["pressure_at_fiftieth"], share)
 
 
 def related(data: xr.Dataset) -> xr.Dataset:

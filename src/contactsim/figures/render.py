@@ -33,6 +33,8 @@ PRICED = {
     "pull_off_load_unloading": "on unloading",
 }
 """Quantities whose errors a footer tells, and how."""
+PRICED_SLIDES = {"static_friction": "static friction", "onset_repulsive_length": "contact at the onset"}
+"""The same of slides."""
 
 
 def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Mapping[str, str]) -> None:
@@ -111,10 +113,11 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     ]
     if "beyond" in data and (far := validity.told(data)):
         parts.append(f"beyond the model: {', '.join(far)} of the states")
+    priced = PRICED_SLIDES if "static_friction" in data else PRICED
     for error in ("grid", "increment", "tolerance", "left_out"):
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
-            for name, words in PRICED.items()
+            for name, words in priced.items()
             if f"{name}_{error}_error" in data and not np.isnan(data[f"{name}_{error}_error"]).all()
         ]
         if sizes:

@@ -1,0 +1,240 @@
+"""Springs between a surface and a lattice: sums as Eqs 6.2-6.4 write them, balanced, periodic; what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contactsim import analytic
+from contactsim.elasticity import Layer
+from contactsim.errors import SceneError
+from contactsim.interface import pose_interface
+from contactsim.laws import CohesiveZone, HardWall, NormalCohesiveZone
+from contactsim.loading import LoadStep, approach, press, slide, through
+from contactsim.pairing import ALIGNED, Windowed
+from contactsim.scene import Body, Scene
+from contactsim.superposition import superposed
+from contactsim.surface import Cylinder, Flat
+from contactsim.traits import Trait
+
+LAW = CohesiveZone(2.0, 0.7, 1.0, 0.8)
+BODY = Layer(70.0, 0.45, 500.0)
+HELD = LoadStep(Trait.APPROACH, 0.0)
+
+
+def gaps(points: int, seed: int = 0) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    return np.stack((rng.uniform(-0.5, 6.0, points), rng.uniform(-40.0, 40.0, points)))
+
+
+def literal(gap: np.ndarray, lower: np.ndarray, lattice: float, law: CohesiveZone) -> tuple[np.ndarray, np.ndarray]:
+    """Every spring between every two nodes of a period and its images: on the upper and on the lower nodes."""
+    points = gap.shape[1]
+    upper, below = np.zeros((2, points)), np.zeros((2, points))
+    for i in range(points):
+        for j in range(-3 * points, 4 * points):
+            along = gap[1, i] - (j - i) * lattice
+            if abs(along) < 8 * law.tangential_length:
+                each = np.array([[gap[0, i] + lower[i] - lower[j % points]], [along]])
+                pull = law.traction(each)[:, 0]
+                upper[:, i] += pull
+                below[:, j % points] -= pull
+    return upper, below
+
+
+@pytest.mark.parametrize("rough", [False, True])
+def test_springs_are_the_literal_sum_over_all_pairs_of_nodes(rough):
+    points, lattice = 24, 1.7
+    lower = 0.3 * np.sin(2 * np.pi * np.arange(points) / points) * rough
+    gap = gaps(points)
+    springs = Windowed(lattice, window=8.0).joined(LAW, lower, points * lattice)
+    upper, below = literal(gap, lower, lattice, LAW)
+    np.testing.assert_allclose(springs.traction(gap), upper, rtol=0, atol=1e-13 * np.abs(upper).max())
+    np.testing.assert_allclose(springs.reaction(gap), below, rtol=0, atol=1e-12 * np.abs(upper).max())
+
+
+@pytest.mark.parametrize("lattice", [1.7, 1.234])
+@pytest.mark.parametrize("rough", [False, True])
+def test_action_equals_reaction(lattice, rough):
+    points = 64
+    lower = 0.2 * np.cos(2 * np.pi * np.arange(points) / points) * rough
+    springs = Windowed(lattice).joined(LAW, lower, points * 1.7)
+    gap = gaps(points)
+    total = springs.traction(gap).sum(1)
+    np.testing.assert_allclose(springs.reaction(gap).sum(1), -total, atol=3e-14 * np.abs(springs.traction(gap)).sum())
+
+
+def test_the_tangent_is_the_derivative_of_the_traction():
+    points = 32
+    springs = Windowed(2.0).joined(LAW, 0.2 * np.sin(np.arange(points) * 2 * np.pi / points), 100.0)
+    gap = gaps(points, 1)
+    gap[1] += 0.3  # away from where the window moves on
+    traction, tangent = springs.tangent(gap)
+    np.testing.assert_array_equal(traction, springs.traction(gap))
+    for column in range(2):
+        change = np.zeros_like(gap)
+        change[column] = 1e-6
+        slope = (springs.traction(gap + change) - springs.traction(gap - change)) / 2e-6
+        np.testing.assert_allclose(tangent[:, column], slope, atol=1e-8 * springs.stiffness)
+
+
+def test_a_flat_lattice_sums_to_the_exact_series():
+    lattice, gap = 1.95, np.stack((np.linspace(-1.0, 4.0, 50), np.linspace(-7.0, 7.0, 50)))
+    springs = Windowed(lattice, window=10.0).joined(LAW, np.zeros(50), 100.0)
+    cosines, sines = analytic.spring_sum(gap[1], lattice, LAW.tangential_length)
+    opening = gap[0] / LAW.normal_length
+    normal = LAW.work_of_separation / LAW.normal_length * opening * np.exp(-opening) * cosines
+    tangential = LAW.tangential_work / LAW.tangential_length * np.exp(-opening) * sines
+    np.testing.assert_allclose(springs.traction(gap), [normal, tangential], atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "largest", "fall"),
+    [
+        (1, 1.2e-3, 0.007),
+        (1.22, 0.02, 0.10),
+        (1.5, 0.12, 0.52),
+        (2, 0.47, 1.48),
+        (2.44, 0.71, 1.79),
+        (4.88, 0.858, 0.89),
+    ],
+)
+def test_sums_of_springs_have_their_known_strength_and_fall(ratio, largest, fall):
+    sums = analytic.spring_sum(np.linspace(0, ratio, 2001), ratio)[1]
+    assert sums.max() == pytest.approx(largest, rel=0.06)
+    assert analytic.steepest_fall(ratio) == pytest.approx(fall, rel=0.06)
+
+
+def test_a_slide_by_whole_lattice_constants_changes_nothing():
+    springs = Windowed(2.44).joined(LAW, np.zeros(16), 100.0)
+    gap = gaps(16)
+    further = gap + [[0.0], [7 * 2.44]]
+    np.testing.assert_allclose(springs.traction(further), springs.traction(gap), atol=1e-12)
+    np.testing.assert_allclose(springs.offset(further), springs.offset(gap), atol=1e-12)
+
+
+def test_a_rough_lattice_repeats_itself_after_a_period():
+    lower, lattice = 0.3 * np.sin(2 * np.pi * np.arange(20) / 20), 2.0
+    springs = Windowed(lattice).joined(LAW, lower, 20 * lattice)
+    gap = gaps(20)
+    again = springs.traction(gap + [[0.0], [20 * lattice]])
+    np.testing.assert_allclose(again, springs.traction(gap), atol=1e-12)
+
+
+def test_a_window_of_the_own_node_is_aligned():
+    gap = np.stack((np.linspace(-1, 4, 30), np.linspace(-0.9, 0.9, 30)))
+    own = Windowed(2.0, window=0.0, depth=None).joined(LAW, np.zeros(30), 60.0)
+    np.testing.assert_array_equal(own.traction(gap), ALIGNED.joined(LAW, np.zeros(30), 60.0).traction(gap))
+    for one, other in zip(own.tangent(gap), LAW.tangent(gap), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    "law", [LAW, CohesiveZone(2.0), NormalCohesiveZone(1.5), superposed((LAW, NormalCohesiveZone(1.0)))]
+)
+def test_any_law_can_be_a_spring(law):
+    springs = Windowed(1.5, window=3.0).joined(law, np.zeros(10), 15.0)
+    gap = gaps(10)[: len(law.reads)]
+    sites = 1.5 * (np.rint(gap[1:] / 1.5) + springs.offsets[:, None, None])
+    each = [law.traction(np.concatenate((gap[:1], gap[1:] - site))) for site in sites]
+    np.testing.assert_allclose(springs.traction(gap), sum(each), atol=1e-13)
+    assert springs.reads == law.reads
+    assert springs.exerts == law.exerts
+
+
+def test_potentials_add():
+    law = NormalCohesiveZone(1.5)
+    springs = Windowed(1.5, window=2.0, weight=0.5).joined(law, np.zeros(10), 15.0)
+    gap = gaps(10)[:1]
+    np.testing.assert_allclose(springs.energy(gap), 0.5 * len(springs.offsets) * law.energy(gap))
+
+
+def test_weights_count_and_deep_gaps_do_not():
+    gap = np.array([[1.0, 9.0, 11.0], [0.2, 0.2, 0.2]])
+    whole, half = (Windowed(2.0, weight=weight).joined(LAW, np.zeros(3), 6.0) for weight in (1.0, 0.5))
+    np.testing.assert_allclose(half.traction(gap), 0.5 * whole.traction(gap))
+    cut = Windowed(2.0, depth=10.0).joined(LAW, np.zeros(3), 6.0).traction(gap)
+    np.testing.assert_array_equal(cut[:, :2], whole.traction(gap)[:, :2])
+    assert not cut[:, 2].any()
+
+
+def test_springs_are_paid_for_in_range_only(monkeypatch):
+    asked = []
+    springs = Windowed(2.0, window=5.0).joined(LAW, np.zeros(1000), 2000.0)
+    count = len(springs.offsets)
+    traction = CohesiveZone.traction
+    monkeypatch.setattr(CohesiveZone, "traction", lambda law, gap: asked.append(gap.shape[1]) or traction(law, gap))
+    gap = np.stack((np.linspace(0.0, 400.0, 1000), np.zeros(1000)))
+    springs.traction(gap)
+    assert asked == [count * np.count_nonzero(gap[0] <= 40.0)]
+
+
+def test_strength_and_stiffness_bound_what_springs_do():
+    gap = np.stack([each.ravel() for each in np.meshgrid(np.linspace(0, 3, 61), np.linspace(-2, 2, 81))])
+    for lattice in (0.2, 1.0, 2.44, 5.0):
+        springs = Windowed(lattice).joined(LAW, np.zeros(8), 100.0)
+        traction, tangent = springs.tangent(gap)
+        assert traction[0].max() <= springs.strength * (1 + 1e-12)
+        assert traction[0].max() == pytest.approx(springs.strength, rel=1e-3)
+        assert np.abs(tangent).max() <= 1.01 * springs.stiffness
+
+
+def sliding(lower: object = None, upper: object = BODY, law: object = LAW, pairing: object = ALIGNED) -> Scene:
+    surface = Cylinder(length=500.0, radius=1250.0)
+    path = through(Trait.APPROACH, [-5.0, 0.0], 1.0) >> slide([0.0, 2.0], 1.0, HELD)
+    return Scene(Body(Flat.facing(surface), lower), Body(surface, upper), (law,), path, pairing)
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"lower": BODY, "pairing": Windowed(2.0)}, "pairing"),
+        ({"law": HardWall(), "pairing": Windowed(2.0)}, "effects"),
+        ({"law": NormalCohesiveZone(2.0)}, "effects"),
+    ],
+)
+def test_what_cannot_be_joined_or_slid_is_refused(change, key):
+    with pytest.raises(SceneError, match=key):
+        sliding(**change)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"lattice_constant": 0.0}, {"lattice_constant": 2.0, "window": -1.0}, {"lattice_constant": 2.0, "depth": 0.0}]
+    + [{"lattice_constant": 2.0, "weight": float("nan")}, {"lattice_constant": True}],
+)
+def test_options_of_a_window_are_checked(options):
+    with pytest.raises(SceneError, match="finite number"):
+        Windowed(**options)
+
+
+def test_a_slide_needs_something_held_and_comes_last():
+    with pytest.raises(SceneError, match="held"):
+        LoadStep(Trait.SLIDE, 1.0)
+    with pytest.raises(SceneError, match="held"):
+        LoadStep(Trait.APPROACH, 1.0, held=HELD)
+    with pytest.raises(SceneError, match="presses first"):
+        slide([0.0, 1.0], 1.0, HELD) >> approach([1.0])
+
+
+def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():
+    scene = sliding(upper=replace(BODY, poisson_ratio=0.5), law=CohesiveZone(2.0))
+    assert scene.components == ("n", "t")
+    assert Trait.SLIDE in scene.traits
+    problem = pose_interface(scene, scene.heights(64), 1e-7).at(scene.path.steps[-1])
+    np.testing.assert_array_equal(problem.gap(np.zeros(problem.unknowns, complex))[1], 2.0)
+
+
+def test_a_scene_that_does_not_slide_is_what_it_was():
+    scene = replace(sliding(), path=approach([0.0]))
+    assert not scene.sliding
+    assert scene.pairing is ALIGNED
+    problem = pose_interface(scene, scene.heights(64), 1e-7)
+    assert problem.law is LAW
+
+
+def test_pressing_steps_have_no_slide():
+    assert [step.slid for step in press([0.1]).steps] == [0.0]
+    assert [step.slid for step in slide([0.0, 1.0], 0.5, HELD).steps] == [0.0, 0.5, 1.0]

@@ -1,0 +1,315 @@
+"""Paths that press and slide: exact flats, slips and their place, loops, loads, and what is read off a slide."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactsim import analytic, sliding
+from contactsim.branch import simulate_path
+from contactsim.elasticity import HalfSpace, Layer
+from contactsim.follow import INCREMENTS, Requested
+from contactsim.interface import InterfaceProblem, pose_interface
+from contactsim.laws import CohesiveZone
+from contactsim.loading import LoadPath, LoadStep, slide, through
+from contactsim.pairing import Windowed
+from contactsim.scene import Body, Scene
+from contactsim.solvers import solver
+from contactsim.surface import Cylinder, Flat
+from contactsim.traits import Trait
+from contactsim.walk import PathState
+
+LATTICE = 5000 / 2048
+RATIO = 0.45
+HELD = LoadStep(Trait.APPROACH, 0.0)
+
+
+def path_of(approach: float, slides: list[float], increment: float, load: float | None = None) -> LoadPath:
+    press = through(Trait.APPROACH, [-10.0, approach], 0.5, True)
+    if load is not None:
+        press = press >> LoadPath((LoadStep(Trait.MEAN_PRESSURE, load),), True)
+    return press >> slide(slides, increment, press.steps[-1], True)
+
+
+def flat(modulus: float, work: float, slides: list[float], increment: float = 0.1, points: int = 16) -> Scene:
+    surface = Flat(length=100.0)
+    body = Layer(modulus / (1 - RATIO**2), RATIO, 500.0)
+    law = CohesiveZone(2.0, work / 2.0)
+    path = path_of(0.0, slides, increment)
+    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, Windowed(LATTICE))
+
+
+def probe(path: LoadPath, law: CohesiveZone | None = None, **changes: object) -> Scene:
+    """A tenth of the probe of Chapter 6 in size, with a body as much softer and a lattice as before."""
+    surface = Cylinder(length=1000.0, radius=2500.0)
+    body = Layer(70.0 / (1 - RATIO**2), RATIO, 1000.0)
+    law = law or CohesiveZone(2.0, 1.0)
+    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, Windowed(LATTICE, **changes))
+
+
+def walked(
+    scene: Scene, points: int = 16, method: object = "newton", increments: object = None
+) -> tuple[InterfaceProblem, list[PathState], np.ndarray, np.ndarray]:
+    """Problem, states on the slide, their slides (nm) and forces over the period (GPa)."""
+    problem = pose_interface(scene, scene.heights(points), 1e-7)
+    method = solver(method) if isinstance(method, str) else method
+    states = list((increments or Requested()).follow(problem, method, scene.path.steps))
+    assert {state.status.solved for state in states} == {True}
+    states = [state for state in states if state.step.control is Trait.SLIDE]
+    force = np.array([state.fields()[1][1].mean() for state in states])
+    return problem, states, np.array([state.step.value for state in states]), force
+
+
+def exact(modulus: float, work: float, slides: np.ndarray) -> np.ndarray:
+    return analytic.uniform_slide(slides, modulus / (2 * (1 + RATIO)) / 500.0, work, LATTICE)
+
+
+@pytest.mark.parametrize("increments", ["requested", "adaptive"])
+@pytest.mark.parametrize(
+    ("modulus", "work"), [(70.0, 0.2), (140.0, 0.2), (70.0, 0.1), (70.0, 0.02), (400.0, 0.1), (20.0, 0.4)]
+)
+def test_flats_slide_as_one_degree_of_freedom_slips_included(modulus, work, increments):
+    _, states, slides, force = walked(flat(modulus, work, [0.0, 12.0]), increments=INCREMENTS[increments]())
+    wanted = exact(modulus, work, slides)
+    error = 1e-5 if increments == "requested" else 5e-3  # of tolerance and of interpolation
+    np.testing.assert_allclose(force, wanted, atol=error * wanted.max())
+    slipped = np.flatnonzero(np.diff(wanted) < -0.3 * wanted.max()) + 1
+    found = [count for count, state in enumerate(states) if state.jump]
+    if (modulus, work) in {(70.0, 0.2), (140.0, 0.2), (20.0, 0.4)}:
+        assert found == slipped.tolist()
+
+
+@pytest.mark.parametrize("lattice", [LATTICE, 2.0, 4.0])
+@pytest.mark.parametrize(("beside", "slips"), [(0.99, True), (1.01, False)])
+def test_stick_slip_ends_where_the_body_is_stiffer_than_the_springs_soften(lattice, beside, slips):
+    work = 0.1
+    places = np.linspace(0.0, lattice, 20001)
+    sums = analytic.spring_sum(places, lattice)[1]
+    steepest = places[np.argmin(np.gradient(sums, places))]
+    fall = analytic.steepest_fall(lattice)
+    stiffness = beside * work * fall
+    about = steepest + work / stiffness * np.interp(steepest, places, sums)
+    increment = 2e-4
+    path = path_of(0.0, [0.0, about - 0.02], 0.05) >> slide([about - 0.02, about + 0.02], increment, HELD, True)
+    scene = replace(flat(stiffness * 2 * (1 + RATIO) * 500.0, work, [0.0, 1.0]), path=path, pairing=Windowed(lattice))
+    _, _, slides, force = walked(scene)
+    gap = slides - force / stiffness
+    fastest = increment / (1 - 1 / 1.01)  # of a smooth slide of a body 1 % too stiff
+    assert (np.diff(gap[-200:]).max() > 1.1 * fastest) == slips
+
+
+@pytest.mark.parametrize("points", [8, 64])
+def test_flats_do_not_depend_on_the_mesh(points):
+    forces = [walked(flat(70.0, 0.2, [0.0, 6.0], 0.2, points), count)[3] for count in (16, points)]
+    np.testing.assert_allclose(*forces, atol=1e-9)
+
+
+def test_an_exact_slide_carries_what_the_springs_pull():
+    slides = np.linspace(0, 12, 241)
+    stiffness, strength = 0.05, 0.2
+    force = analytic.uniform_slide(slides, stiffness, strength, LATTICE)
+    gap = slides - force / stiffness
+    np.testing.assert_allclose(force, strength * analytic.spring_sum(gap, LATTICE)[1], atol=1e-12)
+    assert np.all(np.diff(gap) > 0)
+
+
+@cache
+def small_probe(increment: float = 0.1, points: int = 256, window: float = 5.0, depth: float | None = 40.0) -> tuple:
+    return walked(probe(path_of(0.0, [0.0, 11.0], increment), window=window, depth=depth), points)
+
+
+def places(states: list[PathState]) -> list[float]:
+    return [state.jumped_at for state in states if state.jump]
+
+
+def test_a_probe_sticks_slips_by_one_lattice_constant_and_peels():
+    problem, states, _, force = small_probe()
+    slip = [count for count, state in enumerate(states) if state.jump]
+    assert len(slip) >= 2
+    gaps = [states[count].fields()[0] for count in (slip[0] - 1, slip[0])]
+    middle = int(np.argmin(problem.shape[0]))
+    assert (gaps[1][1, middle] - gaps[0][1, middle]) / LATTICE == pytest.approx(1.0, abs=0.15)
+    contact = np.array([np.count_nonzero(state.fields()[0][0] < 0) for state in states])
+    assert contact[slip[0] - 1] < contact[0]
+    assert contact[slip[0]] > contact[slip[0] - 1]
+    assert force[slip[0]] < force[slip[0] - 1]
+
+
+@pytest.mark.parametrize(
+    ("other", "error"),
+    [
+        ({"increment": 0.05}, 2e-3),
+        ({"increment": 0.4}, 2e-2),
+        ({"window": 8.0}, 1e-6),
+        ({"window": 4.0}, 1e-6),
+        ({"depth": None}, 1e-9),
+        ({"depth": 10.0}, 1e-3),
+        ({"points": 512}, 1e-4),
+    ],
+)
+def test_what_is_numerical_does_not_move_the_onset(other, error):
+    forces, slips = zip(
+        *((force.max(), places(states)[0]) for _, states, _, force in (small_probe(), small_probe(**other))),
+        strict=True,
+    )
+    assert forces[1] == pytest.approx(forces[0], rel=error)
+    assert slips[1] == pytest.approx(slips[0], abs=0.03)
+
+
+@pytest.mark.parametrize("method", ["mass_weighted_verlet"])
+def test_two_solvers_slide_alike(method):
+    scene = probe(path_of(0.0, [0.0, 9.0], 0.25))
+    (_, newton, _, force), (_, verlet, _, other) = (walked(scene, 128, name) for name in ("newton", method))
+    np.testing.assert_allclose(other, force, atol=1e-4 * force.max())
+    assert [bool(state.jump) for state in newton] == [bool(state.jump) for state in verlet]
+
+
+def test_adaptive_increments_slide_alike_for_less():
+    _, states, _, force = small_probe()
+    scene = probe(path_of(0.0, [0.0, 11.0], 0.1))
+    _, others, _, other = walked(scene, 256, increments=INCREMENTS["adaptive"]())
+    np.testing.assert_allclose(other, force, atol=2e-3 * force.max())
+    assert [state.step.value for state in others if state.jump] == [state.step.value for state in states if state.jump]
+    np.testing.assert_allclose(places(others), places(states), atol=0.03)
+
+
+def test_a_slide_under_a_load_carries_that_load():
+    problem, states, _, _ = walked(probe(path_of(0.0, [0.0, 12.0], 0.2, 0.05)), 256)
+    loads = [-state.fields()[1][0].mean() for state in states]
+    np.testing.assert_allclose(loads, 0.05, atol=2e-7 * problem.strength)
+    assert any(state.jump for state in states)
+
+
+def test_a_slide_to_and_fro_is_antisymmetric_and_dissipates():
+    scene = probe(path_of(0.0, [0.0, 10.0, -10.0, 10.0], 0.1))
+    _, states, slides, force = walked(scene, 256)
+    first, second = slice(101, 301), slice(301, 501)
+    np.testing.assert_allclose(-force[first], force[second], atol=1e-4 * force.max())
+    jump = np.array([state.jump for state in states])
+    energy, error = sliding.loop(slides, force, jump)
+    assert energy > 10 * error > 0
+
+
+def test_a_half_space_slides_by_its_mean():
+    scene = probe(path_of(0.0, [0.0, 1.0], 0.5))
+    upper = replace(scene.upper, elasticity=HalfSpace(70.0 / (1 - RATIO**2), RATIO))
+    _, states, _, force = walked(replace(scene, upper=upper), 256)
+    assert states[-1].fields()[0][1].mean() == pytest.approx(1.0)
+    assert force[-1] > 0
+
+
+def test_without_tangential_work_nothing_resists():
+    _, states, _, _ = walked_frictionless()
+    assert {len(state.fields()[1]) for state in states} == {1}
+
+
+@cache
+def walked_frictionless() -> tuple:
+    scene = probe(path_of(0.0, [0.0, 3.0], 0.25), CohesiveZone(2.0))
+    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    states = list(Requested().follow(problem, solver("newton"), scene.path.steps))
+    return problem, [state for state in states if state.step.control is Trait.SLIDE], None, None
+
+
+@cache
+def dataset(**changes: object) -> xr.Dataset:
+    scene = probe(path_of(0.0, [0.0, 11.0], 0.1), **changes)
+    data = simulate_path(scene, solver("newton"), points=256, tolerance=1e-7, snapshots=(0.0, 4.0))
+    return data
+
+
+def test_a_slide_becomes_a_dataset_with_its_slips():
+    data = dataset()
+    slid = data.slid.values
+    assert np.isnan(slid[:20]).all()
+    np.testing.assert_allclose(slid[20:], np.linspace(0, 11, 111), atol=1e-9)
+    np.testing.assert_allclose(data.snapshot, [0.0, 4.0])
+    found = sliding.slid(data)
+    told = found[list(sliding.EVENT)].dropna("event")
+    assert told.event.size == int(found.slips) >= 2
+    assert float(found.first_periods) == pytest.approx(1.0, abs=0.15)
+    np.testing.assert_allclose(told.event_periods, 1.0, atol=0.15)
+    np.testing.assert_allclose(np.diff(told.event_slide), LATTICE, atol=0.05)
+    assert (told.event_drop > 0).all()
+    assert (told.event_released_energy > 0).all()
+    assert (told.event_length_after > told.event_length_before).all()
+    before = data.friction_force.values[20:]
+    assert float(found.static_friction) == before[: np.flatnonzero(data.jump.values[20:] > 0)[0]].max()
+    assert 0 < float(found.onset_repulsive_length) < float(found.initial_repulsive_length)
+    assert 0 < float(found.reattached) <= 1
+    assert float(found.slip.max()) <= LATTICE / 2 + 1e-9
+
+
+def test_the_layer_stores_a_part_of_the_work_where_nothing_slips():
+    data = dataset().isel(step=slice(20, 60))
+    work = np.cumsum(np.diff(data.slid) * (data.friction_force.values[1:] + data.friction_force.values[:-1]) / 2)
+    stored = data.elastic_energy.values[1:] - data.elastic_energy.values[0]
+    assert (stored > 0).all()
+    assert (stored < work).all()
+
+
+def test_edges_lie_between_nodes_and_wrap_around():
+    x = np.arange(64) * 1.0
+    for shift in (0.0, 20.0, 32.0, 50.3):
+        away = (x - shift + 32.0) % 64.0 - 32.0
+        gap = away**2 - 5.3**2
+        shape = away**2
+        middle = away[np.argmin(shape)]
+        trailing, leading = sliding.contact_edges(gap, shape, 1.0)
+        assert trailing == pytest.approx(-5.3 - middle, abs=0.05)
+        assert leading == pytest.approx(5.3 - middle, abs=0.05)
+    assert np.isnan(sliding.contact_edges(x + 1.0, x, 1.0)).all()
+    assert sliding.contact_edges(x - 100.0, x, 1.0) == (-32.5, 31.5)
+
+
+def test_the_onset_is_before_the_first_slip_or_at_the_first_maximum():
+    force = np.array([0.0, 1.0, 2.0, 1.9, 0.5, 3.0])
+    assert sliding.onset_step(force, np.array([0, 0, 0, 0, 1.0, 0])) == 2
+    assert sliding.onset_step(force, np.zeros(6)) == 2
+    assert sliding.onset_step(np.arange(4.0), np.zeros(4)) == 3
+
+
+def test_laws_are_found_where_they_hold():
+    force = np.linspace(0, 3, 20)
+    coefficient, agreement = sliding.quadratic_law(force, 100 - 2.5 * force**2)
+    assert coefficient == pytest.approx(2.5)
+    assert agreement == pytest.approx(1.0)
+    assert np.isnan(sliding.quadratic_law(force[:2], force[:2])).all()
+    slope, offset, agreement = sliding.threshold_law(np.array([0.0, 1, 2, np.nan]), np.array([5.0, 7, 9, 1]))
+    assert (slope, offset, agreement) == pytest.approx((2.0, 5.0, 1.0))
+    assert np.isnan(sliding.threshold_law(np.ones(3), np.ones(3))).all()
+
+
+def test_peeling_at_one_edge_is_asymmetric():
+    trailing, leading = np.array([-5.0, -4.0, -2.0, np.nan]), np.array([5.0, 4.0, 4.0, np.nan])
+    assert sliding.asymmetry(trailing, leading, 1) == 0.0
+    assert sliding.asymmetry(trailing, leading, 2) == pytest.approx(0.5)
+    assert np.isnan(sliding.asymmetry(trailing, leading, 0))
+    assert np.isnan(sliding.asymmetry(trailing, leading, 3))
+
+
+def test_a_force_is_averaged_over_whole_lattice_constants():
+    slid = np.linspace(0, 10, 1001)
+    mean, error = sliding.average_force(slid, 2 + np.sin(2 * np.pi * slid / 3.0), 3.0)
+    assert mean == pytest.approx(2.0, abs=1e-4)
+    assert error < 1e-3
+    assert np.isnan(sliding.average_force(slid, slid, 11.0)).all()
+    assert np.isnan(sliding.average_force(np.array([0.0, 1, 0]), slid[:3], 0.1)).all()
+
+
+def test_a_slide_without_slips_has_no_events():
+    data = sliding.slid(dataset_without_slips())
+    assert float(data.slips) == 0
+    assert np.isnan(data.event_slide).all()
+    assert np.isnan(data.first_drop)
+    assert float(data.static_friction) > 0
+
+
+@cache
+def dataset_without_slips() -> xr.Dataset:
+    scene = probe(path_of(0.0, [0.0, 1.0], 0.1))
+    return simulate_path(scene, solver("newton"), points=128, tolerance=1e-7)
