@@ -173,6 +173,7 @@ VARIABLES = {
     "initial_load": ("N/m", "normal load before the slide"),
     "peeled": ("1", "part of the contact lost between the beginning of the slide and its onset"),
     "reattached": ("1", "length of the contact after the first slip over that before the slide"),
+    "regained": ("1", "length of contact regained at the first slip, over that before the slide"),
     "asymmetry_early": ("1", "trailing less leading peel over their sum, half way to the onset of sliding"),
     "asymmetry": ("1", "trailing less leading peel over their sum, at the onset of sliding"),
     "quadratic_coefficient": ("nm (m/N)^2", "coefficient of the quadratic law of contact length and force (Eq. 6.8)"),

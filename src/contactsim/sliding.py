@@ -29,6 +29,7 @@ ONSET = (
     "initial_load",
     "peeled",
     "reattached",
+    "regained",
     "asymmetry_early",
     "asymmetry",
     "quadratic_coefficient",
@@ -171,6 +172,7 @@ def summed(columns: dict[str, Array], period: float) -> tuple[dict[str, float], 
         found["first_released_energy"] = energy[first - 1] - energy[first]
         if length[0] > 0:
             found["reattached"] = length[first] / length[0]
+            found["regained"] = (length[first] - length[first - 1]) / length[0]
     found["loop_energy"], errors["loop_energy"] = loop(slid, force, jump)
     return found, errors
 
