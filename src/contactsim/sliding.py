@@ -124,9 +124,9 @@ def quadratic_law(force: Array, length: Array) -> tuple[float, float]:
 def threshold_law(length: Array, force: Array) -> tuple[float, float, float]:
     """Slope (GPa), intercept (N/m) and R² of Eq. 6.9, F = τl + F0, through onsets (approach,), nm and N/m.
 
-    NaN for fewer than three that are known.
+    Those without contact, of which there is one force for each approach, are left out. NaN for fewer than three others.
     """
-    known = np.isfinite(length) & np.isfinite(force)
+    known = np.isfinite(force) & (length > 0)
     if known.sum() < 3 or not np.ptp(length[known]) > 0:
         return np.nan, np.nan, np.nan
     slope, offset = np.polyfit(length[known], force[known], 1)
@@ -147,15 +147,12 @@ def summed(columns: dict[str, Array], period: float) -> tuple[dict[str, float], 
         return found, errors
     onset, slips = onset_step(force, jump), np.flatnonzero(jump > 0)
     step = float(np.abs(np.diff(slid)).max())
-    steepest = float(np.abs(np.diff(force)[: max(onset, 1)][-1]))
-    found["static_friction"], errors["static_friction"] = force[onset], steepest
+    found["static_friction"], errors["static_friction"] = force[onset], missed(force, jump, onset)
     found["onset_slide"], errors["onset_slide"] = slid[onset], step
     if onset + 1 < slid.size:
-        least = onset + int(np.argmin(force[onset:]))
-        beside = force[max(least - 1, onset) : least + 2]
-        rest = np.abs(np.sort(np.abs(beside - force[least]))[1]) if beside.size > 1 else np.nan
-        found["mean_friction"] = (force[onset:].max() + force[onset:].min()) / 2
-        errors["mean_friction"] = (steepest + rest) / 2
+        ends = [onset + int(how(force[onset:])) for how in (np.argmax, np.argmin)]
+        found["mean_friction"] = force[ends].mean()
+        errors["mean_friction"] = sum(missed(force, jump, end) for end in ends) / 2
     found["average_friction"], errors["average_friction"] = average_force(slid[onset:], force[onset:], period)
     found |= {"onset_repulsive_length": length[onset], "initial_repulsive_length": length[0], "initial_load": load[0]}
     if length[0] > 0:
@@ -167,7 +164,10 @@ def summed(columns: dict[str, Array], period: float) -> tuple[dict[str, float], 
     found["slips"] = float(slips.size)
     if slips.size and slips[0]:
         first = slips[0]
-        found["first_drop"], errors["first_drop"] = force[first - 1] - force[first], steepest
+        found["first_drop"], errors["first_drop"] = (
+            force[first - 1] - force[first],
+            (missed(force, jump, first - 1) + missed(force, jump, first)),
+        )
         found["first_periods"] = abs(slip[first] - slip[first - 1]) / period
         found["first_released_energy"] = energy[first - 1] - energy[first]
         if length[0] > 0:
@@ -175,6 +175,21 @@ def summed(columns: dict[str, Array], period: float) -> tuple[dict[str, float], 
             found["regained"] = (length[first] - length[first - 1]) / length[0]
     found["loop_energy"], errors["loop_energy"] = loop(slid, force, jump)
     return found, errors
+
+
+def missed(force: Array, jump: Array, step: int) -> float:
+    """By how much (N/m) a force (step,) may be more extreme than at a step, between it and the states beside it.
+
+    Next to a slip it may change as much as in the increment on the other side; else it turns, by an eighth of the
+    second difference.
+    """
+    before = abs(force[step] - force[step - 1]) if step else np.inf
+    after = abs(force[step + 1] - force[step]) if step + 1 < force.size else np.inf
+    if jump[step] > 0:
+        return float(after if np.isfinite(after) else before)
+    if step + 1 < force.size and jump[step + 1] > 0:
+        return float(before if np.isfinite(before) else after)
+    return float((before + after) / 8 if np.isfinite(before + after) else min(before, after))
 
 
 def asymmetry(trailing: Array, leading: Array, step: int) -> float:

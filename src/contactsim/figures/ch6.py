@@ -62,43 +62,39 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.plot([], [], ".", color=style.EXACT, ms=3, label="exact, one degree of freedom")
         panel.axhline(0.0, color=style.EXACT, lw=0.5)
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=curves.FORCE)
-        low, high = panel.get_ylim()
-        panel.set_ylim(low, high + 0.55 * (high - low))
+        curves.headroom(panel, 0.55)
         panel.legend(loc="upper left")
     curves.letters(axes)
     return pd.concat(rows)
 
 
-def fig_6_5(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
+def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Mean friction of flats against modulus over strength, for two thicknesses (thesis Fig. 6.5)."""
-    rows, known = [], dataset.settings_of(data)
-    law, body = known["cohesive_zone"], known["counter_body"]
-    work = law["work_of_separation"] * law["work_ratio"]
-    strength = analytic.tangential_strength(work, law["tangential_length"], 0.0)
-    lattice = known["pairing"]["lattice_constant"]
-    for thickness, colour in style.shades(data.counter_body_thickness.values).items():
-        one = data.sel(counter_body_thickness=thickness).isel(member=0)
-        ratio = one.counter_body_youngs_modulus.values / strength
-        slope = analytic.steepest_fall(lattice, law["tangential_length"])
-        fall = slope * work / law["tangential_length"] ** 2
+    rows = []
+    for data, colour in zip((thin, thick), (style.CONTACT, style.WHOLE), strict=True):
+        one, known = data.isel(member=0), dataset.settings_of(data)
+        law, body = known["cohesive_zone"], known["counter_body"]
+        work, length, thickness = (
+            law["work_of_separation"] * law["work_ratio"],
+            law["tangential_length"],
+            body["thickness"],
+        )
+        strength = analytic.tangential_strength(work, length, 0.0)
+        fall = analytic.steepest_fall(known["pairing"]["lattice_constant"], length) * work / length**2
         critical = 2 * (1 + body["poisson_ratio"]) * thickness * fall / strength
-        scale = 1 / (float(one.length) * curves.MODULUS)
+        ratio, scale = one.counter_body_youngs_modulus.values / strength, 1 / (float(one.length) * curves.MODULUS)
         for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):
             words = rf"$h={thickness:g}$ nm" if name == "mean_friction" else None
             error = scale * one[f"{name}_increment_error"].values
             look = {"color": colour, "mfc": fill, "ms": 3.5, "lw": 0.9, "elinewidth": 0.8, "capsize": 1.5}
             axes.errorbar(ratio, scale * one[name].values, error, fmt="o", ls=line, label=words, **look)
+        shown = {name: scale * one[name].values for name in ("mean_friction", "average_friction")}
         rows.append(
-            pd.DataFrame(
-                {
-                    "modulus_over_strength": ratio,
-                    "mean_friction": scale * one.mean_friction.values,
-                    "average_friction": scale * one.average_friction.values,
-                    "slips": one.slips.values,
-                }
-            ).assign(thickness=thickness, critical=critical)
+            pd.DataFrame({"modulus_over_strength": ratio} | shown | {"slips": one.slips.values}).assign(
+                thickness=thickness, critical=critical
+            )
         )
-        if ratio.min() < critical < ratio.max():
+        if critical < ratio.max():
             axes.axvspan(critical, 1.3 * ratio.max(), color=colour, alpha=0.12, lw=0)
             axes.axvline(critical, color=colour, lw=0.8, ls=":")
     handles = style.key({}, {r"$(F_s+F_k)/2$ (Eq. 6.7)": "-", "mean over whole periods": "--"})
@@ -139,7 +135,8 @@ def fig_6_7(data: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.Data
         left.plot(curve.relative_slide.iloc[stages], curve.area.iloc[stages], "o", color=colour, ms=3.5, mfc="white")
         for place, (stage, step) in enumerate(zip(STAGES, stages, strict=True)):
             here = curve.iloc[step]
-            left.annotate(stage, (here.relative_slide, here.area), (2, 3), textcoords="offset points", fontsize=6.5)
+            beside = (2, -9) if stage == "D" else (2, 3)
+            left.annotate(stage, (here.relative_slide, here.area), beside, textcoords="offset points", fontsize=6.5)
             at = place + 6 * list(CASES).index(name)
             right.plot([at, at], [here.trailing, here.leading], color=colour, lw=5, solid_capstyle="butt")
             rows.append({"case": name, "stage": stage, "slide": here.slide} | here[["area", "force"]].to_dict())
@@ -154,8 +151,7 @@ def fig_6_7(data: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.Data
     right.text(0.02, 0.02, "trailing", transform=right.transAxes, fontsize=7)
     right.text(0.02, 0.95, "leading", transform=right.transAxes, fontsize=7)
     left.set(xlabel=curves.SLIDE, ylabel=curves.AREA)
-    low, high = left.get_ylim()
-    left.set_ylim(low, high + 0.3 * (high - low))
+    curves.headroom(left, 0.3)
     left.legend(loc="upper right")
     curves.letters(axes)
     return pd.DataFrame(rows)
@@ -175,7 +171,8 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
         left.plot(part.force.iloc[-1], part.area.iloc[-1], "o", color="black", ms=3.5)
         rows.append(part[["force", "area"]].assign(approach=approach, fit=fit, study="a"))
     left.set(xlabel=curves.FORCE, ylabel=curves.AREA)
-    left.legend(loc="upper right", ncols=2, fontsize=6.5)
+    curves.headroom(left, 0.3)
+    left.legend(loc="upper right", ncols=3, fontsize=6.5)
     for other, colour, mark in ((data, "black", "o"), (weak, style.WHOLE, "s"), (slippery, style.CONTACT, "^")):
         law, one = dataset.settings_of(other)["cohesive_zone"], other.isel(member=0)
         period = float(other.length.max())
@@ -190,8 +187,8 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
         rows.append(pd.DataFrame(shown).assign(shear_strength=strength / curves.MODULUS, offset=offset * scale))
     right.set(xlabel=r"$\bar A_s$", ylabel=r"$\bar F_s$")
     right.legend(loc="upper left")
-    low, high = right.get_ylim()
-    right.set_ylim(min(low, 0.0), high + 0.25 * (high - low))
+    right.set_ylim(bottom=0.0)
+    curves.headroom(right, 0.25)
     curves.letters(axes)
     return pd.concat(rows)
 
@@ -235,8 +232,7 @@ def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.
         row[0].axhline(0.0, color=style.EXACT, lw=0.5)
         row[0].set(xlabel=curves.SLIDE, ylabel=curves.FORCE)
         row[1].set(xlabel=curves.SLIDE, ylabel=curves.AREA)
-        low, high = row[0].get_ylim()
-        row[0].set_ylim(low, high + 0.3 * (high - low))
+        curves.headroom(row[0], 0.3)
         row[0].legend(loc="upper left", ncols=2)
     curves.letters(axes)
     return pd.concat(rows)
@@ -263,9 +259,9 @@ def open_choices(
             numbers = {key: float(one[key]) for key in ("static_friction", "peeled", "reattached", "first_periods")}
             rows.append(pd.DataFrame([numbers | {"choice": words, "value": float(value)}]))
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=r"$F/E$ (nm)")
-        panel.legend(
-            title=f"{words} ({other[dim].attrs['units']})".replace(" (1)", ""), loc="lower right", fontsize=6.5
-        )
+        curves.headroom(panel, 0.35)
+        unit = other[dim].attrs["units"]
+        panel.legend(title=words if unit == "1" else f"{words} ({unit})", loc="upper left", ncols=3, fontsize=6.5)
     curves.letters(axes)
     return pd.concat(rows)
 

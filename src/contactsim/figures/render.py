@@ -33,7 +33,7 @@ PRICED = {
     "pull_off_load_unloading": "on unloading",
 }
 """Quantities whose errors a footer tells, and how."""
-PRICED_SLIDES = {"static_friction": "static friction", "onset_repulsive_length": "contact at the onset"}
+PRICED_SLIDES = {"static_friction": "static friction", "first_drop": "first drop", "reattached": "reattached part"}
 """The same of slides."""
 
 

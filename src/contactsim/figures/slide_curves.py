@@ -68,3 +68,9 @@ def letters(axes: list[Axes]) -> None:
     """Letters above the panels."""
     for panel, letter in zip(axes, "abcdefgh", strict=False):
         style.letter(panel, letter)
+
+
+def headroom(axes: Axes, share: float) -> None:
+    """Room above the curves for a legend, as a part of their range."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + share * (high - low))
