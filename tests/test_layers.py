@@ -17,10 +17,11 @@ solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_ve
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
 observables adhesion sliding analytic provenance validity dataset config schema build study tabulate branch loads march
 extrapolation ensemble fits hysteresis area_load aggregate costs joblog takes findings claims api
-hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards
+hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
 verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
-figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.stability figures.render figures.claims figures.knobs
+figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render
+figures.claims figures.knobs
 figures.accuracy figures.sketch
 figures.effects cli
 """.split()

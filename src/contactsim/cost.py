@@ -21,7 +21,7 @@ from contactsim.config import Key, choice, listed, load_yaml, mapping, number, p
 from contactsim.errors import SceneError
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
-from contactsim.priced import Setting, SingleLoads, WholePath, kind_of, read_turned, solutions
+from contactsim.priced import Setting, SingleLoads, Slide, WholePath, kind_of, read_turned, solutions
 from contactsim.provenance import digest, source_digest
 from contactsim.schema import COMPANIONS
 from contactsim.solvers import SOLVERS, installed, module_of, solver, solver_class
@@ -30,7 +30,7 @@ from contactsim.study import Study
 from contactsim.takes import quantities
 from contactsim.traits import Trait
 
-PRICED = (*SingleLoads.quantities, *WholePath.quantities)
+PRICED = (*SingleLoads.quantities, *Slide.quantities)
 CASE_KEYS = {
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),

@@ -69,11 +69,11 @@ def path_faults(case: PathCase, problem: InterfaceProblem, states: Sequence[Path
         fault = _state_fault(case, state)
         if fault:
             return f"at {state.step.text}: {fault}"
-    loads = np.array([case.line_load(state.step, state.displacement) for state in sound])
+    loads = np.array([case.forces(state.step, state.displacement) for state in sound])
     for name, wanted in (("exact", case.exact), ("that of smaller increments", case.branch)):
         off = _off(loads, wanted)
         if off > AGREED:
-            return f"load off {name} by {off:.3g} of the largest"
+            return f"force off {name} by {off:.3g} of the largest"
     return ""
 
 
@@ -97,7 +97,7 @@ def _off(loads: Array, wanted: Array | None) -> float:
     """Largest difference of the first loads of a path, over the largest of what is wanted; 0 where nothing is."""
     if wanted is None or not loads.size:
         return 0.0
-    return float(np.abs(loads - wanted[: loads.size]).max() / np.abs(wanted).max())
+    return float(np.abs(loads - wanted[: len(loads)]).max() / np.abs(wanted).max())
 
 
 def overclosure(problem: InterfaceProblem, states: Sequence[PathState]) -> float:

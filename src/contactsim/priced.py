@@ -2,7 +2,8 @@
 
 Loads of a hard wall are solved on their own, and each has its error. Of smooth laws the past decides, so a path is
 priced whole: its error is that of what it amounts to, its cost that of all its steps, and it has not converged if one
-of them has not. Its increment is one knob more. Whoever prices asks the kind of a study, and not what acts in it.
+of them has not. Its increment is one knob more; of a slide it is that of the slide, and the window of the springs
+another. Whoever prices asks the kind of a study, and not what acts in it.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ from contactsim.area_load import AREA_LOAD
 from contactsim.config import Key, listed, positive, read, whole
 from contactsim.errors import SceneError
 from contactsim.hysteresis import CYCLE
+from contactsim.pairing import Windowed
 from contactsim.schema import is_smooth
+from contactsim.sliding import ONSET
 from contactsim.solvers.base import solved
 from contactsim.study import Study
 
@@ -38,7 +41,7 @@ class Knob:
         """Refuse what is not coarser than the reference that it is measured against."""
         finest = self.finest(values, default=None)
         if finest is not None and self.finest(finest, reference) == finest:
-            below = f"fewer than the reference's, {reference}"
+            below = f"fewer than the reference's, {reference:g}"
             allowed = below if self.finest is max else f"above the reference's, {reference:g}"
             raise SceneError(key, finest, allowed, file)
 
@@ -47,6 +50,7 @@ KNOBS = {
     "points": Knob(whole(2), "a whole number of grid points", "a list of grid points", max),
     "tolerance": Knob(positive, "a positive number, as a study's tolerance", "a list of tolerances", min),
     "increment": Knob(positive, "a positive number, as the increment of a path", "a list of increments", min),
+    "window": Knob(positive, "a positive number, as the window of a pairing", "a list of windows", max),
 }
 SETTING_KEYS = {name: Key(knob.kind, knob.one) for name, knob in KNOBS.items()}
 KNOB_KEYS = {name: Key(listed(knob.kind), knob.several, []) for name, knob in KNOBS.items()}
@@ -55,12 +59,13 @@ LEVEL_KEYS = {name: Key(listed(positive), "a list of relative errors", []) for n
 
 @dataclass(frozen=True)
 class Setting:
-    """One place of one knob: which knob is turned, grid points, tolerance and, of a path, increment; as in a study."""
+    """One place of one knob: which is turned, grid points, tolerance, of a path increment, of a slide window."""
 
     knob: str
     points: int
     tolerance: float
     increment: float | None = None
+    window: float | None = None
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -79,7 +84,7 @@ class SingleLoads:
     quantities = AVERAGED
     without = dict.fromkeys(
         ("increment", "thesis_increment"), "no such key: the study's loads are solved on their own, without increments"
-    )
+    ) | {"window": "no such key: the study does not slide"}
 
     def takes(self, study: Study) -> bool:
         """Whether the study has such loads."""
@@ -107,7 +112,10 @@ class WholePath:
 
     knobs = (*SingleLoads.knobs, "increment")
     quantities = (*SUMMARY, *CYCLE, *AREA_LOAD)
-    without = {"load": "no such key: the study follows a path, which is priced whole"}
+    without = {
+        "load": "no such key: the study follows a path, which is priced whole",
+        "window": "no such key: the study does not slide",
+    }
 
     def takes(self, study: Study) -> bool:
         """Whether the study follows smooth laws."""
@@ -133,7 +141,36 @@ class WholePath:
         return {"increment": dataset.VARIABLES[study.settings["load"]["control"]][0]}
 
 
-KINDS: tuple[SingleLoads | WholePath, ...] = (WholePath(), SingleLoads())
+class Slide(WholePath):
+    """A path that presses and slides, whose slide is turned; as `WholePath`."""
+
+    knobs = (*WholePath.knobs, "window")
+    quantities = (*WholePath.quantities, *ONSET)
+    without = {"load": WholePath.without["load"]}
+
+    def takes(self, study: Study) -> bool:
+        """Whether the study slides over a lattice with a window."""
+        pairing = study.settings["pairing"] or {}
+        return study.settings["slide"] is not None and pairing.get("kind") == "windowed"
+
+    def changed(self, study: Study, loads: None, setting: Setting) -> dict:
+        """The increment of the slide, and the window; no increment is interpolated, and no fields are kept."""
+        asked = {"increments": {"kind": "requested"}, "snapshots": None}
+        asked["slide"] = study.settings["slide"] | {"increment": setting.increment}
+        return asked | {"pairing": study.settings["pairing"] | {"window": setting.window}}
+
+    def turns(self, settings: dict) -> dict[str, float]:
+        """Increment, unless it adapts itself, and window."""
+        asked = settings["increments"]["kind"] == "requested"
+        window = {"window": settings["pairing"].get("window", Windowed.window)}
+        return window | ({"increment": settings["slide"]["increment"]} if asked else {})
+
+    def units(self, study: Study) -> dict[str, str]:
+        """A slide is a length; a window counts tangential lengths."""
+        return {"increment": "nm"}
+
+
+KINDS: tuple[SingleLoads | WholePath, ...] = (Slide(), WholePath(), SingleLoads())
 
 
 def kind_of(study: Study) -> SingleLoads | WholePath | None:
@@ -171,6 +208,6 @@ def solutions(data: xr.Dataset) -> xr.Dataset:
     failed = ~solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
     found = of_states(data)
-    return found[[name for name in WholePath.quantities if name in found]].assign(
+    return found[[name for name in Slide.quantities if name in found]].assign(
         transforms=data.transforms.sum("step"), status=first
     )

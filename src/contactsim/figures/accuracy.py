@@ -19,7 +19,13 @@ from contactsim.figures import knobs, style
 from contactsim.figures.render import framed, move, save
 from contactsim.precision import ROUNDING
 
-KNOBS = {"points": "grid points", "tolerance": "tolerance", "increment": "increment", "members": "members"}
+KNOBS = {
+    "points": "grid points",
+    "tolerance": "tolerance",
+    "increment": "increment",
+    "window": "window",
+    "members": "members",
+}
 LETTERS = 66
 """About how many the last column has room for in a line."""
 COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}

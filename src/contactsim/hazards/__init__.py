@@ -13,10 +13,11 @@ from contactsim.hazards.cases import Case
 from contactsim.hazards.lines import LINES
 from contactsim.hazards.paths import PathCase
 from contactsim.hazards.rough import ROUGH
+from contactsim.hazards.sliding import SLIDING
 from contactsim.hazards.surfaces import SURFACES
 
 HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
-    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ROUGH)
+    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ROUGH, *SLIDING)
 }
 
 

@@ -18,7 +18,7 @@ from threadpoolctl import threadpool_limits
 from contactsim.elasticity import Elasticity, HalfSpace, Layer
 from contactsim.follow import Requested
 from contactsim.grid import Array
-from contactsim.interface import InterfaceProblem, pose_interface
+from contactsim.interface import LOOSEST, InterfaceProblem, pose_interface
 from contactsim.laws import CohesiveZone, Law, NormalCohesiveZone
 from contactsim.loading import LoadPath, LoadStep
 from contactsim.scene import Scene
@@ -30,6 +30,8 @@ from contactsim.walk import PathState
 
 DEEP = 40.0
 """|q|h from which on a layer is a half-space to all digits."""
+FAR = 12.0
+"""Tangential lengths beyond which a site does nothing, to all digits."""
 SWEEPS, SHRINKING = 400, 0.9
 """Most steps of the fixed point, and how much each must be smaller than the one before."""
 
@@ -73,8 +75,8 @@ class PathCase:
 
     @cached_property
     def strength(self) -> float:
-        """Sum of the laws' strengths (GPa)."""
-        return sum(law.strength for law in self.scene.effects)
+        """Sum of the laws' strengths (GPa), of springs as many as pull as one."""
+        return pose_interface(self.scene, -self.shape[0], LOOSEST).strength
 
     @cached_property
     def shape(self) -> Array:
@@ -101,17 +103,28 @@ class PathCase:
             normal = self.compliance[:, 0, 0]
             waves[1] = displacement[0] * np.divide(slip, normal, out=np.zeros_like(slip), where=normal != 0)
         gap = self.shape + self.points * np.fft.irfft(waves, self.points)
-        if step.control is Trait.APPROACH:
-            gap[0] -= step.value
+        if step.normal.control is Trait.APPROACH:
+            gap[0] -= step.normal.value
+        gap[1] += step.slid
         return gap
 
     def traction(self, gap: Array) -> Array:
-        """Normal traction and that along x (2, n), GPa, at a gap (2, n), nm."""
-        return sum(FORMULAS[type(law)](law, *gap) for law in self.scene.effects)
+        """Normal traction and that along x (2, n), GPa, at a gap (2, n), nm: of all sites of a flat lattice below."""
+        return sum(self._of_sites(law, gap) for law in self.scene.effects)
 
-    def line_load(self, step: LoadStep, displacement: Array) -> float:
-        """Compression of a state (N/m)."""
-        return -float(self.traction(self.gap(step, displacement))[0].mean()) * self.scene.length
+    def _of_sites(self, law: Law, gap: Array) -> Array:
+        lattice = getattr(self.scene.pairing, "lattice_constant", None)
+        if lattice is None:
+            return FORMULAS[type(law)](law, *gap)
+        most = int(np.ceil(FAR * law.tangential_length / lattice))
+        nearest = gap[1] - lattice * np.round(gap[1] / lattice)
+        sites = (FORMULAS[type(law)](law, gap[0], nearest + lattice * site) for site in range(-most, most + 1))
+        return self.scene.pairing.weight * sum(sites)
+
+    def forces(self, step: LoadStep, displacement: Array) -> Array:
+        """Compression and, on a slide, the force along x of a state (N/m)."""
+        traction = self.traction(self.gap(step, displacement)) * [[-1.0], [1.0]]
+        return traction[: 1 + self.scene.sliding].mean(1) * self.scene.length
 
     def residual(self, step: LoadStep, displacement: Array) -> float:
         """Largest traction, normal or along x, that nothing balances (GPa)."""
@@ -122,8 +135,8 @@ class PathCase:
         elastic[:, 1:] = np.einsum("qij,jq->iq", inverse, displacement[:, 1:])
         elastic[:, 0] = np.divide(displacement[:, 0], uniform, out=np.zeros(rows, complex), where=uniform > 0)
         waves[uniform == 0, 0] = 0.0
-        if step.control is Trait.MEAN_PRESSURE:
-            elastic[0, 0] = step.value
+        if step.normal.control is Trait.MEAN_PRESSURE:
+            elastic[0, 0] = step.normal.value
             waves[0, 0] = self.traction(self.gap(step, displacement))[0].mean()
         return float(np.abs(self.points * np.fft.irfft(waves + elastic, self.points)).max())
 
@@ -135,35 +148,38 @@ class PathCase:
 
     @cached_property
     def exact(self) -> Array | None:
-        """Line loads (step,), N/m, of the fixed point at each step; None where it does not contract."""
+        """Forces (step, 1 or 2), N/m, of the fixed point at each step; None where it does not contract."""
         displacement, loads = np.zeros((2, self.points // 2 + 1), complex), []
         for step in self.steps:
             displacement = self._fixed_point(step, displacement)
             if displacement is None:
                 return None
-            loads.append(self.line_load(step, displacement))
+            loads.append(self.forces(step, displacement))
         return np.array(loads)
 
     @cached_property
     def branch(self) -> Array | None:
-        """Line loads (step,), N/m, of damped dynamics in smaller increments, for the twin where there is one.
+        """Forces (step, 1 or 2), N/m, of damped dynamics in smaller increments, for the twin where there is one.
 
         None where none is asked for, and where they do not come to rest.
         """
         if not self.parts:
             return None
-        ends = [step.value for step in self.steps]
-        values = [np.linspace(a, b, self.parts + 1)[1:] for a, b in zip([self.begin, *ends], ends, strict=False)]
-        path = LoadPath(tuple(LoadStep(self.steps[0].control, value) for value in np.concatenate(values)))
+        parts, place = [], {self.steps[0].control: self.begin}
+        for step in self.steps:
+            values = np.linspace(place.get(step.control, 0.0), step.value, self.parts + 1)[1:]
+            parts += [replace(step, value=float(value)) for value in values]
+            place[step.control] = step.value
+        path = LoadPath(tuple(parts))
         slow = replace(self, scene=replace(self.scene, path=path, effects=self.twin or self.scene.effects))
         states = slow.follow(solver(SLOWLY, budget=500))[1][self.parts - 1 :: self.parts]
         if any(state.status is not Status.CONVERGED for state in states):
             return None
-        return np.array([slow.line_load(state.step, state.displacement) for state in states])
+        return np.array([slow.forces(state.step, state.displacement) for state in states])
 
     def _fixed_point(self, step: LoadStep, start: Array) -> Array | None:
         """Coefficients (2, m) of v = -C T(g + v), by insertion; None where that does not contract."""
-        if step.control is not Trait.APPROACH:
+        if step.normal.control is not Trait.APPROACH:
             return None
         displacement, before, rows = start, np.inf, len(self.scene.exerted)
         with np.errstate(over="ignore", invalid="ignore"):  # what does not contract may overflow
