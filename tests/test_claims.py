@@ -375,12 +375,14 @@ UNANSWERED = {
     "ch3": ["neglected_effort", "height_density", "fit_scaraggi"],
     "ch4": ["neglected_experiments"],
     "ch5": ["error_bars", "error_bars_larger"],
+    "ch6": [],
 }
 
 LACKING = {
     "ch3": ["surface_kappa_limit", "surface_kappa_r_limit"],
     "ch4": ["compressible_curves_weak"],
     "ch5": [],
+    "ch6": ["smooth_stiff"],
 }
 """Claims on members, for the error of a limit, and on works of separation that the quick tier leaves out."""
 

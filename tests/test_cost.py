@@ -376,9 +376,10 @@ def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_th
             "rough_surface",
             "adhesive_asperity",
             "rough_adhesive",
+            "sliding",
         ]
         own = [case.default for case in cases.values()]
-        assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"] * 2
+        assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"] * 3
         assert cases["layer"].selection == {"thickness": [640.0]}
         marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
         points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}

@@ -50,6 +50,7 @@ WRITERS = (
     "adhesion.py",
     "area_load.py",
     "hysteresis.py",
+    "sliding.py",
     "branch.py",
     "ladder.py",
     "tabulate.py",
@@ -75,7 +76,7 @@ def test_every_variable_has_a_unit_and_a_long_name_of_its_own():
     assert all(unit and text and text == text.strip() for unit, text in VARIABLES.values())
     texts = [text for _, text in VARIABLES.values()]
     assert len(set(texts)) == len(texts)
-    assert {unit for unit, _ in VARIABLES.values()} == {"1", "nm", "1/nm", "GPa", "s", "N/m", "nJ/m"}
+    assert {unit for unit, _ in VARIABLES.values()} == {"1", "nm", "1/nm", "GPa", "s", "N/m", "nJ/m", "nm (m/N)^2"}
 
 
 def test_described_variables_and_coordinates_have_units_and_a_long_name(data):

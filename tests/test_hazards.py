@@ -16,6 +16,7 @@ from contactsim.hazards import HAZARDS, first_line
 from contactsim.hazards.adhesive import ADHESIVE
 from contactsim.hazards.cases import Case, alone, complete, made, mirrored, on_top
 from contactsim.hazards.rough import ROUGH
+from contactsim.hazards.sliding import SLIDING
 from contactsim.solvers import solver_class
 from contactsim.solvers.base import Status
 from contactsim.stability import judge
@@ -42,7 +43,7 @@ def test_few_points_carry_a_light_load(name):
         assert result.contact[np.argmax(heights)]
 
 
-PATHS = [hazard.__name__ for hazard in (*ADHESIVE, *ROUGH)]
+PATHS = [hazard.__name__ for hazard in (*ADHESIVE, *ROUGH, *SLIDING)]
 WALLS = [hazard for hazard in HAZARDS if hazard not in PATHS]
 ON_LINES_ONLY = {name for name in WALLS if HAZARDS[name](0).heights.ndim == 1}
 TAKEN = [(hazard, name) for hazard in WALLS for name in (ALL if hazard in ON_LINES_ONLY else ON_SURFACES)]

@@ -16,7 +16,7 @@ from contactsim.cost import CASE_KEYS
 from contactsim.laws import EFFECTS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
 from contactsim.priced import SETTING_KEYS
-from contactsim.schema import COMPANIONS, KINDS, LOADS, MODULI, PATH_KEYS, STUDY_KEYS
+from contactsim.schema import COMPANIONS, KINDS, LOADS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
 from contactsim.stability import STABILITY_KEYS
 from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs
@@ -105,7 +105,7 @@ def test_every_link_leads_somewhere():
             STABILITY_KEYS,
             dict.fromkeys(LOADS),
         ),
-        *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, LAW_KEYS),
+        *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     ],
 )
 def test_every_key_is_explained(keys):
@@ -146,7 +146,18 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
     known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *COMPANIONS["companion"][2], *STABILITY_KEYS, *LOADS}
-    known |= {*CLAIM_KEYS, *CONDITION_KEYS, *TAKES, *CASE_KEYS, *SETTING_KEYS, *PATH_KEYS, *LAW_KEYS, *EFFECTS, *MODULI}
+    known |= {
+        *SLIDE_KEYS,
+        *CLAIM_KEYS,
+        *CONDITION_KEYS,
+        *TAKES,
+        *CASE_KEYS,
+        *SETTING_KEYS,
+        *PATH_KEYS,
+        *LAW_KEYS,
+        *EFFECTS,
+        *MODULI,
+    }
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in KINDS.values():
         for kind in classes:

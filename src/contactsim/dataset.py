@@ -54,7 +54,6 @@ SETTINGS = {
     "weight": ("1", "weight of a spring"),
     "approach": ("nm", "approach at which surfaces slide"),
     "mean_pressure": ("GPa", "mean pressure under which surfaces slide"),
-    "damping": ("1", "damping of the dynamics"),
 }
 """Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""
 
