@@ -313,3 +313,16 @@ def test_a_slide_without_slips_has_no_events():
 def dataset_without_slips() -> xr.Dataset:
     scene = probe(path_of(0.0, [0.0, 1.0], 0.1))
     return simulate_path(scene, solver("newton"), points=128, tolerance=1e-7)
+
+
+@pytest.mark.parametrize("turn", [9.42, 8.44, 10.9])
+@pytest.mark.parametrize("increments", ["requested", "adaptive"])
+def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
+    """States a cell apart are alike, so the last one, carried along, is near a wrong one."""
+    back = turn - LATTICE
+    small, large = (path_of(0.0, [0.0, turn, back], increment) for increment in (0.05, 20.0))
+    forces = [
+        walked(probe(path), 128, increments=how)[3][-1]
+        for path, how in ((small, None), (large, INCREMENTS[increments]()))
+    ]
+    assert forces[1] == pytest.approx(forces[0], rel=2e-3)

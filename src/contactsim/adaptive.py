@@ -144,7 +144,7 @@ class Adaptive:
             if not wrong <= REFUSED * error and increment > least and place is not None:
                 increment = max(increment * SHRINK, least)
                 continue
-            if not (found.settled and found.moved <= walk.near_by):
+            if not walk.believed(found):
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
                 found, flowed = walk.flow(replace(first, value=goal)), True
                 iterations += found.iterations

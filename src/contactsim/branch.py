@@ -71,7 +71,7 @@ def simulate_path(
                 state.status.sentence,
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
-    data = _collected(scene, heights, rows, fields)
+    data = _collected(scene, problem, rows, fields)
     for words in validity.told(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
@@ -127,7 +127,10 @@ def _fields(problem: InterfaceProblem, state: PathState, keep_fields: bool) -> d
     return kept if state.status.solved else {name: np.full_like(row, np.nan) for name, row in kept.items()}
 
 
-def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int, dict[str, Array]]) -> xr.Dataset:
+def _collected(
+    scene: Scene, problem: InterfaceProblem, rows: list[dict], fields: dict[int, dict[str, Array]]
+) -> xr.Dataset:
+    heights = -problem.shape[0]
     kinds = {"status": np.int8, "beyond": np.int8, "iterations": np.int32, "solved_points": np.int32}
     variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
     coordinates = {}
@@ -149,5 +152,6 @@ def _collected(scene: Scene, heights: Array, rows: list[dict], fields: dict[int,
         "strength": sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits),
     }
     if scene.sliding:
-        variables["lattice_constant"] = getattr(scene.pairing, "lattice_constant", np.nan)
+        lattice = problem.lattice_constant
+        variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan
     return dataset.described(xr.Dataset(variables, coordinates))

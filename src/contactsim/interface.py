@@ -174,6 +174,11 @@ class InterfaceProblem:
             gap[1] += self.slid
         return gap
 
+    @property
+    def lattice_constant(self) -> float:
+        """Of the sites that springs join, nm; infinite without."""
+        return self.law.spacing if isinstance(self.law, Springs) else np.inf
+
     def offset(self, gap: Array) -> Array:
         """Tangential gap (n,), nm, between what faces each other; gap: (2, n)."""
         return self.law.offset(gap) if isinstance(self.law, Springs) else gap[1]

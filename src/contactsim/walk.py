@@ -23,6 +23,9 @@ SUDDEN, STEADY = 0.1, 5.0
 """A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
 is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
 
+CLOSE = 3.0
+"""Gaps, in the laws' length, over which sites of a lattice hold each other."""
+
 DEEPEST = 8
 """Most times that a step, or a part of it, is halved."""
 
@@ -112,8 +115,8 @@ class Walk:
         place = self.place(step)
         if place is None or not self.solver.predicts:
             return self.start(step)
-        if not self.history.order and abs(step.value - place) > self.near_by:
-            return self.start(step)  # as it is, it would be near the states of other cells of a lattice too
+        if self.history.holds(step.value) and abs(step.value - place) > self.near_by:
+            return self.start(step)
         return self.history.guess(step.value)
 
     def start(self, step: LoadStep) -> Array:
@@ -132,6 +135,19 @@ class Walk:
     def near_by(self) -> float:
         """How far (nm) a state may lie from where it is expected, to be believed on the same branch."""
         return self.solver.trusted * self.problem.reach
+
+    def believed(self, found: Equilibrium) -> bool:
+        """Whether a state by continuation is on the branch: where it is expected and, over a lattice, not a cell on.
+
+        States a cell apart are alike, and a guess that is wrong by one finds the wrong one at once.
+        """
+        if not (found.settled and found.moved <= self.near_by):
+            return False
+        if self.stands is None or np.isinf(self.problem.lattice_constant):
+            return True
+        close = found.gap[0] <= CLOSE * self.problem.reach
+        slipped = np.abs(found.gap[1, close] - self.stands[1].gap[1, close]).max(initial=0.0)
+        return bool(slipped <= self.problem.lattice_constant / 2)
 
     def near(self, step: LoadStep) -> Equilibrium:
         """The state by continuation alone."""
@@ -176,7 +192,7 @@ class Walk:
             goal = replace(step, value=goals[-1])
             found, flowed = self.near(goal) if self.solver.predicts else None, False
             spent += found.iterations if found else 0
-            if found is None or not (found.settled and found.moved <= self.near_by):
+            if found is None or not self.believed(found):
                 place = self.place(step)
                 divisible = divides and len(goals) <= DEEPEST and place is not None
                 if divisible and self._length(goal, abs(goals[-1] - place)) > self._small:

@@ -47,9 +47,13 @@ class History:
         """Forget all states before this one."""
         self.places, self.states = [place], [state]
 
+    def holds(self, place: float) -> bool:
+        """Whether no more than the last state is known about a place: it alone, or the path turns there."""
+        return not self.order or (place - self.places[-1]) * (self.places[-1] - self.places[-2]) <= 0
+
     def guess(self, place: float) -> Array:
         """The state to be expected at a place; on a turn of the path, the last state."""
-        if len(self.places) > 1 and (place - self.places[-1]) * (self.places[-1] - self.places[-2]) <= 0:
+        if self.holds(place):
             return self.states[-1]
         return lagrange(self.places, self.states, place)
 
