@@ -5,18 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim import loading
+from conftest import ROOT
+from contactsim import loading, march
 from contactsim.elasticity import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.follow import Nested
 from contactsim.interface import pose_interface
 from contactsim.laws import CohesiveZone, HardWall, NormalCohesiveZone
-from contactsim.loading import LoadPath
+from contactsim.loading import LoadPath, LoadStep
 from contactsim.march import simulate
+from contactsim.plan import Plan
 from contactsim.scene import Body, Scene
 from contactsim.solvers import solver
 from contactsim.surface import Flat, SelfAffine, generator
 from contactsim.traits import Trait
+from contactsim.walk import PathState, Walk
 from smooth import LAWS, Walked, along, scene_of, walk
 
 ROUGH_LAWS = {"normal": NormalCohesiveZone(10.5), "coupled": CohesiveZone(10.5), "frictional": CohesiveZone(10.5, 0.5)}
@@ -142,3 +145,29 @@ def test_a_tolerance_that_doing_nothing_would_meet_is_refused():
     with pytest.raises(SceneError, match=r"at most 0[.]1") as caught:
         pose_interface(scene, scene.heights(64), 10.0)
     assert caught.value.key == "tolerance"
+
+
+def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_path, monkeypatch):
+    """States depend on those before, so a path begins anew; nothing of the first try is left to change it."""
+    run = next(iter(Plan.read(ROOT / "config", "quick").studies["rough_adhesive_64"].runs()))
+    settings = run.settings | {"points": 2048, "snapshots": [8.0]}
+    settings["load"] = settings["load"] | {"through": [-7.0, 8.0]}
+    settings["increments"] = settings["increments"] | {"settled": [-4.0, 2.0, 8.0]}
+    whole, again = (tmp_path / name for name in ("whole.nc", "again.nc"))
+    march.run(settings, run.source, whole, tmp_path / "whole.json")
+    advance, steps = Walk.advance, []
+
+    def killed(self: Walk, step: LoadStep) -> PathState:
+        """Five states, then none."""
+        steps.append(step)
+        if len(steps) > 5:
+            raise KeyboardInterrupt
+        return advance(self, step)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Walk, "advance", killed)
+        with pytest.raises(KeyboardInterrupt):
+            march.run(settings, run.source, again, tmp_path / "again.json")
+    assert not list(tmp_path.glob("*again*"))
+    march.run(settings, run.source, again, tmp_path / "again.json")
+    assert again.read_bytes() == whole.read_bytes()

@@ -73,7 +73,7 @@ def first_scene(study: Study) -> tuple[Scene, dict, int]:
 
 SHOWN = (
     *("mean_pressure", "relative_contact_area", "kappa", "kappa_r", "mean_gap", "non_uniformity"),
-    *("approach", "line_load", "repulsive_length", "overclosure", "slip"),
+    *("approach", "slid", "line_load", "friction_force", "repulsive_length", "overclosure", "slip"),
     *("residual", "jump", "beyond", "transforms", "status"),
 )
 """What is printed of a simulation, as far as its scene has it."""

@@ -123,7 +123,7 @@ def _described(kind: Increments | Pairing) -> str:
     """What the class says of itself, and its options that are given."""
     given = {entry.name: getattr(kind, entry.name) for entry in fields(kind)}
     options = ", ".join(f"{name} {value}" for name, value in given.items() if value is not None)
-    return type(kind).__doc__.split("\n")[0] + f" ({options})" * bool(options)
+    return type(kind).__doc__.split("\n")[0].rstrip(".") + f" ({options})" * bool(options)
 
 
 def _left_out(scene: Scene) -> dict[str, str]:

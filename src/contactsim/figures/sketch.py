@@ -76,4 +76,8 @@ def _drive(axes: Axes, scene: Scene, height: float, span: float) -> None:
         axes.annotate("", (place, height), (place, height + 0.6 * span), arrowprops={"arrowstyle": "-|>", "color": "k"})
     label = r"$p$" if pressed else r"$\delta$"
     axes.text(0.53 * scene.length, height + 0.4 * span, label, fontsize=9, va="center")
+    if scene.sliding:
+        ends = [(part * scene.length, height + 0.3 * span) for part in (0.62, 0.8)]
+        axes.annotate("", *ends, arrowprops={"arrowstyle": "<|-", "color": "k"})
+        axes.text(0.82 * scene.length, height + 0.3 * span, "$U_x$", fontsize=9, va="center")
     axes.set_ylim(top=height + 0.75 * span)
