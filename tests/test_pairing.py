@@ -125,7 +125,7 @@ def test_a_rough_lattice_repeats_itself_after_a_period():
 
 def test_a_window_of_the_own_node_is_aligned():
     gap = np.stack((np.linspace(-1, 4, 30), np.linspace(-0.9, 0.9, 30)))
-    own = Windowed(2.0, window=0.0, depth=None).joined(LAW, np.zeros(30), 60.0)
+    own = Windowed(2.0, window=0.0).joined(LAW, np.zeros(30), 60.0)
     np.testing.assert_array_equal(own.traction(gap), ALIGNED.joined(LAW, np.zeros(30), 60.0).traction(gap))
     for one, other in zip(own.tangent(gap), LAW.tangent(gap), strict=True):
         np.testing.assert_array_equal(one, other)

@@ -20,7 +20,7 @@ from contactsim.solvers.base import Status
 from contactsim.solvers.equilibrium import Equilibrium, PathSolver
 from contactsim.solvers.predictor import POINTS, lagrange, shares
 from contactsim.traits import Trait
-from contactsim.walk import PathState, Walk
+from contactsim.walk import Leap, PathState, Walk
 
 SAFETY, SHRINK, GROW = 0.9, 0.4, 2.0
 """Of an adaptive increment: share of the length that the error allows, least and largest change."""
@@ -34,9 +34,9 @@ REFUSED = 4.0
 
 @dataclass
 class Stretch:
-    """States of a walk between two jumps, by place, and the jump that it begins with."""
+    """States of a walk between two jumps, by place, and the jumps that it begins with."""
 
-    jump: float
+    leaps: tuple[Leap, ...] = ()
     places: list[float] = field(default_factory=list)
     states: list[Equilibrium] = field(default_factory=list)
 
@@ -130,7 +130,7 @@ class Adaptive:
         most = self.most or max(LONGEST * reach, self.least or 0.0)
         least = self.least or min(SHORTEST * reach, most)
         iterations, increment = 0, least
-        stretches = [Stretch(0.0)]
+        stretches = [Stretch()]
         place = walk.place(first)
         if place is not None:
             stretches[0].add(place, walk.stands[1])
@@ -144,20 +144,28 @@ class Adaptive:
             if not wrong <= REFUSED * error and increment > least and place is not None:
                 increment = max(increment * SHRINK, least)
                 continue
-            if not walk.believed(found):
+            if walk.believed(found):
+                leaps = (walk.accept(replace(first, value=goal), found, False),)
+            else:
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
-                found, flowed = walk.flow(replace(first, value=goal)), True
-                iterations += found.iterations
+                found, leaps, spent = self._flowed(walk, replace(first, value=goal))
+                flowed, iterations = True, iterations + spent
             if not found.settled:
                 return iterations, stretches, found.status
-            jump = walk.accept(replace(first, value=goal), found, flowed)
-            if jump:
-                stretches.append(Stretch(jump))
+            if any(leaps):
+                stretches.append(Stretch(leaps))
             stretches[-1].add(goal, found)
             growth = GROW if flowed or not 0 < wrong < np.inf else SAFETY * (error / wrong) ** (1 / (order + 1))
             increment = float(np.clip(increment * np.clip(growth, SHRINK, GROW), least, most))
             place = goal
         return iterations, stretches, Status.CONVERGED
+
+    def _flowed(self, walk: Walk, step: LoadStep) -> tuple[Equilibrium, tuple[Leap | None, ...], int]:
+        """The state at a step to which continuation did not lead: by flow, over a lattice in ever smaller steps."""
+        if walk.slips:
+            return walk.reach(step)
+        found = walk.flow(step)
+        return found, (walk.accept(step, found, True),) if found.settled else (), found.iterations
 
     def _state(
         self,
@@ -186,11 +194,12 @@ class Adaptive:
         since = [
             item
             for item in reached
-            if item.jump and (not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0)
+            if any(item.leaps)
+            and (not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0)
         ]
-        numbers = found.status, found.residual, sum(item.jump for item in since), *spent
-        jumped_at = since[-1].places[0] if since else np.nan
-        return PathState(step, problem, found.displacement, *numbers, found, jumped_at)
+        leaps = tuple(leap for item in since for leap in item.leaps)
+        numbers = found.status, found.residual, sum(leap.moved for leap in leaps), *spent
+        return PathState(step, problem, found.displacement, *numbers, found, leaps)
 
 
 def _towards(place: float, end: float, increment: float) -> float:

@@ -82,9 +82,10 @@ def load_name(data: xr.Dataset) -> str:
 
 def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
     """Datasets of runs, each with its place among the varied keys and members, as one, with κ and κ_r."""
-    longest = max((data.sizes.get("step", 0) for data, _ in parts), default=0)
-    if any(data.sizes.get("step", longest) < longest for data, _ in parts):  # paths of a study may differ in length
-        parts = [(data.reindex(step=np.arange(longest)), place) for data, place in parts]
+    for dim in ("step", "event"):  # paths of a study may differ in length, and in how often they slip
+        longest = max((data.sizes.get(dim, 0) for data, _ in parts), default=0)
+        if any(data.sizes.get(dim, longest) < longest for data, _ in parts):
+            parts = [(data.reindex({dim: np.arange(longest)}), place) for data, place in parts]
     places = [
         data.drop_vars([*APART, *place], errors="ignore").expand_dims({name: [at] for name, at in place.items()})
         for data, place in parts

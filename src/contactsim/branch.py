@@ -18,7 +18,7 @@ from contactsim.grid import Array
 from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.roughness import local_squares
 from contactsim.scene import Scene
-from contactsim.sliding import slide_observables
+from contactsim.sliding import slide_observables, slip_numbers, slips_of
 from contactsim.solvers.equilibrium import PathSolver
 from contactsim.traits import Trait
 from contactsim.walk import PathState
@@ -55,11 +55,12 @@ def simulate_path(
     problem = pose_interface(scene, heights, tolerance, threads)
     kept = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
-    rows, fields, begin, total, marks = [], {}, time.process_time(), 0.0, [0.0]
+    rows, slips, fields, begin, total, marks = [], [], {}, time.process_time(), 0.0, [0.0]
     for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
         rows.append(_numbers(scene, state, slopes))
+        slips += [slip_numbers(problem, leap, count) for leap in state.leaps if leap.step.held]
         if count in kept:
             fields[count] = _fields(problem.at(state.step), state, keep_fields)
         if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
@@ -72,6 +73,8 @@ def simulate_path(
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
     data = _collected(scene, problem, rows, fields)
+    if scene.sliding:
+        data = data.assign(slips_of(slips)).pipe(dataset.described)
     for words in validity.told(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
@@ -98,7 +101,7 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
         "process_zone_step": problem.grid.spacing[0] / zone,
     }
     if scene.sliding:
-        numbers |= slide_observables(problem, gap, state.displacement)
+        numbers = {"friction_force": 0.0} | numbers | slide_observables(problem, gap, state.displacement)
         numbers["slid"] = state.step.slid if state.step.held else np.nan
     return numbers | {
         "beyond": validity.beyond(numbers),
@@ -106,7 +109,6 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
         "status": state.status.value[0],
         "solved_points": state.points,
         "jump": state.jump,
-        "jumped_at": state.jumped_at,
         "iterations": state.iterations,
         "transforms": state.transforms,
     }

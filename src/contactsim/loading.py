@@ -19,6 +19,9 @@ from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
+MOST = 1_000_000
+"""Steps of a leg that no one means."""
+
 
 @dataclass(frozen=True)
 class LoadStep:
@@ -109,6 +112,8 @@ def approach(approaches: Sequence[float]) -> LoadPath:
 def leg(control: Trait, begin: float, end: float, increment: float) -> LoadPath:
     """From a value, exclusive, to another, inclusive, in equal increments of about that size."""
     count = max(round(abs(end - begin) / increment), 1)
+    if count > MOST:
+        raise SceneError("increment", increment, f"one of at most {MOST} steps from {begin:g} to {end:g}")
     return LoadPath(tuple(LoadStep(control, begin + (end - begin) * k / count) for k in range(1, count + 1)))
 
 

@@ -51,7 +51,9 @@ class Nested:
             raise SceneError("between", self.between, f"at most the ratio of the coarse grid, {self.ratio}")
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
-        """SceneError for a grid that cannot be made coarser, and for states asked for that the path does not visit."""
+        """SceneError for a grid that cannot be made coarser, states that the path does not visit, and slides."""
+        if any(step.held is not None for step in steps):
+            raise SceneError("increments", "nested", "requested or adaptive, as the path slides")
         if points % (2 * self.ratio):
             raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {points} points")
         found = np.abs(np.subtract.outer(self.settled, [step.value for step in steps])).min(1) <= CLOSE
@@ -101,5 +103,5 @@ class Level:
             found = self._solver.flow(here, start)
             self._strays = found.moved > STRAYING * here.reach
         count += found.iterations
-        rest = found.status, found.residual, coarse.jump, count, 0.0, found, coarse.jumped_at
+        rest = found.status, found.residual, coarse.jump, count, 0.0, found, coarse.leaps
         return PathState(coarse.step, here, found.displacement, *rest)

@@ -27,6 +27,8 @@ from contactsim.laws import Law
 from contactsim.superposition import Superposition
 from contactsim.traits import Trait
 
+MOST = 100000
+"""Most sites on each side of a window."""
 PHASES = 33
 """Positions over half a lattice constant among which the strongest is looked for."""
 
@@ -198,13 +200,13 @@ class Windowed:
     """Springs from each site of the upper surface to those of a rigid lattice below, within a window (Eqs 6.2-6.3).
 
     lattice_constant: l, nm; window: tangential, in the law's tangential length (thesis 5); depth: normal, in its normal
-    length, beyond which there is none (thesis 10, at which the law still jumps by 1e-3 of its strength), or null;
-    weight: of each spring, 1 in the thesis. The window holds the nearest site and whole numbers of further ones.
+    length, beyond which there is none (thesis 10, at which the law still jumps by 1e-3 of its strength); weight: of
+    each spring, 1 in the thesis. The window holds the nearest site and whole numbers of further ones, at most `MOST`.
     """
 
     lattice_constant: float
     window: float = 5.0
-    depth: float | None = 40.0
+    depth: float = 40.0
     weight: float = 1.0
 
     def __post_init__(self) -> None:
@@ -212,8 +214,6 @@ class Windowed:
         for name, unit in units.items():
             value = getattr(self, name)
             least = "0 or more" if name == "window" else "above 0"
-            if value is None and name == "depth":
-                continue
             if not (is_number(value) and (value >= 0 if name == "window" else value > 0)):
                 raise SceneError(name, value, f"a finite number {least}, in {unit}")
 
@@ -228,10 +228,11 @@ class Windowed:
     def joined(self, law: Law | Superposition, lower: Array, length: float) -> Springs:
         """The springs as one law."""
         beyond = math.ceil(self.window * getattr(law, "tangential_length", law.reach) / self.lattice_constant)
+        if beyond > MOST:
+            raise SceneError("window", self.window, f"one of at most {MOST} sites on each side, not {beyond}")
         offsets = np.arange(-beyond, beyond + 1.0)
-        depth = math.inf if self.depth is None else self.depth * law.reach
         heights = None if np.ptp(lower) == 0 else lower
-        return Springs(law, offsets, self.lattice_constant, depth, self.weight, heights, length)
+        return Springs(law, offsets, self.lattice_constant, self.depth * law.reach, self.weight, heights, length)
 
 
 ALIGNED = Aligned()

@@ -265,8 +265,11 @@ def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
             raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
     dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
     settings["select"] = selection(settings["select"], dims, file, f"{prefix}.select")
-    if settings["film"] is not None and not (dims and studies[settings["study"]].settings["snapshots"]):
-        raise SceneError(f"{prefix}.film", settings["film"], "left out, for the study keeps no snapshots", file)
+    if settings["film"] is not None:
+        shown = studies[settings["study"]].settings if dims else {}
+        if not (shown.get("slide") and shown["snapshots"]) or shown["vary"]:
+            allowed = "left out, but for one slide, nothing of it varied, with snapshots"
+            raise SceneError(f"{prefix}.film", settings["film"], allowed, file)
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)

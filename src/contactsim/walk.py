@@ -23,6 +23,9 @@ SUDDEN, STEADY = 0.1, 5.0
 """A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
 is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
 
+FASTEST = 250.0
+"""How many times as fast as it is driven a surface may slide over a lattice, which is seen as no jump."""
+
 CLOSE = 3.0
 """Gaps, in the laws' length, over which sites of a lattice hold each other."""
 
@@ -34,12 +37,23 @@ PATIENCE = 3
 
 
 @dataclass(frozen=True)
+class Leap:
+    """A jump of the surface: the step and the state before, and after; moved: how far (nm)."""
+
+    left: LoadStep
+    before: Equilibrium = field(repr=False)
+    step: LoadStep
+    after: Equilibrium = field(repr=False)
+    moved: float
+
+
+@dataclass(frozen=True)
 class PathState:
     """One state of the path: its load step, the problem there, its coefficients (exerted, m), and how it was found.
 
-    residual: over the laws' strength; jump: how far (nm) the surface jumped since the state before; jumped_at: by
-    which value of what the path prescribes it had, NaN without a jump; iterations and transforms: spent since the state
-    before; found: the solution or what was interpolated, None after a break-off.
+    residual: over the laws' strength; jump: how far (nm) the surface jumped since the state before, in all leaps;
+    iterations and transforms: spent since the state before; found: the solution or what was interpolated, None after a
+    break-off.
     """
 
     step: LoadStep
@@ -51,7 +65,7 @@ class PathState:
     iterations: int
     transforms: float
     found: Equilibrium | None = field(default=None, repr=False)
-    jumped_at: float = np.nan
+    leaps: tuple[Leap, ...] = field(default=(), repr=False)
 
     @property
     def points(self) -> int:
@@ -157,12 +171,14 @@ class Walk:
         """The state by flow from the last stable one."""
         return self.solver.flow(self.at(step), self.start(step))
 
-    def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> float:
-        """Move on to a state; how far the surface jumped to it."""
+    def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> Leap | None:
+        """Move on to a state; the jump to it, if it is one."""
         before = self.place(step)
         taken = np.inf if before is None else abs(step.value - before)
-        expected = np.inf if taken == np.inf else STEADY * self._length(step, taken)
-        jump = found.moved if flowed and found.moved > max(SUDDEN * self.problem.reach, expected) else 0.0
+        expected = np.inf if taken == np.inf else max(STEADY * self._length(step, taken), SUDDEN * self.problem.reach)
+        if step.held is not None and before is not None:  # a slip of a cell is one, however long the step
+            expected = min(expected, self.problem.lattice_constant / 2)
+        jump = Leap(*self.stands, step, found, found.moved) if flowed and found.moved > expected else None
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < taken < np.inf:
             self._pace = moved(self.problem, found.displacement - self.last) / taken
         if jump:
@@ -178,16 +194,16 @@ class Walk:
         if self._failed == PATIENCE:
             return PathState(step, here, self.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
         before = tally.transforms
-        found, jump, jumped_at, spent = self._reach(step)
+        found, leaps, spent = self.reach(step)
         lost = found.status in (Status.PULLED_OFF, Status.NON_FINITE)  # nothing comes after that
         self._failed = 0 if found.settled else PATIENCE if lost else self._failed + 1
         cost = tally.transforms - before
-        numbers = found.status, found.residual, jump, spent, cost
-        return PathState(step, here, found.displacement, *numbers, found, jumped_at)
+        numbers = found.status, found.residual, sum(leap.moved for leap in leaps), spent, cost
+        return PathState(step, here, found.displacement, *numbers, found, leaps)
 
-    def _reach(self, step: LoadStep) -> tuple[Equilibrium, float, float, int]:
-        """Go to a step, by way of others between if need be: the state, how far it jumped and by where, iterations."""
-        goals, divides, jump, jumped_at, spent = [step.value], self._divides, 0.0, np.nan, 0
+    def reach(self, step: LoadStep) -> tuple[Equilibrium, tuple[Leap, ...], int]:
+        """Go to a step, by way of others between if need be: the state, jumps on the way, iterations spent."""
+        goals, divides, leaps, spent = [step.value], self._divides, [], 0
         while True:
             goal = replace(step, value=goals[-1])
             found, flowed = self.near(goal) if self.solver.predicts else None, False
@@ -201,19 +217,23 @@ class Walk:
                 found, flowed = self.flow(goal), True
                 spent += found.iterations
             if found.settled:
-                leapt = self.accept(goal, found, flowed)
-                jump, jumped_at = jump + leapt, goal.value if leapt else jumped_at
+                leaps += [leap for leap in [self.accept(goal, found, flowed)] if leap]
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False
                 continue
             goals.pop()
             if not goals:
-                return found, jump, jumped_at, spent
+                return found, tuple(leaps), spent
+
+    @property
+    def slips(self) -> bool:
+        """Whether surfaces slide over a lattice, where smooth motion may be fast."""
+        return np.isfinite(self.problem.lattice_constant)
 
     @property
     def _small(self) -> float:
         """A step (nm) not worth dividing: what moves smoothly during it is not taken for a jump."""
-        return SUDDEN * self.problem.reach / STEADY
+        return SUDDEN * self.problem.reach / (FASTEST if self.slips else STEADY)
 
     def _length(self, step: LoadStep, taken: float) -> float:
         """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""

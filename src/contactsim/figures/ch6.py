@@ -107,7 +107,7 @@ def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
 def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Tangential and normal force, and contact length, of the probe against its slide (thesis Fig. 6.6)."""
     one = data.sel(slide_approach=0.0).isel(member=0)
-    curve, slips = curves.curve(one), one[list(EVENT)].dropna("event")
+    curve, slips = curves.curve(one), one[list(EVENT)].dropna("event", how="all")
     axes.plot(curve.relative_slide, curve.force, color=style.CONTACT, lw=1.2, label=r"$\bar F$")
     axes.plot(curve.relative_slide, curve.load, color=style.CONTACT, lw=1.2, ls="--", label=r"$\bar L$")
     axes.axhline(0.0, color=style.EXACT, lw=0.5)
