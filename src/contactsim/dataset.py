@@ -182,6 +182,7 @@ VARIABLES = {
     "first_released_energy": ("nJ/m", "elastic energy that the first slip releases"),
     "loop_energy": ("nJ/m", "energy that a slide to and fro dissipates"),
     "event_slide": ("nm", "slide by which a slip had come"),
+    "event": ("1", "slip, in the order in which they come"),
     "event_step": ("1", "step of the path during which a slip came"),
     "event_width": ("nm", "slide within which a slip came"),
     "event_force_before": ("N/m", "tangential force before a slip"),

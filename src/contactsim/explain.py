@@ -82,7 +82,7 @@ def explain(
             for field in ("displacement", *["traction"] * (component in scene.exerted))
         ),
         left_out=dict.fromkeys(asked, "as the study asks") | _left_out(scene),
-        pairing=_described(scene.pairing),
+        pairing=_described(scene.pairing) + _slide(scene),
         unknowns=size * len(scene.exerted),
         steps=len(scene.path.steps),
         increments="" if increments is None else _described(increments),
@@ -124,6 +124,15 @@ def _described(kind: Increments | Pairing) -> str:
     given = {entry.name: getattr(kind, entry.name) for entry in fields(kind)}
     options = ", ".join(f"{name} {value}" for name, value in given.items() if value is not None)
     return type(kind).__doc__.split("\n")[0].rstrip(".") + f" ({options})" * bool(options)
+
+
+def _slide(scene: Scene) -> str:
+    """How far the upper body slides, and under what."""
+    slides = [step for step in scene.path.steps if step.held is not None]
+    if not slides:
+        return ""
+    ends = f"from {min(step.slid for step in slides):g} to {max(step.slid for step in slides):g} nm"
+    return f"; the upper body slides along x {ends} in {len(slides)} steps, at {slides[-1].held.text}"
 
 
 def _left_out(scene: Scene) -> dict[str, str]:

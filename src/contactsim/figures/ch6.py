@@ -27,6 +27,8 @@ SMOOTH = ((70.0, 0.01), (70.0, 0.005), (400.0, 0.05))
 CASES = {"I": (-2.0, 0), "II": (5.0, 0), "III": (5.0, 1)}
 """Approach (nm) of the cases of Fig. 6.7, and which of the two studies they are of."""
 STAGES = "ABCDE"
+LINES = ("-", (0, (6, 3)), (0, (4, 6)), (2, (2, 4)), (0, (1, 3)), (3, (1, 6)))
+"""Of values whose curves may cover each other."""
 
 
 def fig_6_3(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -59,10 +61,12 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
             exact = curves.exact_flat(one, curve.slide.values)
             panel.plot(curve.slide[::4], exact[::4], ".", color=style.EXACT, ms=1.6, zorder=3)
             rows.append(curve.assign(exact=exact, youngs_modulus=modulus, tangential_work=ratio * work))
-        panel.plot([], [], ".", color=style.EXACT, ms=3, label="exact, one degree of freedom")
+        apart = max(float(np.abs(one.force - one.exact).max() / one.exact.max()) for one in rows[-len(known) :])
+        words = f"exact, one degree of freedom\n(apart by {apart:.0e} of the force at most)"
+        panel.plot([], [], ".", color=style.EXACT, ms=3, label=words)
         panel.axhline(0.0, color=style.EXACT, lw=0.5)
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=curves.FORCE)
-        curves.headroom(panel, 0.55)
+        curves.headroom(panel, 0.6)
         panel.legend(loc="upper left")
     curves.letters(axes)
     return pd.concat(rows)
@@ -97,6 +101,15 @@ def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
         if critical < ratio.max():
             axes.axvspan(critical, 1.3 * ratio.max(), color=colour, alpha=0.12, lw=0)
             axes.axvline(critical, color=colour, lw=0.8, ls=":")
+            axes.text(
+                1.04 * critical,
+                0.97,
+                f"smooth at\n$h={thickness:g}$ nm",
+                transform=axes.get_xaxis_transform(),
+                fontsize=7,
+                va="top",
+                color=colour,
+            )
     handles = style.key({}, {r"$(F_s+F_k)/2$ (Eq. 6.7)": "-", "mean over whole periods": "--"})
     axes.set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"friction $\langle\bar F\rangle$")
     axes.axhline(0.0, color=style.EXACT, lw=0.5)
@@ -208,11 +221,12 @@ def peel_and_slip(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     axes[0].set_ylim(-0.6, 3.0)
     axes[1].plot(place, slip, color=style.PAIRS, lw=1.0)
     axes[1].set(xlabel="$x/w$ of the undeformed probe", ylabel="tangential gap (nm)", xlim=(-0.1, 0.1), ylim=(-1, 12))
-    axes[2].plot(curve.slide, curve.force, color=style.CONTACT, lw=1.1, label=r"$\bar F$")
-    axes[2].plot(curve.slide, curve.area / 20, color=style.WHOLE, lw=1.1, ls=":", label=r"$\bar A/20$")
-    axes[2].plot(curve.slide.iloc[-1], curve.force.iloc[-1], "o", color=style.CONTACT, ms=4)
-    axes[2].set(xlabel=r"$U_x$ (nm)", ylabel=r"$\bar F$, $\bar A/20$")
-    axes[2].legend(loc="lower right")
+    for panel, name, colour, words in zip(
+        axes[2:], ("force", "area"), (style.CONTACT, style.WHOLE), (curves.FORCE, curves.AREA), strict=True
+    ):
+        panel.plot(curve.slide, curve[name], color=colour, lw=1.1)
+        panel.plot(curve.slide.iloc[-1], curve[name].iloc[-1], "o", color=colour, ms=4)
+        panel.set(xlabel=r"$U_x$ (nm)", ylabel=words)
     size = repulsive_length(now.normal_gap.values, float(one.length) / one.x.size)
     axes[0].set_title(rf"$U_x={float(now.snapshot):g}$ nm, contact {size:.0f} nm", fontsize=9)
     return curve
@@ -255,7 +269,8 @@ def open_choices(
         for value, colour in style.shades(other[dim].values).items():
             one = other.sel({dim: value}).isel(member=0)
             curve = curves.curve(one)
-            panel.plot(curve.slide, curve.force * float(one.length), color=colour, lw=0.9, label=f"{value:g}")
+            line = LINES[len(panel.lines) % len(LINES)]
+            panel.plot(curve.slide, curve.force * float(one.length), color=colour, lw=1.1, ls=line, label=f"{value:g}")
             numbers = {key: float(one[key]) for key in ("static_friction", "peeled", "reattached", "first_periods")}
             rows.append(pd.DataFrame([numbers | {"choice": words, "value": float(value)}]))
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=r"$F/E$ (nm)")
