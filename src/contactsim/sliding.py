@@ -64,12 +64,12 @@ THRESHOLD = ("shear_strength", "friction_without_contact", "threshold_agreement"
 ALONG = "slide_approach"
 """The dimension along which Eq. 6.9 is fitted."""
 COLUMNS = (
-    *("slid", "friction_force", "line_load", "repulsive_length", "smallest_gap"),
+    *("slid", "friction_force", "line_load", "repulsive_length", "mean_gap"),
     *("contact_trailing", "contact_leading"),
 )
 """Numbers of the states that all of this comes from."""
 TOUCHING = 1e-4
-"""Gap, nm, within which surfaces touch, and neither overlap nor are apart."""
+"""Mean gap, nm, within which surfaces touch all over, and neither overlap nor are apart."""
 
 
 def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array) -> dict[str, float]:
@@ -122,7 +122,7 @@ def slip_numbers(problem: InterfaceProblem, leap: Leap, step: int) -> dict[str, 
             float(state.traction[1:].mean() * problem.grid.lengths[0]) if len(state.traction) > 1 else 0.0
         )
         numbers["length"] = repulsive_length(state.gap[0], problem.grid.spacing[0])
-        if abs(state.gap[0].min()) <= TOUCHING:
+        if abs(state.gap[0].mean()) <= TOUCHING:
             numbers["length"] = np.nan
         sides.append(numbers)
     before, after = sides
@@ -261,7 +261,7 @@ def summed(
     part = {name: values[known] for name, values in columns.items()}
     if known.sum() < 3 or np.isnan(part["friction_force"]).any():
         return found, errors
-    part["repulsive_length"] = np.where(np.abs(part["smallest_gap"]) <= TOUCHING, np.nan, part["repulsive_length"])
+    part["repulsive_length"] = np.where(np.abs(part["mean_gap"]) <= TOUCHING, np.nan, part["repulsive_length"])
     line, lengths = Slide.through(part, told, int(np.flatnonzero(known)[0])), part["repulsive_length"]
     slips = np.flatnonzero(line.after)
     found |= {"initial_repulsive_length": lengths[0], "initial_load": part["line_load"][0], "slips": float(slips.size)}
