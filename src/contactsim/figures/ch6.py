@@ -27,8 +27,8 @@ SMOOTH = ((70.0, 0.01), (70.0, 0.005), (400.0, 0.05))
 CASES = {"I": (-2.0, 0), "II": (5.0, 0), "III": (5.0, 1)}
 """Approach (nm) of the cases of Fig. 6.7, and which of the two studies they are of."""
 STAGES = "ABCDE"
-LINES = ("-", (0, (6, 3)), (0, (4, 6)), (2, (2, 4)), (0, (1, 3)), (3, (1, 6)))
-"""Of values whose curves may cover each other."""
+THICK, THIN = 2.6, 0.7
+"""Lines of the first and the last of values whose curves may cover each other."""
 
 
 def fig_6_3(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -269,8 +269,8 @@ def open_choices(
         for value, colour in style.shades(other[dim].values).items():
             one = other.sel({dim: value}).isel(member=0)
             curve = curves.curve(one)
-            line = LINES[len(panel.lines) % len(LINES)]
-            panel.plot(curve.slide, curve.force * float(one.length), color=colour, lw=1.1, ls=line, label=f"{value:g}")
+            wide = np.linspace(THICK, THIN, other[dim].size)[len(panel.lines)]
+            panel.plot(curve.slide, curve.force * float(one.length), color=colour, lw=wide, label=f"{value:g}")
             numbers = {key: float(one[key]) for key in ("static_friction", "peeled", "reattached", "first_periods")}
             rows.append(pd.DataFrame([numbers | {"choice": words, "value": float(value)}]))
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=r"$F/E$ (nm)")
