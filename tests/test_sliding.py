@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 from contactsim import analytic, sliding
+from contactsim.aggregate import combined
 from contactsim.branch import simulate_path
 from contactsim.elasticity import HalfSpace, Layer
 from contactsim.follow import INCREMENTS, Requested
@@ -17,6 +18,7 @@ from contactsim.interface import InterfaceProblem, pose_interface
 from contactsim.laws import CohesiveZone
 from contactsim.loading import LoadPath, LoadStep, slide, through
 from contactsim.pairing import Windowed
+from contactsim.priced import solutions
 from contactsim.scene import Body, Scene
 from contactsim.solvers import solver
 from contactsim.surface import Cylinder, Flat
@@ -386,3 +388,10 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
         for path, how in ((small, None), (large, INCREMENTS[increments]()))
     ]
     assert forces[1] == pytest.approx(forces[0], rel=2e-3)
+
+
+def test_a_slide_is_priced_whole_with_its_slips():
+    found = solutions(combined([(dataset(), {"member": 0})]))
+    assert float(found.transforms) == float(dataset().transforms.sum())
+    assert float(found.static_friction) == float(sliding.slid(dataset()).static_friction)
+    assert "event" not in found.dims

@@ -207,7 +207,7 @@ def solutions(data: xr.Dataset) -> xr.Dataset:
         return data
     failed = ~solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
-    found = of_states(data.drop_dims("event", errors="ignore"))
+    found = of_states(data)
     return found[[name for name in Slide.quantities if name in found]].assign(
         transforms=data.transforms.sum("step"), status=first
     )
