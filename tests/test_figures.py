@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from conftest import ROOT
 from contactsim import dataset
+from contactsim.cost import PRICED
 from contactsim.elasticity import HalfSpace
 from contactsim.figures import ch3, ch5, claims, render, sketch, style
 from contactsim.laws import HardWall
@@ -250,6 +251,10 @@ def test_every_quantity_dimension_and_take_of_a_claim_has_words_to_read():
     names = {*TAKES, *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions])}
     assert not [name for name in names if "_" in claims.symbol(name)]
     assert claims.symbol("kappa_r_grid_error") == "grid error of κᵣ"
+
+
+def test_every_quantity_that_can_be_priced_has_a_symbol():
+    assert [name for name in PRICED if name not in style.SYMBOLS] == []
 
 
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):

@@ -392,6 +392,6 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
 
 def test_a_slide_is_priced_whole_with_its_slips():
     found = solutions(combined([(dataset(), {"member": 0})]))
-    assert float(found.transforms) == float(dataset().transforms.sum())
-    assert float(found.static_friction) == float(sliding.slid(dataset()).static_friction)
+    assert found.transforms.item() == dataset().transforms.sum().item()
+    assert found.static_friction.item() == sliding.slid(dataset()).static_friction.item()
     assert "event" not in found.dims
