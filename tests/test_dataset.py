@@ -51,6 +51,7 @@ WRITERS = (
     "area_load.py",
     "hysteresis.py",
     "sliding.py",
+    "onset.py",
     "branch.py",
     "ladder.py",
     "tabulate.py",

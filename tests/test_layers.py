@@ -16,7 +16,7 @@ solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
 observables adhesion sliding analytic provenance validity dataset config schema build study tabulate branch loads march
-extrapolation ensemble fits hysteresis area_load aggregate costs joblog takes findings claims api
+extrapolation ensemble fits hysteresis area_load onset aggregate costs joblog takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
 verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves

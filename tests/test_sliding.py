@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim import analytic, sliding
+from contactsim import analytic, onset, sliding
 from contactsim.aggregate import combined
 from contactsim.branch import simulate_path
 from contactsim.elasticity import HalfSpace, Layer
@@ -194,7 +194,7 @@ def test_a_slide_to_and_fro_is_antisymmetric_and_dissipates():
     _, _, slides, force = walked(scene, 256)
     first, second = slice(101, 301), slice(301, 501)
     np.testing.assert_allclose(-force[first], force[second], atol=1e-4 * force.max())
-    found = sliding.slid(simulate_path(scene, solver("newton"), points=256, tolerance=1e-7))
+    found = onset.slid(simulate_path(scene, solver("newton"), points=256, tolerance=1e-7))
     assert float(found.loop_energy) > 100 * float(found.loop_energy_increment_error) > 0
     steps = np.diff(slides[first.start - 1 :])
     about = np.sum(steps * (force[first.start - 1 : -1] + force[first.start :]) / 2) * 1000.0
@@ -235,7 +235,7 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     assert np.isnan(slid[:20]).all()
     np.testing.assert_allclose(slid[20:], np.linspace(0, 11, 111), atol=1e-9)
     np.testing.assert_allclose(data.snapshot, [0.0, 4.0])
-    found = sliding.slid(data)
+    found = onset.slid(data)
     told = found[[*sliding.EVENT, "event_periods"]].dropna("event")
     assert told.event.size == int(found.slips) >= 2
     assert float(found.first_periods) == pytest.approx(1.0, abs=0.15)
@@ -276,11 +276,11 @@ def test_edges_lie_between_nodes_and_wrap_around():
     assert sliding.contact_edges(x - 100.0, x, 1.0) == (-32.5, 31.5)
 
 
-def line(slid: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01) -> sliding.Slide:
+def line(slid: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01) -> onset.Slide:
     slid, force = np.array(slid, float), np.array(force, float)
     slipped = np.isin(np.arange(slid.size), after)
     wide = np.where(slipped | np.isin(np.arange(slid.size), np.array(after, int) - 1), width, 0.0)
-    return sliding.Slide(slid, force, np.full(slid.size, np.nan), slipped, wide, np.arange(slid.size))
+    return onset.Slide(slid, force, np.full(slid.size, np.nan), slipped, wide, np.arange(slid.size))
 
 
 def test_the_onset_is_before_the_first_slip_or_at_the_first_maximum():
@@ -299,37 +299,37 @@ def test_what_may_be_missed_beside_a_slip_is_what_its_width_allows():
 
 def test_laws_are_found_where_they_hold():
     force = np.linspace(0, 3, 20)
-    coefficient, agreement = sliding.quadratic_law(force, 100 - 2.5 * force**2)
+    coefficient, agreement = onset.quadratic_law(force, 100 - 2.5 * force**2)
     assert coefficient == pytest.approx(2.5)
     assert agreement == pytest.approx(1.0)
-    assert np.isnan(sliding.quadratic_law(force[:2], force[:2])).all()
-    slope, offset, agreement = sliding.threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
+    assert np.isnan(onset.quadratic_law(force[:2], force[:2])).all()
+    slope, offset, agreement = onset.threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
     assert (slope, offset, agreement) == pytest.approx((2.0, 5.0, 1.0))
-    assert np.isnan(sliding.threshold_law(np.ones(3), np.ones(3))).all()
+    assert np.isnan(onset.threshold_law(np.ones(3), np.ones(3))).all()
 
 
 def test_peeling_at_one_edge_is_asymmetric():
     trailing, leading = np.array([-5.0, -4.0, -2.0, np.nan]), np.array([5.0, 4.0, 4.0, np.nan])
-    assert sliding.asymmetry(trailing, leading, 1) == 0.0
-    assert sliding.asymmetry(trailing, leading, 2) == pytest.approx(0.5)
-    assert np.isnan(sliding.asymmetry(trailing, leading, 0))
-    assert np.isnan(sliding.asymmetry(trailing, leading, 3))
+    assert onset.asymmetry(trailing, leading, 1) == 0.0
+    assert onset.asymmetry(trailing, leading, 2) == pytest.approx(0.5)
+    assert np.isnan(onset.asymmetry(trailing, leading, 0))
+    assert np.isnan(onset.asymmetry(trailing, leading, 3))
 
 
 def test_a_force_is_averaged_over_whole_lattice_constants():
     slid = np.linspace(0, 10, 1001)
     wave = line(slid, 2 + np.sin(2 * np.pi * slid / 3.0))
-    mean, error = sliding.average_force(wave, 3.0)
+    mean, error = onset.average_force(wave, 3.0)
     assert mean == pytest.approx(2.0, abs=1e-4)
     assert abs(mean - 2.0) <= error < 1e-3
-    assert np.isnan(sliding.average_force(wave, 11.0)).all()
-    assert np.isnan(sliding.average_force(line([0, 1, 0], [0, 1, 0]), 0.1)).all()
+    assert np.isnan(onset.average_force(wave, 11.0)).all()
+    assert np.isnan(onset.average_force(line([0, 1, 0], [0, 1, 0]), 0.1)).all()
     sawtooth = line([0, 2, 2, 4, 4, 6], [0, 2, 0, 2, 0, 2], after=(2, 4), width=0.0)
-    assert sliding.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
+    assert onset.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
 
 
 def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
-    data = sliding.slid(dataset_without_slips())
+    data = onset.slid(dataset_without_slips())
     assert float(data.slips) == 0
     assert np.isnan(data.event_slide).all()
     assert float(data.initial_repulsive_length) > 0
@@ -343,13 +343,13 @@ def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
 def test_a_fast_smooth_slide_is_no_slip(modulus, slips, increments, increment):
     scene, how = flat(modulus, 0.2, [0.0, 5.0], increment), INCREMENTS[increments]()
     data = simulate_path(scene, solver("newton"), points=16, tolerance=1e-7, increments=how)
-    assert (float(sliding.slid(data).slips) > 0) == slips
+    assert (float(onset.slid(data).slips) > 0) == slips
 
 
 @pytest.mark.parametrize("increment", [0.1, 0.7, 11.0])
 def test_slips_are_found_one_by_one_whatever_the_increment(increment):
     scene = flat(70.0, 0.2, [0.0, 11.0], increment)
-    found = sliding.slid(simulate_path(scene, solver("newton"), points=16, tolerance=1e-7))
+    found = onset.slid(simulate_path(scene, solver("newton"), points=16, tolerance=1e-7))
     slides = np.linspace(0.0, 11.0, 110001)
     drops = np.flatnonzero(np.diff(exact(70.0, 0.2, slides)) < -0.01)
     np.testing.assert_array_less(np.abs(found.event_slide - slides[drops + 1]), found.event_width + 2e-4)
@@ -361,12 +361,12 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
 def test_a_solver_without_predictions_sees_slips_in_increments_of_half_a_nanometre():
     scene = probe(path_of(0.0, [0.0, 11.0], 0.5))
     data = simulate_path(scene, solver("mass_weighted_verlet"), points=64, tolerance=1e-6)
-    assert float(sliding.slid(data).slips) == 2
+    assert float(onset.slid(data).slips) == 2
 
 
 def test_a_frictionless_slide_has_no_force():
     scene = probe(path_of(0.0, [0.0, 3.0], 0.5), CohesiveZone(2.0))
-    data = sliding.slid(simulate_path(scene, solver("newton"), points=128, tolerance=1e-7))
+    data = onset.slid(simulate_path(scene, solver("newton"), points=128, tolerance=1e-7))
     assert (data.friction_force == 0).all()
     assert np.isnan(data.static_friction)
 
@@ -393,5 +393,5 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
 def test_a_slide_is_priced_whole_with_its_slips():
     found = solutions(combined([(dataset(), {"member": 0})]))
     assert found.transforms.item() == dataset().transforms.sum().item()
-    assert found.static_friction.item() == sliding.slid(dataset()).static_friction.item()
+    assert found.static_friction.item() == onset.slid(dataset()).static_friction.item()
     assert "event" not in found.dims

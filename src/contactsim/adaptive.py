@@ -144,15 +144,16 @@ class Adaptive:
             if not wrong <= REFUSED * error and increment > least and place is not None:
                 increment = max(increment * SHRINK, least)
                 continue
+            leaps = ()
             if walk.believed(found):
-                leaps = (walk.accept(replace(first, value=goal), found, False),)
+                walk.accept(step, found, False)
             else:
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
                 found, leaps, spent = self._flowed(walk, replace(first, value=goal))
                 flowed, iterations = True, iterations + spent
             if not found.settled:
                 return iterations, stretches, found.status
-            if any(leaps):
+            if leaps:
                 stretches.append(Stretch(leaps))
             stretches[-1].add(goal, found)
             growth = GROW if flowed or not 0 < wrong < np.inf else SAFETY * (error / wrong) ** (1 / (order + 1))
@@ -160,12 +161,13 @@ class Adaptive:
             place = goal
         return iterations, stretches, Status.CONVERGED
 
-    def _flowed(self, walk: Walk, step: LoadStep) -> tuple[Equilibrium, tuple[Leap | None, ...], int]:
+    def _flowed(self, walk: Walk, step: LoadStep) -> tuple[Equilibrium, tuple[Leap, ...], int]:
         """The state at a step to which continuation did not lead: by flow, over a lattice in ever smaller steps."""
         if walk.slips:
             return walk.reach(step)
         found = walk.flow(step)
-        return found, (walk.accept(step, found, True),) if found.settled else (), found.iterations
+        leap = walk.accept(step, found, True) if found.settled else None
+        return found, (leap,) if leap else (), found.iterations
 
     def _state(
         self,
@@ -194,7 +196,7 @@ class Adaptive:
         since = [
             item
             for item in reached
-            if any(item.leaps)
+            if item.leaps
             and (not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0)
         ]
         leaps = tuple(leap for item in since for leap in item.leaps)

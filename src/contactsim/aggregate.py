@@ -19,7 +19,7 @@ from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fits
 from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
-from contactsim.sliding import ONSET, THRESHOLD, slid
+from contactsim.onset import ONSET, THRESHOLD, slid
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""

@@ -74,8 +74,7 @@ def simulate_path(
             )
     data = _collected(scene, problem, rows, fields)
     if scene.sliding:
-        told = slips_of(slips)
-        data = data.assign(told).assign_coords(event=np.arange(len(told["event_step"][1]))).pipe(dataset.described)
+        data = dataset.described(data.merge(slips_of(slips)))
     for words in validity.told(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))

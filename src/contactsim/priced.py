@@ -21,9 +21,9 @@ from contactsim.area_load import AREA_LOAD
 from contactsim.config import Key, listed, positive, read, whole
 from contactsim.errors import SceneError
 from contactsim.hysteresis import CYCLE
+from contactsim.onset import ONSET
 from contactsim.pairing import Windowed
 from contactsim.schema import is_smooth
-from contactsim.sliding import ONSET
 from contactsim.solvers.base import solved
 from contactsim.study import Study
 

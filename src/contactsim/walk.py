@@ -157,7 +157,7 @@ class Walk:
         """
         if not (found.settled and found.moved <= self.near_by):
             return False
-        if self.stands is None or np.isinf(self.problem.lattice_constant):
+        if self.stands is None or not self.slips:
             return True
         close = found.gap[0] <= CLOSE * self.problem.reach
         slipped = np.abs(found.gap[1, close] - self.stands[1].gap[1, close]).max(initial=0.0)
