@@ -93,18 +93,30 @@ class Slide:
         falling = np.flatnonzero(np.diff(self.force) < 0)
         return int(falling[0]) if falling.size else None
 
-    def missed(self, place: int) -> float:
-        """By how much (N/m) the force may be more extreme than at a place, within what is known of it.
+    def blurred(self, place: int) -> float:
+        """By how much (N/m) the force at a side of a slip may be off, which lies anywhere within its width."""
+        beside = place + 1 if self.after[place] else place - 1
+        if not 0 <= beside < self.slid.size or self.slid[beside] == self.slid[place]:
+            return 0.0
+        slope = (self.force[place] - self.force[beside]) / (self.slid[place] - self.slid[beside])
+        return float(self.width[place] * abs(slope))
 
-        Next to a slip it goes on as before for no more than the width of that; else it turns, by an eighth of the
-        second difference.
+    def missed(self, place: int) -> float:
+        """By how much (N/m) the force may be more extreme between a place and those beside it.
+
+        Before a slip it bends more and more, and stays within the line through the two states before; after one it is
+        extreme at the slip itself; else it turns, by an eighth of the second difference.
         """
+        if self.after[place]:
+            return self.blurred(place)
+        if place + 1 < self.slid.size and self.after[place + 1]:
+            if place < 2 or self.after[place - 1] or self.slid[place - 1] == self.slid[place - 2]:
+                return float(abs(self.force[place] - self.force[place - 1])) + self.blurred(place)
+            slope = (self.force[place - 1] - self.force[place - 2]) / (self.slid[place - 1] - self.slid[place - 2])
+            ahead = self.force[place - 1] + slope * (self.slid[place] - self.slid[place - 1])
+            return float(abs(ahead - self.force[place])) + self.blurred(place)
         beside = [other for other in (place - 1, place + 1) if 0 <= other < self.slid.size]
-        slipped = [other for other in beside if self.after[max(place, other)]]
-        changes = [abs(self.force[place] - self.force[other]) for other in beside if other not in slipped]
-        spans = [abs(self.slid[place] - self.slid[other]) for other in beside if other not in slipped]
-        if slipped:
-            return max((self.width[place] * c / s for c, s in zip(changes, spans, strict=True) if s > 0), default=0.0)
+        changes = [float(abs(self.force[place] - self.force[other])) for other in beside]
         return sum(changes) / 8 if len(changes) == 2 else min(changes, default=np.nan)
 
     def work(self) -> tuple[float, float]:
@@ -193,7 +205,7 @@ def summed(
     if slips.size:
         first = slips[0]
         found["first_drop"] = (line.force[first - 1] - line.force[first]) * np.sign(line.slid[first] or 1.0)
-        errors["first_drop"] = line.missed(first - 1) + line.missed(first)
+        errors["first_drop"] = line.blurred(first - 1) + line.blurred(first)
         found["first_periods"] = told["event_slip"][0] / period
         found["first_released_energy"] = told["event_released_energy"][0]
         found["reattached"] = line.length[first] * share
