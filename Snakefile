@@ -11,6 +11,8 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/present.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/effects.smk"
+include: "workflow/rules/trials.smk"
+include: "workflow/rules/effect_maps.smk"
 include: "workflow/rules/judge.smk"
 include: "workflow/rules/stability.smk"
 

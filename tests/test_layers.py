@@ -15,15 +15,17 @@ pairing loading scene wall interface solvers.base solvers solvers.active_set sol
 solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
-observables adhesion sliding analytic provenance validity dataset config schema build study tabulate branch loads march
-extrapolation ensemble fits hysteresis area_load onset aggregate costs joblog takes findings claims api
+observables adhesion sliding analytic provenance validity dataset config schema build relations choice forecast study
+tabulate branch loads march extrapolation ensemble fits hysteresis area_load onset aggregate confirm effect_maps
+negligible costs joblog outlook takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
-verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision
+verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision draws
+calibration trials
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
 figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render
 figures.claims figures.knobs
 figures.accuracy figures.sketch
-figures.effects cli
+figures.effects figures.trials figures.effect_maps cli
 """.split()
 """Modules in import order: each may import those before it."""
 

@@ -29,6 +29,7 @@ OPENINGS, PULLS = np.linspace(-3.0, 12.0, 61), np.linspace(-6.0, 1.0, 71)
 """Edges of histograms: gaps in the laws' length, normal tractions in their strength; the ends hold what lies beyond."""
 FINAL = {
     "final_repulsive_length": "repulsive_length",
+    "final_interacting_length": CRITERION,
     "final_load": "line_load",
     "final_repulsive_load": "repulsive_load",
     "final_adhesive_load": "adhesive_load",

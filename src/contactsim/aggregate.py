@@ -26,6 +26,7 @@ APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "po
 
 AVERAGED = (
     "relative_contact_area",
+    "relative_contact_area_subgrid",
     "kappa",
     "kappa_r",
     "kappa_r_bond",

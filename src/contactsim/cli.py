@@ -1,4 +1,4 @@
-"""`contactsim explain | run | compare`: one scene from the shell; two tiers side by side.
+"""`contactsim explain | run | cost | compare`: one scene from the shell; two tiers side by side.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight`, `whole` and
 `fit_limits`, and may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
@@ -17,10 +17,13 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.aggregate import derived
 from contactsim.build import increments_of, points_of, scene_of
+from contactsim.choice import chosen as chosen_for
 from contactsim.compare import compared, is_within, summary
 from contactsim.config import load_yaml, whole
+from contactsim.confirm import reach
 from contactsim.errors import SceneError
 from contactsim.explain import explain
+from contactsim.forecast import Forecast, forecast_of
 from contactsim.march import chosen, labelled, simulate
 from contactsim.plan import Plan
 from contactsim.scene import Scene
@@ -102,15 +105,7 @@ def run_scene(options: argparse.Namespace) -> None:
     target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
     if Path(target).is_dir():
         raise SceneError("--output", target, "the name of a file; this is a folder")
-    scene, settings, points = first_scene(study)
-    data = simulate(
-        scene,
-        points=points,
-        tolerance=settings["tolerance"],
-        method=solver(**settings["solver"]),
-        threads=options.threads,
-        **chosen(settings),
-    )
+    data, settings = _simulated(study, options.threads)
     data = _as_of_a_study(data, settings)
     source = study.runs()[0].source
     dataset.write(dataset.stamped(data, study.settings["title"], settings, source), target)
@@ -121,6 +116,52 @@ def run_scene(options: argparse.Namespace) -> None:
     failed = int((~solved(data.status)).sum())
     if failed:
         sys.exit(f"Error: {failed} of {len(rows)} load steps did not converge")
+
+
+def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
+    """The simulation of a study's first run, as it asks for or to its accuracy; and the settings that it came to."""
+    scene, settings, points = first_scene(study)
+    if "accuracy" in settings:
+        found = reach(settings, **settings["accuracy"], threads=threads)
+        return found.data, found.last.settings
+    method = solver(**settings["solver"])
+    given = {"tolerance": settings["tolerance"], "method": method, "threads": threads}
+    return simulate(scene, points=points, **given, **chosen(settings)), settings
+
+
+def cost_scene(options: argparse.Namespace) -> None:
+    """Print what a scene, or each run of a study, is expected to cost, as it is or to an accuracy."""
+    study = named(options.scene, options.tier)
+    runs = [run.settings for run in study.runs()]
+    if options.accuracy is not None:
+        asked = {"error": options.accuracy, "of": []}
+        runs = [chosen_for(settings, **asked) | {"accuracy": asked} for settings in runs]
+    expected = [forecast_of(settings) for settings in runs]
+    sys.stdout.write(_expectation(runs, expected))
+
+
+def _expectation(runs: list[dict], expected: list[Forecast]) -> str:
+    """Forecasts in words: what the first run is chosen to be and costs, and all of them together."""
+    first, settings = expected[0], runs[0]
+    part = settings["slide" if settings.get("slide") else "load"]
+    grid = f"{first.points} points, tolerance {settings['tolerance']:.2g}"
+    grid += f", increments of {part['increment']:g} {settings['increments']['kind']}" if "increment" in part else ""
+    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
+    lines = [
+        f"grid         {grid}",
+        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
+        f"transforms   {first.transforms:.3g} of that grid"
+        + ", a coarser run before included" * ("accuracy" in settings),
+        f"seconds      {first.seconds:.2g} of CPU on one thread",
+        f"memory       {first.megabytes:.3g} MB of arrays",
+        f"error        {errors} (relative, as expected of such scenes)",
+    ]
+    if len(runs) > 1:
+        total = sum(one.seconds for one in expected)
+        lines.append(f"all {len(runs):4d} runs {total:.3g} s, {sum(one.transforms for one in expected):.3g} transforms")
+    unsure = dict.fromkeys(name for one in expected for name in one.unsure)
+    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
+    return "\n".join(lines) + "\n"
 
 
 def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
@@ -153,6 +194,11 @@ def main(arguments: list[str] | None = None) -> None:
     threads = "of the transforms, default 1; results are the same bit for bit at one number of threads"
     running.add_argument("--threads", type=int, default=1, help=threads)
     running.set_defaults(call=run_scene)
+    costing = commands.add_parser("cost", help="what it is expected to cost, before anything runs")
+    costing.add_argument("scene", help="a scene file, or the name of a study in ./config")
+    costing.add_argument("--tier", help="tier of the study")
+    costing.add_argument("--accuracy", type=float, help="relative error for which grid and increments are chosen")
+    costing.set_defaults(call=cost_scene)
     comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
     comparing.add_argument("first", help="a tier, such as quick")
     comparing.add_argument("second", help="the tier that differences are relative to")

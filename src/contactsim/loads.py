@@ -26,7 +26,7 @@ from contactsim.observables import KEPT, wall_observables
 from contactsim.roughness import rms_curvature, rms_gradient, rms_height
 from contactsim.scene import Scene
 from contactsim.solvers.base import Result, Solver, sentence, solve
-from contactsim.wall import pose
+from contactsim.wall import Begun, pose
 
 logger = logging.getLogger(__name__)
 
@@ -49,10 +49,12 @@ def simulate_loads(
     threads: int = 1,
     keep: Sequence[str] = KEPT[:-1],
     known: Mapping[int, Point] | None = None,
+    begun: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Press a scene at each of its loads and return one dataset with dimension `step`.
 
-    tolerance: in grid steps; keep: of `KEPT`; known: points that need not be solved again, by step.
+    tolerance: in grid steps; keep: of `KEPT`; known: points that need not be solved again, by step; begun: the same
+    scene on a coarser grid with its `fields`, which a cascade of grids begins from.
     """
     for name in keep:
         if name not in KEPT:
@@ -61,7 +63,11 @@ def simulate_loads(
 
     def solved(step: LoadStep) -> Point:
         """One load on its own."""
-        return _point(solve(method, *pose(scene, step, heights, tolerance, threads)), heights, scene.lengths, keep)
+        problem, scale = pose(scene, step, heights, tolerance, threads)
+        if begun is not None:
+            coarse = begun.isel(step=scene.path.steps.index(step))
+            problem.begun = Begun(coarse.pressure.values / scale.pressure, coarse.gap.values / scale.step)
+        return _point(solve(method, problem, scale), heights, scene.lengths, keep)
 
     return _collected(scene, heights, _loads(scene.path.steps, known or {}, solved), keep)
 

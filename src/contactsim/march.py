@@ -59,6 +59,9 @@ def simulate(
         return FOLLOWED[smooth](scene, method, **given)
 
 
+Files = tuple[str | Path, str | Path]
+"""A run's dataset, and the file of its costs."""
+
 FOLLOWED = (simulate_loads, simulate_path)
 """How a scene is followed: with a hard wall, and with smooth laws."""
 
@@ -75,15 +78,16 @@ def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:
             raise SceneError(key, value, f"no such option, but {used}")
 
 
-def run(settings: dict, source: str, target: str | Path, costs: str | Path, threads: int = 1) -> None:
+def run(settings: dict, source: str, files: Files, threads: int = 1, told: Mapping[str, object] | None = None) -> None:
     """Compute a run's dataset and costs, taking over what an earlier dataset of that name already holds.
 
-    settings: of a `contactsim.study.Run`; source: digest of the code that computes it.
+    settings: of a `contactsim.study.Run`; source: digest of the code that computes it; told: what the dataset says
+    besides.
     """
     begin = time.process_time()
     scene = scene_of(settings)
-    names = [digest(_alone(settings), place, source) for place in _places(settings)]
-    solved = {} if "increments" in settings else earlier(target, costs)
+    names = names_of(settings, source)
+    solved = {} if "increments" in settings else earlier(*files)
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),
@@ -93,6 +97,13 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
         known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
         **chosen(settings),
     )
+    keep(data, settings, names, source, files, begin)
+    keep(data.assign(told or {}), settings, names, source, files, begin)
+
+
+def keep(data: xr.Dataset, settings: dict, names: list[str], source: str, files: Files, begin: float) -> None:
+    """Write a run's dataset and, apart from it, its costs; names: of its points; begin: CPU time at which it began."""
+    target, costs = files
     seconds = data.seconds.values.tolist()
     title = f"contactsim run of {settings['study']}"
     dataset.write(dataset.stamped(labelled(data, settings, names), title, settings, source), target)
@@ -102,6 +113,11 @@ def run(settings: dict, source: str, target: str | Path, costs: str | Path, thre
         "peak_memory_of_last_run": peak_memory(),
     }
     write_text(json.dumps(price, indent=1), costs)
+
+
+def names_of(settings: dict, source: str) -> list[str]:
+    """Digests of the code and settings that make each point of a run."""
+    return [digest(_alone(settings), place, source) for place in _places(settings)]
 
 
 def _places(settings: dict) -> list:

@@ -42,38 +42,66 @@ def relative_contact_area_subgrid(pressure: Array, gap: Array) -> float:
     order, where counting is 0.13 steps out. A solution's tolerance of 1e-3 grid steps adds up to 0.04 steps, one of
     1e-4 0.01.
     """
-    contact, opening, square = touching(pressure), np.maximum(gap, 0.0) ** (2 / 3), pressure**2
-    steep = np.array([_steepness(square, contact, axis) for axis in range(pressure.ndim)]) ** 2
-    total = steep.sum(0)
-    weight = np.divide(steep, total, out=np.full(steep.shape, 1 / pressure.ndim), where=total > 0)
-    area = float(contact.sum())
+    contact, flat = touching(pressure), (pressure.ravel(), gap.ravel())
+    area = float(np.count_nonzero(contact))
     for axis in range(pressure.ndim):
         for side in (-1, 1):
-            edge = contact & ~np.roll(contact, side, axis)
-            first, second = (np.roll(opening, steps * side, axis)[edge] for steps in (1, 2))
-            known = (second > first) & ~np.roll(contact, 2 * side, axis)[edge]
-            back = 1 - np.divide(first, second - first, out=np.zeros_like(first), where=known)
-            beyond = np.where(known, EDGE_FIT[0] * back + EDGE_FIT[1] * back**2, np.mean(EDGES))
-            area += np.sum(weight[axis][edge] * (np.clip(beyond, *EDGES) - 0.5))
-    return float(area / pressure.size)
+            edge = np.flatnonzero(contact & ~np.roll(contact, side, axis))
+            area += float(
+                np.sum(_share(edge, axis, flat[0], contact.shape) * _beyond(edge, axis, side, flat, contact.shape))
+            )
+    return area / pressure.size
 
 
-def _steepness(values: Array, contact: Array, axis: int) -> Array:
-    """The larger of the differences to both neighbours along an axis, of those in contact."""
-    pairs = contact & np.roll(contact, -1, axis)
-    right = np.where(pairs, np.abs(np.roll(values, -1, axis) - values), 0.0)
-    return np.maximum(right, np.roll(right, 1, axis))
+def _beside(places: Array, steps: int, axis: int, shape: tuple[int, ...]) -> Array:
+    """Flat indices of the points some steps along an axis from others, periodic."""
+    stride = int(np.prod(shape[axis + 1 :], dtype=int))
+    along = places // stride % shape[axis]
+    return places + ((along + steps) % shape[axis] - along) * stride
+
+
+def _beyond(edge: Array, axis: int, side: int, fields: tuple[Array, Array], shape: tuple[int, ...]) -> Array:
+    """By how many steps more than half a step an edge lies beyond the last points in contact; flat indices (m,)."""
+    pressure, gap = fields
+    first, second = (_beside(edge, -steps * side, axis, shape) for steps in (1, 2))
+    near, far = (np.maximum(gap[places], 0.0) ** (2 / 3) for places in (first, second))
+    known = (far > near) & ~touching(pressure[second])
+    back = 1 - np.divide(near, far - near, out=np.zeros_like(near), where=known)
+    beyond = np.where(known, EDGE_FIT[0] * back + EDGE_FIT[1] * back**2, np.mean(EDGES))
+    return np.clip(beyond, *EDGES) - 0.5
+
+
+def _share(edge: Array, axis: int, pressure: Array, shape: tuple[int, ...]) -> Array:
+    """How much of the edge at points in contact counts along an axis: its normal's part, squared; flat indices (m,)."""
+    steep = np.array([_steepness(edge, other, pressure, shape) for other in range(len(shape))]) ** 2
+    total = steep.sum(0)
+    return np.divide(steep[axis], total, out=np.full(edge.shape, 1 / len(shape)), where=total > 0)
+
+
+def _steepness(places: Array, axis: int, pressure: Array, shape: tuple[int, ...]) -> Array:
+    """The larger of the differences of pressure² to both neighbours along an axis, of those in contact."""
+    here = pressure[places] ** 2
+    beside = [pressure[_beside(places, steps, axis, shape)] for steps in (-1, 1)]
+    return np.maximum(*(np.where(touching(other), np.abs(other**2 - here), 0.0) for other in beside))
+
+
+def contact_edges(contact: Array) -> int:
+    """Pairs of neighbours on the periodic grid of which one is in contact; bool (n,) or (ny, nx)."""
+    return sum(int(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in range(contact.ndim))
 
 
 def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, gap: Array) -> dict[str, float]:
     """Numbers of one hard-wall state; heights, pressure, gap: (n,) or (ny, nx) in nm, GPa, nm; spacings nm.
 
-    relative_contact_area; rms_gradient_contact (Eqs 3.8–3.9) and rms_gradient_contact_bond (pairs with both ends in
+    relative_contact_area, of points, and with edges between points; contact_edges; rms_gradient_contact (Eqs 3.8–3.9)
+    and rms_gradient_contact_bond (pairs with both ends in
     contact), NaN where there is none; mean_gap, nm; mean_pressure, GPa.
     """
     contact = touching(pressure)
     return {
         "relative_contact_area": float(contact.mean()),
+        "relative_contact_area_subgrid": relative_contact_area_subgrid(pressure, gap),
+        "contact_edges": contact_edges(contact),
         "rms_gradient_contact": rms_gradient(heights, spacing, contact),
         "rms_gradient_contact_bond": rms_gradient_bonds(heights, spacing, contact),
         "mean_gap": float(gap.mean()),

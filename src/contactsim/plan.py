@@ -5,12 +5,14 @@ from __future__ import annotations
 import ast
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
-from contactsim import stability
+from contactsim import negligible, stability
 from contactsim.build import scene_of
 from contactsim.claims import Claim, selection
 from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, positive, read, size, text, whole
+from contactsim.effect_maps import reduced
 from contactsim.ensemble import widened
 from contactsim.errors import SceneError
 from contactsim.provenance import digest, module_path, source_digest
@@ -29,6 +31,14 @@ RESERVED = (
     "accuracy",
     "effects",
     "measure_effects",
+    "trial",
+    "trials",
+    "relations",
+    "measure_relations",
+    "decide",
+    "effect_maps",
+    "measure_map",
+    "freeze_maps",
     "stability",
     "targets",
     "run",
@@ -41,6 +51,8 @@ TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),
     "stability": Key(mapping, "a mapping of keys to override", {}),
     "effects": Key(mapping, "a mapping of keys to override", {}),
+    "trials": Key(mapping, "a mapping of keys to override", {}),
+    "effect_maps": Key(mapping, "a mapping of keys to override", {}),
 }
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies", {}),
@@ -93,13 +105,16 @@ class Figure:
 class Plan:
     """All that can be made at one tier: studies, figures, claims by chapter, and the map of stability if there is one.
 
-    results: the folder for it; seed: root of all random numbers; effects: what the tier changes in their ladder.
+    results: the folder for it; seed: root of all random numbers; effects, trials, effect_maps: what the tier changes in
+    the ladder of effects, the scenes drawn at random and the maps of what effects change.
     """
 
     tier: str
     results: Path
     seed: int
     effects: dict
+    trials: dict
+    effect_maps: dict
     studies: dict[str, Study]
     chapters: dict[str, str]
     figures: dict[str, Figure]
@@ -151,13 +166,46 @@ class Plan:
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
             )
         hazards = _stability(folder, overrides["stability"], tier)
-        paths = Path(main["results"]) / tier, main["seed"], overrides["effects"]
+        paths = (
+            Path(main["results"]) / tier,
+            main["seed"],
+            overrides["effects"],
+            overrides["trials"],
+            overrides["effect_maps"],
+        )
         return cls(tier, *paths, studies, chapters, figures, claims, hazards)
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """The run that a file name stands for."""
         runs = {(run.variant, str(run.member)): run for run in self.studies[study].runs()}
         return runs[variant, member]
+
+    def decision(self, run: Run) -> list[Path]:
+        """The file that says what is negligible in a run; none where nothing is to be left out by itself."""
+        return [self.results / f"decisions/{run.study}/{run.variant}.json"] if "auto" in run.settings else []
+
+    def twin(self, run: Run) -> list[Path]:
+        """Dataset and decision of an earlier run that is expected to be the same without what is negligible."""
+        other = self._twins.get(run.stem)
+        return [] if other is None else [self.results / f"runs/{other.stem}.nc", *self.decision(other)]
+
+    @cached_property
+    def _twins(self) -> dict[str, Run]:
+        """By name of a run, the first of its study and member whose scene is the same without what is negligible."""
+        found, first = {}, {}
+        for study in self.studies.values():
+            for run in study.runs() if study.settings["auto"] else ():
+                if "auto" in run.settings:
+                    left = negligible.foreseen(run.settings, study.settings["auto"]["within"])
+                    key = study.name, run.member, run.error, reduced(run.settings | {"leave_out": left})
+                    if left and first.setdefault(key, run) is not run:
+                        found[run.stem] = first[key]
+        return found
+
+    def decision_settings(self, study: str, variant: str) -> dict:
+        """What a decision on what is negligible depends on."""
+        run = self.run(study, variant, "0")
+        return {"settings": run.settings, "source": digest(run.source, negligible.source())}
 
     def dataset_name(self, study: str) -> str:
         """File name of a study's dataset, without ending."""

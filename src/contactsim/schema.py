@@ -35,6 +35,35 @@ def some_of(known: Mapping[str, object]) -> Callable[[object], list[str]]:
     return lambda value: [] if value == [] else listed(choice(known))(value)
 
 
+def fraction(value: object) -> float:
+    """A number above zero and below one."""
+    if not 0 < number(value) < 1:
+        raise ValueError
+    return number(value)
+
+
+def error_or_more(value: object) -> float | dict:
+    """A relative error, or a mapping, read further where its place is known."""
+    return value if isinstance(value, dict) else fraction(value)
+
+
+def effects_or_more(value: object) -> list[str] | dict:
+    """A list of effects, or a mapping, read further where its place is known."""
+    return value if isinstance(value, dict) else listed(choice(EFFECTS))(value)
+
+
+AUTO_KEYS = {
+    "auto": Key(listed(choice(EFFECTS)), f"a list from {sorted(EFFECTS)}"),
+    "within": Key(fraction, "a relative change, above 0 and below 1"),
+    "of": Key(listed(text), "a list of quantities"),
+    "sample": Key(whole(1), "a whole number of members, 1 or more", 1),
+}
+ACCURACY_KEYS = {
+    "error": Key(fraction, "a relative error, above 0 and below 1"),
+    "of": Key(listed(text), "a list of quantities", []),
+}
+
+
 ORIGINS = ("mean_plane", "first_touch")
 """Where approach is zero: see `contactsim.loading`."""
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
@@ -68,7 +97,7 @@ STUDY_KEYS = {
     "title": Key(text, "a line of text"),
     "surface": Key(mapping, "a mapping with `kind` and that kind's keys"),
     "body": Key(mapping, "a mapping with `kind` and that kind's keys"),
-    "effects": Key(listed(choice(EFFECTS)), f"a list from {sorted(EFFECTS)}"),
+    "effects": Key(effects_or_more, f"a list from {sorted(EFFECTS)}, or a mapping with `auto`, `within` and `of`"),
     "load": Key(mapping, f"a mapping with one of {', '.join(LOADS)} and its list of values", None),
     "path": Key(
         mapping, "a mapping with one of approach and mean_pressure, a list of turning points, and increment", None
@@ -91,7 +120,8 @@ STUDY_KEYS = {
     "leave_out": Key(some_of(LEFT_OUT), f"a list from {', '.join(LEFT_OUT)}", []),
     "whole": Key(mapping, "a mapping with `members`, of runs with nothing left out", None),
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
-    "tolerance": Key(positive, "a positive number of grid steps"),
+    "tolerance": Key(positive, "a positive number of grid steps", None),
+    "accuracy": Key(error_or_more, "a relative error below 1, or a mapping with `error` and `of`", None),
     "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
     "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
 }
@@ -100,15 +130,19 @@ STUDY_KEYS |= {
     for name in EFFECTS
     if keys_of(EFFECTS[name])
 }
+CHOSEN = ("points", "tolerance", "increments", "companion", "tight")
+"""What a study leaves out where it asks for an accuracy, beside the increments of its path."""
+BEGIN = {"points": 2**14, "tolerance": 1e-3}
+"""Of a run whose own are chosen for an accuracy, until they are."""
 PATH_KEYS = {
     "approach": Key(turning, "a list of turning points in nm, two or more", None),
     "mean_pressure": Key(turning, "a list of turning points in GPa, two or more", None),
-    "increment": Key(positive, "a positive number"),
+    "increment": Key(positive, "a positive number", None),
     "origin": Key(choice(ORIGINS), f"one of {', '.join(ORIGINS)}", ORIGINS[0]),
 }
 SLIDE_KEYS = {
     "through": Key(turning, "a list of turning points in nm, two or more; the first is where the slide begins"),
-    "increment": Key(positive, "a positive number of nm"),
+    "increment": Key(positive, "a positive number of nm", None),
     "approach": Key(number, "the approach in nm at which surfaces slide, to which the path goes on, or left out", None),
     "mean_pressure": Key(number, "the mean pressure in GPa under which surfaces slide, or left out", None),
 }
@@ -129,6 +163,42 @@ COMPANIONS = {
 """Sections that ask for runs that measure an error: the key in which they differ, what they measure, and their keys."""
 
 
+def acting(settings: dict, file: object, prefix: str) -> dict:
+    """Effects as a list and, where what is negligible among them is to be left out, to what tolerance."""
+    given = settings["effects"]
+    if not isinstance(given, dict):
+        return {"auto": None}
+    auto = read(given, AUTO_KEYS, file, f"{prefix}.effects")
+    if settings["leave_out"]:
+        allowed = "left out, for what is negligible is left out anyway"
+        raise SceneError(f"{prefix}.leave_out", settings["leave_out"], allowed, file)
+    effects = auto.pop("auto")
+    if auto["sample"] > settings["members"]:
+        allowed = f"at most {settings['members']}, the study's members"
+        raise SceneError(f"{prefix}.effects.sample", auto["sample"], allowed, file)
+    return {"effects": effects, "auto": auto}
+
+
+FOLLOWS = "left out, for it follows from the accuracy"
+
+
+def settled(section: dict, settings: dict, file: object, prefix: str) -> dict:
+    """Settings with a tolerance and, for an accuracy, a grid to begin with; SceneError where both say something."""
+    if settings["accuracy"] is None:
+        if settings["tolerance"] is None:
+            allowed = f"{STUDY_KEYS['tolerance'].allowed} (the key is missing)"
+            raise SceneError(f"{prefix}.tolerance", "nothing", allowed, file)
+        return settings
+    for key in CHOSEN:
+        if section.get(key) is not None:
+            raise SceneError(f"{prefix}.{key}", section[key], FOLLOWS, file)
+    if "points" in settings["vary"]:
+        raise SceneError(f"{prefix}.vary.points", settings["vary"]["points"], FOLLOWS, file)
+    given = settings["accuracy"]
+    accuracy = read(given if isinstance(given, dict) else {"error": given}, ACCURACY_KEYS, file, f"{prefix}.accuracy")
+    return settings | BEGIN | {"accuracy": accuracy}
+
+
 def read_load(settings: dict, file: object, prefix: str) -> dict:
     """The loads of a study by name and values; of a path, its steps."""
     given = [name for name in ("load", "path") if settings[name] is not None]
@@ -139,7 +209,7 @@ def read_load(settings: dict, file: object, prefix: str) -> dict:
         if is_smooth(settings):
             raise SceneError(f"{prefix}.load", settings["load"], "path: smooth laws depend on what came before", file)
         return _loads(settings["load"], file, f"{prefix}.load")
-    return _path(settings["path"], file, f"{prefix}.path")
+    return _path(settings["path"], settings["accuracy"] is not None, file, f"{prefix}.path")
 
 
 def _loads(section: dict, file: object, prefix: str) -> dict:
@@ -153,8 +223,19 @@ def _loads(section: dict, file: object, prefix: str) -> dict:
     return {"name": name, "values": sorted(numbers)}
 
 
-def _path(section: dict, file: object, prefix: str) -> dict:
-    section = read(section, PATH_KEYS, file, prefix)
+def _paced(section: dict, accurate: bool, file: object, prefix: str) -> dict:
+    """A section with increments: its own or, where they follow from an accuracy, some to begin with."""
+    if accurate and section["increment"] is not None:
+        raise SceneError(f"{prefix}.increment", section["increment"], FOLLOWS, file)
+    if not accurate and section["increment"] is None:
+        raise SceneError(
+            f"{prefix}.increment", "nothing", f"{PATH_KEYS['increment'].allowed} (the key is missing)", file
+        )
+    return section | {"increment": section["increment"] or 1.0}
+
+
+def _path(section: dict, accurate: bool, file: object, prefix: str) -> dict:
+    section = _paced(read(section, PATH_KEYS, file, prefix), accurate, file, prefix)
     controls = [name for name in ("approach", "mean_pressure") if section[name] is not None]
     if len(controls) != 1:
         raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
@@ -174,15 +255,15 @@ def read_slide(settings: dict, file: object, prefix: str) -> dict | None:
         return None
     if not is_smooth(settings) or settings["path"] is None:
         raise SceneError(f"{prefix}.slide", settings["slide"], "left out, but for smooth laws and a path", file)
-    section = slide_part(settings["slide"], file, f"{prefix}.slide")
+    section = slide_part(settings["slide"], file, f"{prefix}.slide", settings["accuracy"] is not None)
     if "approach" in section and settings["load"]["control"] != "approach":
         raise SceneError(f"{prefix}.slide.approach", section["approach"], "mean_pressure, as the path has", file)
     return section
 
 
-def slide_part(section: dict, file: object, prefix: str) -> dict:
-    """The section of a slide, with the one thing that is held."""
-    section = read(section, SLIDE_KEYS, file, prefix)
+def slide_part(section: dict, file: object, prefix: str, accurate: bool = False) -> dict:
+    """The section of a slide, with the one thing that is held; accurate: whether its increments follow."""
+    section = _paced(read(section, SLIDE_KEYS, file, prefix), accurate, file, prefix)
     left_out = [name for name in ("approach", "mean_pressure") if section[name] is None]
     if len(left_out) != 1:
         raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)

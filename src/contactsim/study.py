@@ -15,6 +15,7 @@ from pathlib import Path
 
 from contactsim import dataset
 from contactsim.build import increments_of, points_of, scene_of
+from contactsim.choice import chosen
 from contactsim.config import Key, choice, keys_of, read
 from contactsim.errors import SceneError
 from contactsim.interface import check_tolerance
@@ -28,14 +29,19 @@ from contactsim.schema import (
     MODULI,
     RIGID,
     STUDY_KEYS,
+    acting,
     is_smooth,
     read_load,
     read_slide,
+    settled,
     slide_part,
     usual_solver,
 )
 from contactsim.solvers import module_of, solver
 from contactsim.solvers.base import require
+
+FOLLOWED = {"accuracy": "confirm", "auto": "negligible"}
+"""Modules that compute a run beside those that any does, by the key that asks for it."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +66,9 @@ class Run:
     @cached_property
     def source(self) -> str:
         """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
-        return digest(source_digest("contactsim.march", module_of(self.settings["solver"]["kind"])), versions())
+        follows = ["march"] + [module for key, module in FOLLOWED.items() if key in self.settings]
+        follows = [f"contactsim.{module}" for module in follows]
+        return digest(source_digest(*follows, module_of(self.settings["solver"]["kind"])), versions())
 
     @cached_property
     def digest(self) -> str:
@@ -87,6 +95,7 @@ class Study:
         """Check a section of a chapter's config, down to the scene of every variant."""
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
+        settings = settled(section, settings | acting(settings, file, prefix), file, prefix)
         settings["load"] = read_load(settings, file, prefix)
         settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
@@ -195,11 +204,23 @@ class Study:
         settings = drawn | shared | parts
         if not settings["leave_out"]:
             del settings["leave_out"]  # as if it were not thought of
+        if self.settings["auto"] is not None and error != COMPANIONS["whole"][1]:
+            settings["auto"] = self.settings["auto"]
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
+        if self.settings["accuracy"] is not None:
+            settings = self._chosen(settings)
         coordinates = {dataset.dimension(name): value for name, value in varied.items()}
         variant = digest(varied, *change.values() or [None])[:8]
         return Run(self.name, variant, member, coordinates, settings, error)
+
+    def _chosen(self, settings: dict) -> dict:
+        """A run's settings with the grid, tolerance and increments that it begins with for the accuracy asked for."""
+        asked = self.settings["accuracy"]
+        try:
+            return chosen(settings, **asked) | {"accuracy": asked}
+        except SceneError as error:
+            raise error.within(self.file, f"studies.{self.name}") from error
 
     def _sections(self) -> list[str]:
         """Names of the sections that this study's runs depend on."""
@@ -259,7 +280,7 @@ def _companion(part: str, settings: dict, file: object, prefix: str) -> dict:
     if given["members"] > settings["members"]:
         allowed = f"at most {settings['members']}, the study's members"
         raise SceneError(f"{prefix}.{part}.members", given["members"], allowed, file)
-    if knob not in keys and not settings[knob]:
+    if knob not in keys and not (settings[knob] or settings["auto"]):
         raise SceneError(f"{prefix}.{part}", given, f"none, for the study has no {knob}", file)
     if knob in keys and (settings[knob] is None or given[knob] >= settings[knob]):
         allowed = f"below the study's {knob}, {settings[knob]}"

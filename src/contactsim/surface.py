@@ -11,6 +11,7 @@ is the one asked for, the gradient being that of the band-limited profile itself
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 from dataclasses import dataclass, field
@@ -186,7 +187,8 @@ class SelfAffine(_Smooth):
     The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
     rolloff_wavelength, shortest_wavelength: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
     over a surface being the root of the mean of both squared slopes added; rng: draws the modes, two numbers each,
-    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone).
+    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); smoothed: waves shorter than this are
+    then left out, nm.
     """
 
     length: float
@@ -197,6 +199,7 @@ class SelfAffine(_Smooth):
     rms_height: float | None = None
     amplitudes: str = "gaussian"
     dimensions: int = 1
+    smoothed: float | None = None
     rng: np.random.Generator = field(kw_only=True)
 
     def __post_init__(self) -> None:
@@ -216,6 +219,9 @@ class SelfAffine(_Smooth):
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
                 raise SceneError(name, value, f"a positive, finite number{unit}")
+        if self.smoothed is not None and not 0 < self.smoothed < self.rolloff_wavelength:
+            allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm, or left out"
+            raise SceneError("smoothed", self.smoothed, allowed)
         if self.amplitudes not in AMPLITUDES:
             raise SceneError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
 
@@ -226,7 +232,12 @@ class SelfAffine(_Smooth):
         In two dimensions the waves with |k| up to `modes` are kept, all others are zero. That is the disc of the
         highest mode along the axes, so oblique waves between its wavelength and the shortest are left out.
         """
-        return int(np.ceil(self.length / self.shortest_wavelength * (1 - 1e-12))) - 1
+        return _waves(self.length, self.finest)
+
+    @property
+    def finest(self) -> float:
+        """Wavelength above which there are waves, nm."""
+        return max(self.shortest_wavelength, self.smoothed or 0.0)
 
     @cached_property
     def coefficients(self) -> Array:
@@ -234,12 +245,23 @@ class SelfAffine(_Smooth):
 
         Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
         """
-        *y, x = self._mode_numbers()
+        if self.smoothed is None:
+            return self._drawn(self.modes)
+        modes = self.modes
+        half = self._drawn(_waves(self.length, self.shortest_wavelength))[..., : modes + 1]
+        if self.dimensions == 2:
+            half = np.concatenate((half[: modes + 1], half[half.shape[0] - modes :]))
+        *y, x = self._mode_numbers(modes)
+        return half * (self._wavenumber(*y, x) <= 2 * np.pi / self.length * modes * (1 + 1e-12))
+
+    def _drawn(self, modes: int) -> Array:
+        """Coefficients of all waves up to `modes`, of the size that is asked for; the same each time."""
+        *y, x = self._mode_numbers(modes)
         q = self._wavenumber(*y, x)
         drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
-        drawn &= q <= 2 * np.pi / self.length * self.modes * (1 + 1e-12)
+        drawn &= q <= 2 * np.pi / self.length * modes * (1 + 1e-12)
         order = np.lexsort([*(k[drawn] for k in y), x[drawn], np.max(np.abs([x, *y]), axis=0)[drawn]])
-        normal = self.rng.standard_normal((order.size, 2)) @ np.array([1, 1j])
+        normal = copy.deepcopy(self.rng).standard_normal((order.size, 2)) @ np.array([1, 1j])
         if self.amplitudes == "fixed":
             normal /= np.abs(normal)
         half = np.zeros(x.shape, complex)
@@ -252,9 +274,9 @@ class SelfAffine(_Smooth):
             return half * (self.rms_gradient / _rms(half, q))
         return half * (self.rms_height / _rms(half))
 
-    def _mode_numbers(self) -> list[Array]:
+    def _mode_numbers(self, modes: int) -> list[Array]:
         """Whole numbers of waves in the period for each coefficient, along y first."""
-        along = np.arange(self.modes + 1)
+        along = np.arange(modes + 1)
         across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
         return list(np.meshgrid(*across, along, indexing="ij"))
 
@@ -265,9 +287,9 @@ class SelfAffine(_Smooth):
     @property
     def gradient(self) -> float:
         """Rms gradient of this very profile: the one asked for, or what follows from its rms height."""
-        if self.rms_gradient is not None:
+        if self.rms_gradient is not None and self.smoothed is None:
             return self.rms_gradient
-        return _rms(self.coefficients, self._wavenumber(*self._mode_numbers()))
+        return _rms(self.coefficients, self._wavenumber(*self._mode_numbers(self.modes)))
 
     def heights(self, points: int) -> Array:
         """Heights with zero mean, shape (points,) or (points, points), nm."""
@@ -276,6 +298,11 @@ class SelfAffine(_Smooth):
         half = np.zeros(grid.half_shape, complex)
         half[grid.low_modes(self.modes)] = self.coefficients
         return grid.backward(half)
+
+
+def _waves(length: float, finest: float) -> int:
+    """Most waves in a period whose wavelength is strictly above the finest."""
+    return int(np.ceil(length / finest * (1 - 1e-12))) - 1
 
 
 def _rms(half: Array, factor: Array | float = 1.0) -> float:

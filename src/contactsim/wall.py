@@ -82,12 +82,23 @@ def _differences(heights: Array, scale: float) -> Array:
     return np.stack([here - heights[y, x - 1] / scale, here - heights[y - 1, x] / scale])
 
 
+@dataclass(frozen=True)
+class Begun:
+    """A solution on fewer points, from which a cascade of grids can begin.
+
+    pressure in E*·step/spacing, gap in grid steps of the problem that it is handed to; (m,) or (my, mx).
+    """
+
+    pressure: Array
+    gap: Array
+
+
 @dataclass
 class WallProblem:
     """The complementarity problem at one load step, without units (see the module's text).
 
     heights: (n,) or (ny, nx), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure)
-    and approach (beyond first touch) is given; tally counts the work.
+    and approach (beyond first touch) is given; tally counts the work; begun: where a cascade may begin.
     """
 
     heights: Array
@@ -96,6 +107,7 @@ class WallProblem:
     load: float | None
     approach: float | None
     tally: Tally
+    begun: Begun | None = None
 
     @property
     def untouched(self) -> bool:
@@ -113,7 +125,15 @@ class WallProblem:
         grid = self.compliance.grid.coarser(shape)
         symbol = self.compliance.symbol[grid.modes_of(self.compliance.grid)] * ratio
         approach = None if self.approach is None else self.approach * ratio + highest
-        return WallProblem(picked, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally)
+        begun = self.begun and replace(self.begun, gap=self.begun.gap * ratio)
+        return WallProblem(
+            picked, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally, begun
+        )
+
+    @property
+    def near_begun(self) -> bool:
+        """Whether it has at most twice as many points a side as what it may begin from."""
+        return self.begun is not None and self.heights.shape[-1] <= 2 * self.begun.pressure.shape[-1]
 
     def admissible(self, pressure: Array) -> Array:
         """The nearest field with p ≥ 0 and exactly the load asked for, in memory of its own."""

@@ -4,7 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from contactsim import cost, ladder
+from contactsim import calibration, cost, draws, effect_maps, ladder, outlook, trials
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical
@@ -16,12 +16,16 @@ try:
     PLAN = Plan.read(CONFIG, config.get("tier"))
     CASES = cost.read_cases(CONFIG, PLAN)
     LADDER = ladder.read_ladder(CONFIG, PLAN.seed, PLAN.effects)
+    DRAWS = draws.read_draws(CONFIG, PLAN.trials)
+    MAPS = effect_maps.read_maps(CONFIG, PLAN.effect_maps)
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
 sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it and does not quote it
 STABILITY = ["stability"] if PLAN.stability else []
 EFFECTS = ["effects"] if LADDER else []
+TRIALS = ["trials"] if DRAWS else []
+EFFECT_MAPS = ["effect_maps"] if MAPS else []
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     Path(".snakemake").mkdir(exist_ok=True)
@@ -32,13 +36,20 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
         sys.exit("Error: another snakemake is at work in this folder; wait for it or stop it")
 
 
+onstart:
+    _jobs = list(workflow.dag.needrun_jobs())
+    _runs = [(PLAN.run(*map(str, job.wildcards)), job.output.costs) for job in _jobs if job.rule.name == "run"]
+    _others = sum(job.rule.name != "run" and not job.is_local for job in _jobs)
+    print(outlook.told(_runs, _others, workflow.cores), file=sys.stderr)
+
+
 def figure_files(name):
     kinds = PLAN.figures[name].endings if name in PLAN.figures else ("png", "pdf", "csv")
     return [RESULTS / "figures" / f"{name}.{kind}" for kind in kinds]
 
 
 def all_figures(wildcards):
-    names = [*PLAN.figures, *STABILITY, *EFFECTS, *(f"accuracy_{case}" for case in CASES)]
+    names = [*PLAN.figures, *STABILITY, *EFFECTS, *TRIALS, *EFFECT_MAPS, *(f"accuracy_{case}" for case in CASES)]
     return [file for name in names for file in figure_files(name)]
 
 
@@ -51,6 +62,8 @@ def target_lines():
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
     lines += [f"  {name:14} {PLAN.stability['title']}" for name in STABILITY]
     lines += [f"  {name:14} {LADDER['title']}" for name in EFFECTS]
+    lines += [f"  {name:14} {DRAWS['title']}" for name in TRIALS]
+    lines += [f"  {name:14} {MAPS['title']}" for name in EFFECT_MAPS]
     lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
     return "\n".join([*lines, f"  {'all':14} all of these"])

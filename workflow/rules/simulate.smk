@@ -10,7 +10,32 @@ def run_label(wildcards):
     return " ".join(["", *places, f"on {run.settings['points']} points"])
 
 
+def run_decision(wildcards):
+    return PLAN.decision(PLAN.run(wildcards.study, wildcards.variant, wildcards.member))
+
+
+def run_twin(wildcards):
+    return PLAN.twin(PLAN.run(wildcards.study, wildcards.variant, wildcards.member))
+
+
+def decide_params(wildcards):
+    return canonical(PLAN.decision_settings(wildcards.study, wildcards.variant))
+
+
+rule decide:
+    output:
+        decision=RESULTS / "decisions/{study}/{variant}.json",
+        costs=RESULTS / "costs/decisions/{study}/{variant}.json",
+    log: RESULTS / "logs/decisions/{study}/{variant}.log"
+    params: plan=decide_params
+    message: "{wildcards.study} {wildcards.variant}: what is negligible"
+    script: "../scripts/decide.py"
+
+
 rule run:
+    input:
+        decision=run_decision,
+        twin=run_twin,
     output:
         data=update(RESULTS / "runs/{study}/{variant}/{member}.nc"),
         costs=update(RESULTS / "costs/runs/{study}/{variant}/{member}.json"),

@@ -114,7 +114,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     if "beyond" in data and (far := validity.told(data)):
         parts.append(f"beyond the model: {', '.join(far)} of the states")
     priced = PRICED_SLIDES if "static_friction" in data else PRICED
-    for error in ("grid", "increment", "tolerance", "left_out"):
+    for error in ("grid", "increment", "tolerance", "left_out", "estimated"):
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
             for name, words in priced.items()

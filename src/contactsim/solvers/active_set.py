@@ -284,10 +284,17 @@ class NestedActiveSet(ActiveSet):
     def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or from the solution on half as many points, and so on down to the coarsest level."""
         size, half = problem.heights.size, problem.heights.size // 2
-        if guess is None and half >= self.coarsest:
+        if guess is None and problem.near_begun:
+            guess = _between(problem.begun.pressure, size)
+        elif guess is None and half >= self.coarsest:
             coarse = problem.coarser(self.coarse_tolerance)
             if not coarse.untouched:
                 state, *_ = iterate(self, coarse, self.start(coarse), self.coarse_budget)
-                positions = np.arange(half + 1) * (size / half)
-                guess = np.interp(np.arange(size), positions, np.append(state.pressure, state.pressure[0]))
+                guess = _between(state.pressure, size)
         return super().start(problem, guess)
+
+
+def _between(pressure: Array, size: int) -> Array:
+    """A periodic field (m,) on the points of a finer grid (size,)."""
+    positions = np.arange(pressure.size + 1) * (size / pressure.size)
+    return np.interp(np.arange(size), positions, np.append(pressure, pressure[0]))

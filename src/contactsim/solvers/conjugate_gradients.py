@@ -208,12 +208,15 @@ class NestedConjugateGradients(ConjugateGradients):
 
     def start(self, problem: WallProblem, guess: Array | None = None) -> State:
         """From a guess, or from the solution on half as many points a side, and so on down to the coarsest level."""
-        if guess is None and min(problem.heights.shape) // 2 >= self.coarsest:
+        signed = None
+        if guess is None and problem.near_begun:
+            signed = _one_field(problem.begun.pressure, problem.begun.gap)
+        elif guess is None and min(problem.heights.shape) // 2 >= self.coarsest:
             coarse = problem.coarser(self.coarse_tolerance)
-            if not coarse.untouched:
-                signed = self._signed(coarse)
-                guess = np.empty_like(problem.heights)
-                kernels.Rows(guess.shape, problem.compliance.grid.threads)(refinement.refine, signed, guess)
+            signed = None if coarse.untouched else self._signed(coarse)
+        if signed is not None:
+            guess = np.empty_like(problem.heights)
+            kernels.Rows(guess.shape, problem.compliance.grid.threads)(refinement.refine, signed, guess)
         return super().start(problem, guess)
 
     def _signed(self, problem: WallProblem) -> Array:
@@ -221,4 +224,9 @@ class NestedConjugateGradients(ConjugateGradients):
         pressure, gap = self.start(problem).pressure, np.empty(problem.heights.shape, np.float32)
         level = ConjugateGradients(self.coarse_budget, self.wavelength).relax(problem, pressure, gap)[1]
         gap -= np.float32(level)
-        return np.where(pressure > 0, pressure, -OPENING * np.maximum(gap, 0))
+        return _one_field(pressure, gap)
+
+
+def _one_field(pressure: Array, gap: Array) -> Array:
+    """Pressure where there is contact and, with a negative sign, the gap elsewhere; (ny, nx)."""
+    return np.where(pressure > 0, pressure, -OPENING * np.maximum(gap, 0))

@@ -1,0 +1,201 @@
+"""Grid, tolerance and increments for an accuracy that is asked for, before anything runs.
+
+They follow from relations that were measured (`contactsim.relations`). An accuracy is a relative error of a run's
+quantities; each knob gets its share of it. What is chosen here is where a run begins; `contactsim.confirm` finds out
+whether it was right.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from contactsim.build import scene_of
+from contactsim.errors import SceneError
+from contactsim.relations import (
+    LINE,
+    MEASURES,
+    PATH,
+    ROUGH_PATH,
+    SLIDE,
+    SURFACE,
+    Kind,
+    Relation,
+    contact_scale,
+    features,
+    kind_of,
+    relations,
+)
+from contactsim.scene import Scene
+from contactsim.schema import is_smooth
+from contactsim.surface import SelfAffine
+from contactsim.traits import Trait
+
+SAFETY = {LINE: 0.6, SURFACE: 0.85, PATH: 0.85, ROUGH_PATH: 0.8, SLIDE: 0.85}
+"""Part of an error that the grid is chosen for: less where scenes of a kind differ more than what is known of them."""
+SHARES = {"increment": 0.2, "tolerance": 0.1}
+"""Parts of the error that other knobs may make."""
+SIZES = (8, 9, 10, 12, 15)
+"""Points of a grid are one of these times a power of two: short transforms, and blocks of eight."""
+FEWEST = 16
+"""Least points of a grid; a run has twice as many, as its companion has fewer."""
+LARGEST = 2**28
+"""Most points of a grid that an accuracy may lead to."""
+COARSER = {LINE: 5.0}
+"""How many times coarser the companion of a run is than what is expected to be needed, if not three times."""
+PATH_TOLERANCE = 1e-4
+"""Tolerance on paths, in parts of the strength: one that is looser costs more, as states are then sought by flow."""
+TOLERANCES = (1e-4, 1e-2)
+"""Least and largest tolerance at a wall, in grid steps."""
+WAVES = 2.5
+"""Least points for each shortest wavelength."""
+
+
+def at_least(points: float) -> int:
+    """The smallest grid with that many points that the transforms like."""
+    exponent = max(math.ceil(math.log2(max(points, FEWEST) / SIZES[-1])), 0)
+    sizes = [size * 2**power for size in SIZES for power in range(exponent + 2) if size * 2**power >= FEWEST]
+    return min(size for size in sizes if size >= points)
+
+
+def chosen(settings: dict, error: float, of: Sequence[str] = ()) -> dict:
+    """A run's settings with the grid, tolerance and increments for a relative error of quantities.
+
+    settings: of a run, whose path may have any increments; of: names of quantities, the usual ones where empty.
+    """
+    scene = scene_of(settings)
+    kind = kind_of(scene)
+    known, names = relations().kinds[kind], of or MEASURES[kind]
+    for name in names:
+        if name not in known.errors["points"]:
+            raise SceneError("accuracy.of", name, f"some of {', '.join(known.errors['points'])}")
+    found = dict(settings)
+    if is_smooth(settings):
+        found |= _paced(settings, scene, known, names, error)
+        found["tolerance"] = min(PATH_TOLERANCE, error * PATH_TOLERANCE / 1e-2)
+        scene = scene_of(found)
+    scale = scales(scene)
+    spacing = min(
+        scale_of * math.exp(grid)
+        for one, scale_of in zip(features(scene), scale, strict=True)
+        for grid in _solved(known.errors["points"], names, "grid", one, SAFETY[kind] * error)
+    )
+    found["points"] = grid_for(scene, max(scene.length / spacing, 2 * FEWEST), error)
+    if not is_smooth(settings):
+        worst = [
+            _solved(known.errors["tolerance"], names, "tolerance", one, SHARES["tolerance"] * error)
+            for one in on_grid(scene, found["points"])
+        ]
+        found["tolerance"] = float(np.clip(math.exp(min(min(each) for each in worst)), *TOLERANCES))
+    else:
+        found["increments"] = walked(scene, kind, found["points"], settings)
+    return found
+
+
+def grid_for(scene: Scene, points: float, error: float) -> int:
+    """The grid of about that many points which resolves the surface; SceneError where it is beyond all bounds."""
+    surface = scene.upper.surface
+    if isinstance(surface, SelfAffine):
+        points = max(points, WAVES * surface.length / surface.finest)
+    if not math.prod(surface.shape(at_least(min(points, LARGEST)))) <= LARGEST or points > LARGEST:
+        raise SceneError("accuracy", error, f"an error for which {LARGEST:.2g} grid points are enough")
+    return at_least(points)
+
+
+def coarser(settings: dict, points: int | None = None) -> dict:
+    """The companion of a run: every knob coarser; points: those of its grid, if they are known."""
+    scene = scene_of(settings)
+    ratio = COARSER.get(kind_of(scene), 3.0)
+    found = settings | {"points": points or grid_for(scene, settings["points"] / ratio, 0.0)}
+    if is_smooth(settings):
+        found |= rescaled(settings, 2.0)
+        found["increments"] = walked(scene, kind_of(scene), found["points"], settings)
+    return found
+
+
+def rescaled(settings: dict, factor: float) -> dict:
+    """The sections of a run with increments: those of its path, or slide, times a factor."""
+    part = "slide" if settings.get("slide") else "load"
+    return {part: settings[part] | {"increment": settings[part]["increment"] * factor}}
+
+
+def _solved(
+    laws: dict[str, Relation], names: Sequence[str], knob: str, one: dict[str, float], target: float
+) -> list[float]:
+    """The logarithm of a knob at which the errors of quantities are on a target, as far as they depend on it."""
+    found = []
+    for name in names:
+        law = laws.get(name)
+        if law is None or not law.coefficients.get(knob, 0.0) > FLAT:
+            continue
+        rest = math.log(law(one | {knob: 0.0}))
+        found.append((math.log(target) - rest) / law.coefficients[knob])
+    return found
+
+
+def scales(scene: Scene) -> list[float]:
+    """The length that contacts are measured by, for each set of features, nm."""
+    if Trait.WALL in scene.traits:
+        return [contact_scale(scene, step.value) for step in scene.path.steps]
+    return [contact_scale(scene)]
+
+
+def left_open(settings: dict, known: Kind, name: str) -> float:
+    """The relative error of a quantity of a path that its grid and increments are expected to leave."""
+    scene = scene_of(settings)
+    (place,) = on_grid(scene, settings["points"])
+    part = settings["slide" if settings.get("slide") else "load"]
+    place |= {"increment": math.log(part["increment"] / _reach(scene))}
+    laws = [known.errors[knob][name] for knob in ("points", "increment") if name in known.errors[knob]]
+    return sum(law(place) for law in laws)
+
+
+def _reach(scene: Scene) -> float:
+    """The laws' length, nm."""
+    return min(effect.reach for effect in scene.effects if Trait.SMOOTH in effect.traits)
+
+
+def on_grid(scene: Scene, points: int) -> list[dict[str, float]]:
+    """Features with the grid's: spacing over what contacts are measured by; and the number of points."""
+    spacing, size = scene.length / points, math.prod(scene.upper.surface.shape(points))
+    return [
+        one | {"grid": math.log(spacing / scale), "size": math.log(size)}
+        for one, scale in zip(features(scene), scales(scene), strict=True)
+    ]
+
+
+def _paced(settings: dict, scene: Scene, known: Kind, names: Sequence[str], error: float) -> dict:
+    """The sections of a run with the increments of its path for an error."""
+    (one,) = features(scene)
+    reach = _reach(scene)
+    found = _solved(known.errors["increment"], names, "increment", one, SHARES["increment"] * error)
+    part = "slide" if settings.get("slide") else "load"
+    increment = float(f"{reach * math.exp(min([*found, math.log(LONGEST)])):.2g}")
+    return {part: settings[part] | {"increment": increment}} | _pressed(settings, increment)
+
+
+FLAT = 0.3
+"""Powers of a knob below it count as none."""
+LONGEST = 2.0
+"""Longest increment of a path, in the laws' length."""
+
+
+def _pressed(settings: dict, increment: float) -> dict:
+    """The path that presses before a slide, in increments of its own, as nothing is read off it."""
+    return {"load": settings["load"] | {"increment": max(increment, 0.5)}} if settings.get("slide") else {}
+
+
+def walked(scene: Scene, kind: str, points: int, settings: dict) -> dict:
+    """How a path is walked on a grid."""
+    if kind == SLIDE or scene.path.steps[0].control is not Trait.APPROACH:
+        return {"kind": "requested"}
+    if kind != ROUGH_PATH:
+        return {"kind": "adaptive"}
+    waves = points * contact_scale(scene) / scene.length
+    ratio = 2 ** int(np.clip(round(math.log2(waves / 2)), 0, 4))
+    while points % (2 * ratio):
+        ratio //= 2
+    settled = sorted(set(settings["load"]["through"][1:]))
+    return {"kind": "nested", "settled": settled, "ratio": ratio, "between": min(2, ratio)}

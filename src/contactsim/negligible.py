@@ -1,0 +1,147 @@
+"""Effects that a study leaves out because they are negligible: by the maps, and by a check on a sample.
+
+The maps say which effects may be left out to a tolerance. A sample of members is solved with and without them on a
+coarser grid, which costs little and changes the effect of an effect hardly; what the check does not bear out stays. An
+effect that the maps find near the tolerance is checked as well; one that they do not know stays.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import time
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from contactsim import confirm, dataset, march
+from contactsim.build import scene_of
+from contactsim.choice import coarser
+from contactsim.confirm import Outcome
+from contactsim.effect_maps import FILE, change, expected
+from contactsim.leaving_out import LEFT_OUT
+from contactsim.march import Files, keep, names_of
+from contactsim.provenance import digest, source_digest
+from contactsim.schema import is_smooth
+
+logger = logging.getLogger(__name__)
+
+NEAR = 10.0
+"""Up to how many times the tolerance an effect is checked."""
+COARSER = 4
+"""How many times coarser the grid of the check is."""
+
+
+@dataclass
+class Decision:
+    """What is left out of a variant of a study, and why.
+
+    expected: by the maps, measured: on the sample, relative changes by effect; together: of all that is left out;
+    words: what was done; work: transforms times points of the check, seconds: its CPU time, kept apart.
+    """
+
+    left_out: list[str] = field(default_factory=list)
+    expected: dict[str, float | None] = field(default_factory=dict)
+    measured: dict[str, float] = field(default_factory=dict)
+    together: float = 0.0
+    words: str = ""
+    work: float = 0.0
+    seconds: float = 0.0
+
+    @property
+    def text(self) -> str:
+        """As it is kept."""
+        return json.dumps({name: value for name, value in asdict(self).items() if name != "seconds"}, indent=1)
+
+
+def source() -> str:
+    """Digest of what decides: the code, and the maps."""
+    return digest(source_digest("contactsim.negligible"), FILE.read_text(encoding="utf-8"))
+
+
+def effects_of(run: dict) -> list[str]:
+    """The effects of a run that can be left out."""
+    scene = scene_of(run | {"leave_out": []})
+    return [name for name, less in LEFT_OUT.items() if less(scene) != scene]
+
+
+def foreseen(run: dict, within: float) -> list[str]:
+    """The effects that the maps find negligible."""
+    found = {name: expected(run, name) for name in effects_of(run)}
+    return [name for name, value in found.items() if value is not None and value <= within]
+
+
+def decide(run: dict, within: float, of: list[str], sample: int) -> Decision:
+    """What may be left out of a run's scene so that quantities change by no more than a tolerance."""
+    found = Decision(expected={name: expected(run, name) for name in effects_of(run)})
+    samples = [_coarse(run | {"member": member}) for member in range(sample)]
+    known: list[dict[str, Outcome]] = [{} for _ in samples]
+
+    def measured(names: list[str]) -> float:
+        """The largest change on the sample."""
+        return max(change(one, names, of, solved) for one, solved in zip(samples, known, strict=True))
+
+    for name, value in found.expected.items():
+        if value is not None and value <= NEAR * within:
+            found.measured[name] = measured([name])
+    found.left_out = [name for name, value in found.measured.items() if value <= within]
+    found.together = measured(found.left_out) if found.left_out else 0.0
+    while found.together > within:
+        worst = max(found.left_out, key=found.measured.__getitem__)
+        found.left_out.remove(worst)
+        found.together = measured(found.left_out) if found.left_out else 0.0
+    solved = [one for each in known for one in each.values()]
+    found.work = sum(one.transforms * one.size for one in solved)
+    found.seconds = sum(one.seconds for one in solved)
+    found.words = _words(found, within)
+    logger.info(found.words)
+    return found
+
+
+def _coarse(run: dict) -> dict:
+    """A run on a coarser grid, which still carries its walk."""
+    if "accuracy" in run:
+        return coarser({name: value for name, value in run.items() if name != "accuracy"})
+    found = run | {"points": run["points"] // COARSER}
+    if is_smooth(run) and run["increments"]["kind"] == "nested":
+        ratio = max(run["increments"]["ratio"] // COARSER, 1)
+        found["increments"] = run["increments"] | {"ratio": ratio, "between": min(run["increments"]["between"], ratio)}
+    return found
+
+
+def _words(found: Decision, within: float) -> str:
+    """What was done, effect by effect."""
+    parts = []
+    for name, value in found.expected.items():
+        by_map = "no map knows it" if value is None else f"{value:.2g} by the maps"
+        by_check = f", {found.measured[name]:.2g} on the sample" if name in found.measured else ""
+        parts.append(f"{name} {'left out' if name in found.left_out else 'kept'}: {by_map}{by_check}")
+    return f"within {within:g}: " + "; ".join(parts or ["there is nothing to leave out"])
+
+
+def run(
+    settings: dict, source: str, files: Files, threads: int, decision: str | Path, twin: tuple[str | Path, ...] = ()
+) -> None:
+    """Compute a run without what was decided to be negligible, into its dataset and costs; see `march.run`.
+
+    decision: a file; twin: dataset and decision of a run whose scene is the same without what the maps find negligible,
+    which is taken over where both decisions bear that out.
+    """
+    found = json.loads(Path(decision).read_text(encoding="utf-8"))
+    left = found["left_out"]
+    told = {"left_out": ", ".join(left), "left_out_change": found["together"]}
+    settings = settings | {"leave_out": left}
+    if twin and json.loads(Path(twin[1]).read_text(encoding="utf-8"))["left_out"] == left:
+        begin = time.process_time()
+        data = dataset.read(twin[0]).drop_vars("point")
+        data = data.assign(
+            {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}, **told
+        )
+        names = names_of(settings | dataset.settings_of(data), source)
+        data = data.assign(seconds=(data.transforms.dims, np.zeros(data.transforms.size)))
+        logger.info("taken over from a run whose scene is the same without %s", told["left_out"])
+        keep(data.rename({data.transforms.dims[0]: "step"}), settings, names, source, files, begin)
+        return
+    follow = confirm.run if "accuracy" in settings else march.run
+    follow(settings, source, files, threads, told)

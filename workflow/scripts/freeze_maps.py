@@ -1,0 +1,13 @@
+"""All maps of what leaving effects out changes, as the package keeps them."""
+
+import json
+
+from contactsim import dataset
+from contactsim.effect_maps import as_text
+from contactsim.joblog import logged
+from contactsim.march import write_text
+
+logged(snakemake.log[0])
+settings = json.loads(snakemake.params.plan)
+maps = dict(zip(settings["maps"], map(dataset.read, snakemake.input), strict=True))
+write_text(as_text(maps, settings), snakemake.output[0])

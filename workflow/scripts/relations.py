@@ -1,0 +1,10 @@
+"""The relations of all kinds, fitted, as the package keeps them."""
+
+import pandas as pd
+
+from contactsim.calibration import as_text
+from contactsim.joblog import logged
+from contactsim.march import write_text
+
+logged(snakemake.log[0])
+write_text(as_text(pd.concat(map(pd.read_csv, snakemake.input))), snakemake.output[0])
