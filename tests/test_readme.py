@@ -10,13 +10,14 @@ import yaml
 
 import contactsim
 from conftest import ROOT
+from contactsim import draws, effect_maps
 from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.config import REQUIRED, keys_of
 from contactsim.cost import CASE_KEYS
 from contactsim.laws import EFFECTS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
 from contactsim.priced import SETTING_KEYS
-from contactsim.schema import COMPANIONS, KINDS, LOADS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
+from contactsim.schema import ACCURACY_KEYS, AUTO_KEYS, COMPANIONS, KINDS, LOADS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
 from contactsim.stability import STABILITY_KEYS
 from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs
@@ -105,6 +106,8 @@ def test_every_link_leads_somewhere():
             STABILITY_KEYS,
             dict.fromkeys(LOADS),
         ),
+        *(ACCURACY_KEYS, AUTO_KEYS, draws.KEYS, draws.DRAW_KEYS, *draws.RANGES.values()),
+        *(effect_maps.KEYS, effect_maps.MAP_KEYS, effect_maps.AXIS_KEYS, effect_maps.PANEL_KEYS),
         *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     ],
 )

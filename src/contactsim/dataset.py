@@ -88,6 +88,8 @@ VARIABLES = {
     "transforms_before": ("1", "real transforms of coarser runs before, in equivalents of one on the finest grid"),
     "accuracy": ("1", "relative error asked for"),
     "left_out": ("1", "effects left out as negligible"),
+    "decision": ("1", "what was left out as negligible and what was not, and why"),
+    "transforms_of_check": ("1", "real transforms of the check on a sample, in equivalents of one on the finest grid"),
     "left_out_change": ("1", "relative change without them, on a sample"),
     "change_without": ("1", "largest relative change on leaving an effect out"),
     "reached": ("1", "whether the accuracy is reached, as estimated"),

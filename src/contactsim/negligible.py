@@ -130,7 +130,8 @@ def run(
     """
     found = json.loads(Path(decision).read_text(encoding="utf-8"))
     left = found["left_out"]
-    told = {"left_out": ", ".join(left), "left_out_change": found["together"]}
+    told = {"left_out": ", ".join(left), "left_out_change": found["together"], "decision": found["words"]}
+    told["transforms_of_check"] = found["work"] / settings["points"] if settings["member"] == 0 else 0.0
     settings = settings | {"leave_out": left}
     if twin and json.loads(Path(twin[1]).read_text(encoding="utf-8"))["left_out"] == left:
         begin = time.process_time()

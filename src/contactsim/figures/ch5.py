@@ -5,6 +5,7 @@ Values of the thesis, from `reference` in the config, come as keywords.
 
 from __future__ import annotations
 
+import textwrap
 from itertools import product
 
 import numpy as np
@@ -218,6 +219,40 @@ def fig_5_8(data: xr.Dataset, normal: xr.Dataset, axes: list[Axes]) -> pd.DataFr
     axes[1].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS["relative_interacting_area"])
     _letters(axes)
     return pd.concat(rows)
+
+
+def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Area with all effects and without those found negligible, and the work of both (beyond the thesis)."""
+    rows, lines = [], []
+    colours = style.shades(data.poisson_ratio.values)
+    for place, (ratio, work) in enumerate(product(data.poisson_ratio.values, data.work_ratio.values)):
+        less, more = (rough.prepared(one.sel(poisson_ratio=ratio, work_ratio=work)) for one in (data, whole))
+        color, words = colours[float(ratio)], rf"$\nu={ratio:g}$, $c={work:g}$"
+        look = {"color": color, "ls": "-" if work else "--"}
+        rough.curve(axes[0], more, more.indentation, "relative_interacting_area", words, marker="", lw=1.0, **look)
+        known = rough.settled(less)
+        mean, error = (less[f"relative_interacting_area_{kind}"][known] for kind in rough.ENDS)
+        marker = {"marker": "s" if work else "o", "mfc": "white", "ls": "", "ms": 4}
+        axes[0].errorbar(less.indentation[known], mean, error, color=color, **marker)
+        spent = float(less.transforms.sum() + less.transforms_of_check.sum()), float(more.transforms.sum())
+        for offset, value, alpha in zip((0.2, -0.2), spent, (1.0, FAINT), strict=True):
+            axes[1].barh(-place + offset, value, 0.36, color=color, alpha=alpha)
+        told = str(less.decision.isel(member=0).item())
+        lines.append(f"{words}: {spent[1] / spent[0]:.2g} times less; {told}")
+        twice = {"saved": spent[1] / spent[0], "transforms": spent[0], "transforms_whole": spent[1], "decision": told}
+        same = less.member.values, "area_at_twelve"
+        change = abs(less[same[1]].mean("member") / more[same[1]].sel(member=same[0]).mean("member") - 1)
+        rows.append({"poisson_ratio": ratio, "work_ratio": work, "change_of_mean": float(change)} | twice)
+    table = pd.DataFrame(rows)
+    axes[0].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS["relative_interacting_area"])
+    axes[0].legend(loc="best", fontsize=6.5)
+    count = len(table)
+    axes[1].set(ylim=(-2 * count, 0.6), xlabel="transforms of all members: full, what was done; faint, all effects")
+    axes[1].set(yticks=-np.arange(count), yticklabels=[line.partition(":")[0] for line in lines])
+    text = "\n".join("\n".join(textwrap.wrap(line, 100, subsequent_indent="   ")) for line in lines)
+    axes[1].text(0.02, 0.02, text, transform=axes[1].transAxes, fontsize=5, va="bottom")
+    _letters(axes)
+    return table
 
 
 def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
