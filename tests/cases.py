@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import mpmath
 import numpy as np
@@ -18,6 +19,15 @@ from contactsim.traits import Trait
 ALL = tuple(kind for kind in SOLVERS if kind not in PEERS and {Trait.LINE, Trait.WALL} <= solver_class(kind).accepts)
 ON_SURFACES = tuple(kind for kind in SOLVERS if kind not in PEERS and Trait.SURFACE in solver_class(kind).accepts)
 FAST = ("active_set", "polonsky_keer")
+
+
+@contextmanager
+def refused(key: str, allowed: str) -> Iterator[None]:
+    """Expect a SceneError whose key ends so, and whose allowed values say so."""
+    with pytest.raises(SceneError) as caught:
+        yield
+    assert caught.value.key.endswith(key)
+    assert allowed in caught.value.allowed
 
 
 def rough(points: int, hurst: float = 0.8, gradient: float = 1.0, modes: int = 0) -> np.ndarray:

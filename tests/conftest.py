@@ -13,10 +13,12 @@ from pathlib import Path
 import pytest
 from threadpoolctl import threadpool_limits
 
-from contactsim import aggregate, costs, dataset, march
+from contactsim import aggregate, costs, dataset
 from contactsim.build import scene_of
 from contactsim.figures.claims import render_claims
 from contactsim.figures.render import render
+from contactsim.march import write_text
+from contactsim.negligible import decide, run
 from contactsim.plan import Plan
 
 ROOT = Path(__file__).parents[1]
@@ -30,7 +32,13 @@ def pytest_configure() -> None:
 
 def solved(job: tuple) -> None:
     """One run, in a process of its own."""
-    march.run(*job)
+    run(*job)
+
+
+def decided(job: tuple) -> None:
+    """What is negligible in a variant, in a process of its own."""
+    settings, file = job
+    write_text(decide(settings, **settings["auto"]).text, file)
 
 
 def shown(plan: Plan, name: str) -> None:
@@ -64,16 +72,21 @@ def made(tmp_path_factory) -> Path:
 
 def make_quick_tier(folder: Path) -> None:
     """Runs, datasets, tables of costs, figures and claims of the quick tier."""
-    before, jobs = Path.cwd(), []
+    before, jobs, decisions = Path.cwd(), [], []
     os.chdir(folder)
     try:
         plan = Plan.read(ROOT / "config", "quick")
         for study in plan.studies:
-            for run, entry in zip(plan.studies[study].runs(), plan.study_settings(study)["runs"], strict=True):
-                jobs.append((run.settings, run.source, entry["path"], entry["costs"]))
+            for one, entry in zip(plan.studies[study].runs(), plan.study_settings(study)["runs"], strict=True):
+                files = entry["path"], entry["costs"]
+                jobs.append((one.settings, one.source, *files, 1, plan.decision(one), plan.twin(one)))
+                if plan.decision(one) and one.member == 0:
+                    decisions.append((one.settings, plan.decision(one)[0]))
         jobs.sort(key=lambda job: -math.prod(scene_of(job[0]).upper.surface.shape(job[0]["points"])))
         with ProcessPoolExecutor(2, get_context("spawn")) as pool:
-            list(pool.map(solved, jobs))
+            list(pool.map(decided, decisions))
+            list(pool.map(solved, [job for job in jobs if not job[-1]]))
+            list(pool.map(solved, [job for job in jobs if job[-1]]))
         for study in plan.studies:
             settings, name = plan.study_settings(study), plan.dataset_name(study)
             data = aggregate.aggregate(settings["runs"], settings["settings"], settings["source"])

@@ -17,7 +17,17 @@ from contactsim.cost import CASE_KEYS
 from contactsim.laws import EFFECTS
 from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
 from contactsim.priced import SETTING_KEYS
-from contactsim.schema import ACCURACY_KEYS, AUTO_KEYS, COMPANIONS, KINDS, LOADS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
+from contactsim.schema import (
+    ACCURACY_KEYS,
+    AUTO_KEYS,
+    COMPANIONS,
+    KINDS,
+    LOADS,
+    MODULI,
+    PATH_KEYS,
+    SLIDE_KEYS,
+    STUDY_KEYS,
+)
 from contactsim.stability import STABILITY_KEYS
 from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs

@@ -16,7 +16,7 @@ import yaml
 from scipy.optimize import least_squares
 
 from contactsim.build import scene_of
-from contactsim.choice import grid_for, on_grid, walked
+from contactsim.choice import chosen, coarser, grid_for, on_grid, walked
 from contactsim.confirm import Outcome, outcome
 from contactsim.draws import draw
 from contactsim.forecast import transform_seconds, walk_features
@@ -31,6 +31,7 @@ from contactsim.relations import (
     SECOND,
     SLIDE,
     SURFACE,
+    Relation,
     contact_scale,
     kind_of,
 )
@@ -92,6 +93,8 @@ WORK_FEATURES = {
 }
 STEEP = ("pull_off_load_loading", "static_friction", "final_load", "onset_repulsive_length")
 """Quantities whose error's order in the grid is fitted: the process zone is resolved or is not."""
+TYPICAL = 0.02
+"""Error asked of runs that begin from their companions."""
 NOISE, WRONG = {"points": 5e-4}, 0.15
 """Relative errors below which a setting of a knob says nothing of those that are asked for, and above which."""
 FAINT = 1e-6
@@ -112,7 +115,17 @@ def measure(run: dict) -> pd.DataFrame:
         reference = outcome(base, READ[kind])
         for settings in ladder:
             rows += _rows(knob, outcome(settings, READ[kind]), reference, kind)
+    if not is_smooth(run):
+        rows += _begun(run, kind)
     return pd.DataFrame(rows)
+
+
+def _begun(run: dict, kind: str) -> list[dict]:
+    """Rows of a run at a wall that begins from its companion."""
+    fine = chosen(run, TYPICAL)
+    before = outcome(coarser(fine) | {"keep": ["fields"]}, READ[kind])
+    found = outcome(fine, READ[kind], begun=before)
+    return _rows("begun", found, found, kind)
 
 
 def _ladders(run: dict, kind: str) -> Iterator[tuple[str, dict, list[dict]]]:
@@ -211,10 +224,17 @@ def _kind(kind: str, rows: pd.DataFrame) -> dict:
     ]
     errors = {knob: {name: law for name, law in laws.items() if law} for knob, laws in errors.items()}
     resolved = {name: law for name, law in resolved.items() if law}
+    transforms, begun = (
+        _line(rows[rows.knob != "begun"], "transforms", WORK_FEATURES[kind], {}),
+        rows[rows.knob == "begun"],
+    )
+    law = Relation(transforms["coefficients"], transforms["spread"])
+    shares = [one["transforms"] / law(one) for one in begun.to_dict("records")]
     return {
         "errors": errors,
         "resolved": resolved,
-        "transforms": _line(rows, "transforms", WORK_FEATURES[kind], {}),
+        "transforms": transforms,
+        "begun": _short(np.median(shares or [1.0])),
         "seconds": _seconds(rows),
         "ranges": {name: [_short(rows[name].min()), _short(rows[name].max())] for name in seen},
     }

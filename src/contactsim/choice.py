@@ -33,7 +33,7 @@ from contactsim.schema import is_smooth
 from contactsim.surface import SelfAffine
 from contactsim.traits import Trait
 
-SAFETY = {LINE: 0.6, SURFACE: 0.85, PATH: 0.85, ROUGH_PATH: 0.8, SLIDE: 0.85}
+SAFETY = {LINE: 0.7, SURFACE: 0.75, PATH: 0.85, ROUGH_PATH: 0.5, SLIDE: 0.85}
 """Part of an error that the grid is chosen for: less where scenes of a kind differ more than what is known of them."""
 SHARES = {"increment": 0.2, "tolerance": 0.1}
 """Parts of the error that other knobs may make."""
@@ -43,6 +43,8 @@ FEWEST = 16
 """Least points of a grid; a run has twice as many, as its companion has fewer."""
 LARGEST = 2**28
 """Most points of a grid that an accuracy may lead to."""
+PACE = 3.0
+"""Increments of a companion, over those of its run."""
 COARSER = {LINE: 5.0}
 """How many times coarser the companion of a run is than what is expected to be needed, if not three times."""
 PATH_TOLERANCE = 1e-4
@@ -110,7 +112,7 @@ def coarser(settings: dict, points: int | None = None) -> dict:
     ratio = COARSER.get(kind_of(scene), 3.0)
     found = settings | {"points": points or grid_for(scene, settings["points"] / ratio, 0.0)}
     if is_smooth(settings):
-        found |= rescaled(settings, 2.0)
+        found |= rescaled(settings, PACE)
         found["increments"] = walked(scene, kind_of(scene), found["points"], settings)
     return found
 

@@ -75,7 +75,15 @@ def first_scene(study: Study) -> tuple[Scene, dict, int]:
 
 
 SHOWN = (
-    *("mean_pressure", "relative_contact_area", "kappa", "kappa_r", "mean_gap", "non_uniformity"),
+    *(
+        "mean_pressure",
+        "relative_contact_area",
+        "relative_contact_area_subgrid",
+        "kappa",
+        "kappa_r",
+        "mean_gap",
+        "non_uniformity",
+    ),
     *("approach", "slid", "line_load", "friction_force", "repulsive_length", "overclosure", "slip"),
     *("residual", "jump", "beyond", "transforms", "status"),
 )
@@ -112,10 +120,24 @@ def run_scene(options: argparse.Namespace) -> None:
     columns = [name for name in SHOWN if name in data]
     names = {status.value[0]: status.name.lower() for status in Status}
     rows = data[columns].to_dataframe().assign(status=[names[int(status)] for status in data.status])
-    sys.stdout.write(rows.to_string(float_format="{:.4g}".format) + f"\nwritten to {target}\n")
+    sys.stdout.write(rows.to_string(float_format="{:.4g}".format) + "\n")
+    if "accuracy" in data:
+        sys.stdout.write(f"{_reached(data)}\n")
+    sys.stdout.write(f"written to {target}\n")
     failed = int((~solved(data.status)).sum())
     if failed:
         sys.exit(f"Error: {failed} of {len(rows)} load steps did not converge")
+
+
+def _reached(data: xr.Dataset) -> str:
+    """What came of an accuracy that was asked for."""
+    ending = "_estimated_error"
+    names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
+    errors = [f"{name} to {float(data[name + ending].max()):.2g} {data[name + ending].units}" for name in names]
+    met = "reached" if data.reached else "not reached"
+    return (
+        f"relative error {float(data.accuracy):g} {met} on {int(data.points)} points: {', '.join(errors)}, as estimated"
+    )
 
 
 def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:

@@ -1,8 +1,8 @@
 """A run to an accuracy: solved on two grids, the error estimated, and refined once where it is missed.
 
 The coarser companion comes first. At a hard wall it says how small the contacts are, from which the grid of the run
-follows better than from any relation, and its pressure is where the cascade of the run begins; of a path it has twice
-the increments and ten times the tolerance too, so that what differs is what all knobs together leave open. The estimate
+follows better than from any relation, and its pressure is where the cascade of the run begins; of a path it has
+three times the increments too, so that what differs is what all knobs together leave open. The estimate
 is the larger of that change, as it shrinks with the order of convergence, and of what is expected of such a grid:
 changes may vanish by chance.
 """
@@ -14,6 +14,7 @@ import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -23,8 +24,8 @@ from contactsim.aggregate import combined, of_states
 from contactsim.build import scene_of
 from contactsim.choice import SAFETY, chosen, coarser, grid_for, left_open, on_grid, rescaled, walked
 from contactsim.grid import Array
-from contactsim.march import Files, keep, names_of, simulate
 from contactsim.march import chosen as asked_of
+from contactsim.march import keep, names_of, simulate
 from contactsim.relations import MEASURES, ORDERS, SECOND, Kind, kind_of, relations
 from contactsim.schema import is_smooth
 from contactsim.solvers import solver
@@ -34,6 +35,8 @@ logger = logging.getLogger(__name__)
 
 MOST = {1: 8.0, 2: 4.0}
 """How many times finer a run may be than its companion, or a refined one than the first, by dimension."""
+TRUST = 0.7
+"""Part of a change that counts: the coarser run is often too coarse to be of any order, and makes it large."""
 TINY = 1e-9
 """Least part of a contact that counts as its edge."""
 LEAST = 1.25
@@ -184,7 +187,7 @@ def estimated(fine: Outcome, coarse: Outcome, known: Kind, names: Sequence[str])
         with np.errstate(divide="ignore", invalid="ignore"):
             changes = np.abs(two / one - 1) * left / np.maximum(before - left, left)
         changes = np.where(np.isnan(one) & np.isnan(two), 0.0, np.nan_to_num(changes, nan=np.inf))
-        found[name] = np.maximum(changes, left)
+        found[name] = np.maximum(TRUST * changes, left)
     return found
 
 
@@ -241,11 +244,18 @@ def _told(errors: dict[str, Array], asked: float) -> str:
     return ", ".join(f"{name} to {values.max():.2g} of {asked:g}" for name, values in errors.items())
 
 
-def run(settings: dict, source: str, files: Files, threads: int = 1, told: Mapping[str, object] | None = None) -> None:
+def run(
+    settings: dict,
+    source: str,
+    target: str | Path,
+    costs: str | Path,
+    threads: int = 1,
+    told: Mapping[str, object] | None = None,
+) -> None:
     """Compute a run to the accuracy that its settings ask for, into its dataset and costs; see `march.run`."""
     begin = time.process_time()
     found = reach(settings, **settings["accuracy"], threads=threads)
     final = found.last.settings
     if not found.met:
         logger.warning("an accuracy of %g is not reached: %s", found.asked, _told(found.errors, found.asked))
-    keep(found.data.assign(told or {}), final, names_of(final, source), source, files, begin)
+    keep(found.data.assign(told or {}), final, names_of(final, source), source, (target, costs), begin)

@@ -48,6 +48,7 @@ CASE_KEYS = {
     "thesis_members": Key(whole(1), "the thesis's own number of members, 1 or more", None),
     "thesis_increment": Key(positive, "the thesis's own increment, a positive number", None),
 }
+OVERVIEW_KEYS = {name: CASE_KEYS[name] for name in ("title", "caption", "size")}
 REFERENCE = "reference"
 LONG = 5.0
 """Seconds above which a setting is not timed again."""
@@ -148,6 +149,21 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
     if not isinstance(tiers[plan.tier], dict):
         raise SceneError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
     return {name: _case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
+
+
+def read_overview(folder: str | Path) -> dict | None:
+    """Settings of the page that shows all cases; None without overview.yaml."""
+    file = Path(folder) / "overview.yaml"
+    return read(load_yaml(file), OVERVIEW_KEYS, file) if file.exists() else None
+
+
+def overview(settings: dict, cases: dict[str, Case], tier: str) -> dict:
+    """What the page that shows all cases depends on, beside their tables."""
+    shown = {
+        name: {"title": case.settings["title"].rpartition(": ")[2], "quantity": case.settings["quantities"][0]}
+        for name, case in cases.items()
+    }
+    return {"settings": settings, "cases": shown, "tier": tier, "source": source_digest("contactsim.figures.overview")}
 
 
 def _case(name: str, section: object, plan: Plan, file: Path) -> Case:

@@ -123,8 +123,13 @@ def measure(name: str, settings: dict) -> xr.Dataset:
     for place in np.ndindex(errors.shape):
         values = {axis: given["values"][k] for (axis, given), k in zip(axes.items(), place, strict=True)}
         errors[place] = change(_run(settings, values, name, FILE), settings["leave_out"], settings["of"], known)
-    data = xr.Dataset({"change_without": (list(axes), errors)}, {axis: given["values"] for axis, given in axes.items()})
-    return dataset.described(data)
+    return as_dataset(settings, errors)
+
+
+def as_dataset(settings: dict, errors: Array) -> xr.Dataset:
+    """A map's changes with the values of its axes."""
+    axes = {axis: given["values"] for axis, given in settings["axes"].items()}
+    return dataset.described(xr.Dataset({"change_without": (list(axes), errors)}, axes))
 
 
 def change(run: dict, names: list[str], of: list[str], known: dict[str, Outcome] | None = None) -> float:

@@ -102,7 +102,8 @@ def forecast_to(settings: dict, error: float, of: Sequence[str] = ()) -> Forecas
     found = chosen(settings, error, of)
     scene, own, other = scene_of(found), forecast(found, of), forecast(coarser(found), of)
     before = other.transforms * size_of(scene, other.points) / size_of(scene, own.points)
-    return replace(own, transforms=own.transforms + before, seconds=own.seconds + other.seconds)
+    part = relations().kinds[kind_of(scene)].begun
+    return replace(own, transforms=part * own.transforms + before, seconds=part * own.seconds + other.seconds)
 
 
 def forecast_of(settings: dict) -> Forecast:

@@ -78,7 +78,14 @@ def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:
             raise SceneError(key, value, f"no such option, but {used}")
 
 
-def run(settings: dict, source: str, files: Files, threads: int = 1, told: Mapping[str, object] | None = None) -> None:
+def run(
+    settings: dict,
+    source: str,
+    target: str | Path,
+    costs: str | Path,
+    threads: int = 1,
+    told: Mapping[str, object] | None = None,
+) -> None:
     """Compute a run's dataset and costs, taking over what an earlier dataset of that name already holds.
 
     settings: of a `contactsim.study.Run`; source: digest of the code that computes it; told: what the dataset says
@@ -87,7 +94,7 @@ def run(settings: dict, source: str, files: Files, threads: int = 1, told: Mappi
     begin = time.process_time()
     scene = scene_of(settings)
     names = names_of(settings, source)
-    solved = {} if "increments" in settings else earlier(*files)
+    solved = {} if "increments" in settings else earlier(target, costs)
     data = simulate(
         scene,
         points=points_of(settings, scene.upper.surface),
@@ -97,8 +104,7 @@ def run(settings: dict, source: str, files: Files, threads: int = 1, told: Mappi
         known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
         **chosen(settings),
     )
-    keep(data, settings, names, source, files, begin)
-    keep(data.assign(told or {}), settings, names, source, files, begin)
+    keep(data.assign(told or {}), settings, names, source, (target, costs), begin)
 
 
 def keep(data: xr.Dataset, settings: dict, names: list[str], source: str, files: Files, begin: float) -> None:

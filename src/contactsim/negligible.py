@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import logging
 import time
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -121,28 +122,44 @@ def _words(found: Decision, within: float) -> str:
 
 
 def run(
-    settings: dict, source: str, files: Files, threads: int, decision: str | Path, twin: tuple[str | Path, ...] = ()
+    settings: dict,
+    source: str,
+    target: str | Path,
+    costs: str | Path,
+    threads: int = 1,
+    decision: Sequence[str | Path] = (),
+    twin: Sequence[str | Path] = (),
 ) -> None:
-    """Compute a run without what was decided to be negligible, into its dataset and costs; see `march.run`.
+    """Compute a run as it asks for, into its dataset and costs: see `march.run` and `confirm.run`.
 
-    decision: a file; twin: dataset and decision of a run whose scene is the same without what the maps find negligible,
-    which is taken over where both decisions bear that out.
+    decision: the file that says what is negligible, of a run that leaves that out; twin: dataset and decision of a run
+    whose scene is the same without what the maps find negligible, which is taken over where both decisions are alike.
     """
-    found = json.loads(Path(decision).read_text(encoding="utf-8"))
+    follow = confirm.run if "accuracy" in settings else march.run
+    if not decision:
+        follow(settings, source, target, costs, threads)
+        return
+    found = json.loads(Path(decision[0]).read_text(encoding="utf-8"))
     left = found["left_out"]
     told = {"left_out": ", ".join(left), "left_out_change": found["together"], "decision": found["words"]}
     told["transforms_of_check"] = found["work"] / settings["points"] if settings["member"] == 0 else 0.0
     settings = settings | {"leave_out": left}
     if twin and json.loads(Path(twin[1]).read_text(encoding="utf-8"))["left_out"] == left:
-        begin = time.process_time()
-        data = dataset.read(twin[0]).drop_vars("point")
-        data = data.assign(
-            {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}, **told
-        )
-        names = names_of(settings | dataset.settings_of(data), source)
-        data = data.assign(seconds=(data.transforms.dims, np.zeros(data.transforms.size)))
-        logger.info("taken over from a run whose scene is the same without %s", told["left_out"])
-        keep(data.rename({data.transforms.dims[0]: "step"}), settings, names, source, files, begin)
-        return
-    follow = confirm.run if "accuracy" in settings else march.run
-    follow(settings, source, files, threads, told)
+        _take_over(settings, source, (target, costs), twin[0], told)
+    else:
+        follow(settings, source, target, costs, threads, told)
+
+
+def _take_over(settings: dict, source: str, files: Files, twin: str | Path, told: Mapping[str, object]) -> None:
+    """A run's dataset from one whose scene is the same: nothing is spent."""
+    begin = time.process_time()
+    data = dataset.read(twin)
+    final = dataset.settings_of(data)
+    settings = settings | {name: final[name] for name in ("points", "tolerance", "load", "increments") if name in final}
+    (dim,) = data.transforms.dims
+    spent = {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}
+    data = data.drop_vars("point").assign(spent, **told, seconds=(dim, np.zeros(data[dim].size)))
+    if dim != "step":
+        data = data.rename({dim: "step"})
+    logger.info("taken over from %s, whose scene is the same without %s", twin, told["left_out"])
+    keep(data, settings, names_of(settings, source), source, files, begin)

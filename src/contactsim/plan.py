@@ -36,6 +36,7 @@ RESERVED = (
     "relations",
     "measure_relations",
     "decide",
+    "overview",
     "effect_maps",
     "measure_map",
     "freeze_maps",

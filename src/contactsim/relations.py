@@ -60,13 +60,15 @@ class Kind:
     """What is known of one kind of scene.
 
     errors: by knob and quantity, from features; resolved: by quantity, errors from how well a solution shows its
-    contacts, which is known of a wall once it is solved; transforms: of a load, or of a path; seconds: those of a load
-    or step, of a transform, and of a transform's points times log2 of them; ranges: of the features that were seen.
+    contacts, which is known of a wall once it is solved; transforms: of a load, or of a path; begun: part of them that
+    is left where a companion was solved before; seconds: those of a load or step, of a transform, and of a transform's
+    points times log2 of them; ranges: of the features that were seen.
     """
 
     errors: Mapping[str, Mapping[str, Relation]]
     resolved: Mapping[str, Relation]
     transforms: Relation
+    begun: float
     seconds: Mapping[str, float]
     ranges: Mapping[str, tuple[float, float]]
 
@@ -101,6 +103,7 @@ def as_relations(told: Mapping) -> Relations:
             {knob: {of: one(law) for of, law in laws.items()} for knob, laws in kind["errors"].items()},
             {of: one(law) for of, law in kind["resolved"].items()},
             one(kind["transforms"]),
+            kind["begun"],
             kind["seconds"],
             {feature: tuple(ends) for feature, ends in kind["ranges"].items()},
         )

@@ -47,6 +47,20 @@ rule accuracy_figure:
     script: "../scripts/accuracy.py"
 
 
+if OVERVIEW:
+
+    rule overview:
+        input: [RESULTS / f"figures/accuracy_{case}.csv" for case in CASES]
+        output:
+            png=RESULTS / "figures/overview.png",
+            pdf=RESULTS / "figures/overview.pdf",
+            csv=RESULTS / "figures/overview.csv",
+        log: RESULTS / "logs/figures/overview.log"
+        params: plan=canonical(cost.overview(OVERVIEW, CASES, PLAN.tier))
+        message: f"overview: {RESULTS}/figures/overview.png"
+        script: "../scripts/overview.py"
+
+
 rule accuracy:
     localrule: True
     input: [file for case in CASES for file in figure_files(f"accuracy_{case}")]

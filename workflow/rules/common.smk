@@ -17,6 +17,7 @@ try:
     CASES = cost.read_cases(CONFIG, PLAN)
     LADDER = ladder.read_ladder(CONFIG, PLAN.seed, PLAN.effects)
     DRAWS = draws.read_draws(CONFIG, PLAN.trials)
+    OVERVIEW = cost.read_overview(CONFIG) if CASES else None
     MAPS = effect_maps.read_maps(CONFIG, PLAN.effect_maps)
 except SceneError as error:
     sys.exit(f"Error: {error}")
@@ -25,6 +26,7 @@ sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it an
 STABILITY = ["stability"] if PLAN.stability else []
 EFFECTS = ["effects"] if LADDER else []
 TRIALS = ["trials"] if DRAWS else []
+OVERVIEWS = ["overview"] if OVERVIEW else []
 EFFECT_MAPS = ["effect_maps"] if MAPS else []
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
@@ -49,7 +51,7 @@ def figure_files(name):
 
 
 def all_figures(wildcards):
-    names = [*PLAN.figures, *STABILITY, *EFFECTS, *TRIALS, *EFFECT_MAPS, *(f"accuracy_{case}" for case in CASES)]
+    names = [*PLAN.figures, *STABILITY, *EFFECTS, *TRIALS, *EFFECT_MAPS, *OVERVIEWS, *(f"accuracy_{case}" for case in CASES)]
     return [file for name in names for file in figure_files(name)]
 
 
@@ -63,6 +65,7 @@ def target_lines():
     lines += [f"  {name:14} {PLAN.stability['title']}" for name in STABILITY]
     lines += [f"  {name:14} {LADDER['title']}" for name in EFFECTS]
     lines += [f"  {name:14} {DRAWS['title']}" for name in TRIALS]
+    lines += [f"  {name:14} {OVERVIEW['title']}" for name in OVERVIEWS]
     lines += [f"  {name:14} {MAPS['title']}" for name in EFFECT_MAPS]
     lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)

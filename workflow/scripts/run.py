@@ -3,14 +3,11 @@
 import json
 from pathlib import Path
 
-from contactsim import confirm, march, negligible
 from contactsim.joblog import logged
+from contactsim.negligible import run
 
 logged(snakemake.log[0])
-plan, files = json.loads(snakemake.params.plan), (snakemake.output.data, snakemake.output.costs)
-asked, given = plan["settings"], (plan["settings"], plan["source"], files, snakemake.threads)
-if "auto" in asked:
-    negligible.run(*given, snakemake.input.decision, snakemake.input.get("twin", ()))
-else:
-    (confirm if "accuracy" in asked else march).run(*given)
+plan, files = json.loads(snakemake.params.plan), [snakemake.output.data, snakemake.output.costs]
+decision, twin = ([*map(str, snakemake.input.get(name, []))] for name in ("decision", "twin"))
+run(plan["settings"], plan["source"], *files, snakemake.threads, decision, twin)
 Path(snakemake.output.done).write_text(plan["source"])
