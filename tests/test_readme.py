@@ -29,6 +29,7 @@ from contactsim.schema import (
     STUDY_KEYS,
 )
 from contactsim.stability import STABILITY_KEYS
+from contactsim.study import Study
 from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs
 
@@ -70,7 +71,7 @@ def test_the_study_of_the_readme_can_be_added_to_the_config(made, tmp_path, monk
         header="x [um], z [nm]",
         comments="",
     )
-    (block,) = blocks("yaml")
+    (block,) = [block for block in blocks("yaml") if "my_profile" in block]
     for file in (ROOT / "config").glob("*.yaml"):
         text = file.read_text(encoding="utf-8")
         (tmp_path / file.name).write_text(
@@ -79,6 +80,17 @@ def test_the_study_of_the_readme_can_be_added_to_the_config(made, tmp_path, monk
     plan = Plan.read(tmp_path, "quick")
     assert plan.studies["my_profile"].settings["surface"]["file"] == "profile.csv"
     assert set(Plan.read(ROOT / "config", "quick").studies) == set(plan.studies) - {"my_profile"}
+
+
+def test_what_the_readme_asks_of_a_study_is_understood():
+    body = {"kind": "half_space", "youngs_modulus": 70.0, "poisson_ratio": 0.45}
+    scene = {"title": "One", "surface": {"kind": "cylinder", "radius": 1e4, "length": 4e3}, "body": body}
+    law = {"cohesive_zone": {"work_of_separation": 1.0}, "path": {"approach": [-6.0, 14.0]}}
+    asked = [yaml.safe_load(block) for block in blocks("yaml") if "my_profile" not in block]
+    assert len(asked) == 2
+    both = Study.read("one", scene | law | asked[0] | asked[1], "README.md", 1)
+    assert both.settings["accuracy"]["error"] == 0.01
+    assert both.settings["auto"]["within"] == 0.05
 
 
 def test_every_command_names_a_target_or_an_option_that_exists():
@@ -92,6 +104,7 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "smooth_line",
         "rough_line",
         "claims",
+        "effect_maps",
     }
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", README, re.MULTILINE)
     assert commands
@@ -170,6 +183,10 @@ def test_the_settings_reference_explains_no_key_that_is_gone():
         *LAW_KEYS,
         *EFFECTS,
         *MODULI,
+        *ACCURACY_KEYS,
+        *AUTO_KEYS,
+        *draws.KEYS,
+        *effect_maps.KEYS,
     }
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in KINDS.values():

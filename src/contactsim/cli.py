@@ -156,6 +156,8 @@ def cost_scene(options: argparse.Namespace) -> None:
     study = named(options.scene, options.tier)
     runs = [run.settings for run in study.runs()]
     if options.accuracy is not None:
+        if not 0 < options.accuracy < 1:
+            raise SceneError("--accuracy", options.accuracy, "a relative error, above 0 and below 1")
         asked = {"error": options.accuracy, "of": []}
         runs = [chosen_for(settings, **asked) | {"accuracy": asked} for settings in runs]
     expected = [forecast_of(settings) for settings in runs]

@@ -11,7 +11,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 
 import numpy as np
 
@@ -91,7 +91,7 @@ class LoadPath:
             raise SceneError("snapshots", value, f"values near steps of the path; the nearest is {values[place]:g}")
         return place
 
-    @property
+    @cached_property
     def traits(self) -> frozenset[Trait]:
         """The kinds of control in use."""
         return frozenset(kind for step in self.steps for kind in (step.control, step.normal.control))
