@@ -33,7 +33,7 @@ from contactsim.schema import is_smooth
 from contactsim.surface import SelfAffine
 from contactsim.traits import Trait
 
-SAFETY = {LINE: 0.7, SURFACE: 0.75, PATH: 0.75, ROUGH_PATH: 0.5, SLIDE: 0.85}
+SAFETY = {LINE: 0.7, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}
 """Part of an error that the grid is chosen for: less where scenes of a kind differ more than what is known of them."""
 SHARES = {"increment": 0.2, "tolerance": 0.1}
 """Parts of the error that other knobs may make."""
