@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from cases import refused
 from conftest import ROOT
@@ -155,9 +155,7 @@ def test_runs_whose_scenes_are_the_same_without_an_effect_are_the_same():
 
 def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(monkeypatch):
     values = iter([np.nan, 3.0, np.nan, np.nan])
-    monkeypatch.setattr(
-        effect_maps, "_solved", lambda *given: xr.Dataset(attrs={"values": {"a": np.array([next(values)])}})
-    )
+    monkeypatch.setattr(effect_maps, "_solved", lambda *given: SimpleNamespace(values={"a": np.array([next(values)])}))
     assert change({}, ["coupling"], ["a"]) == 1.0
     assert change({}, ["coupling"], ["a"]) == 0.0
 

@@ -118,7 +118,7 @@ def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overvie
 def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_path):
     settings = effect_maps.read_maps(ROOT / "config", {})
     files = []
-    for name, one in settings["maps"].items():
+    for name, one in sorted(settings["maps"].items()):
         shape = [len(axis["values"]) for axis in one["axes"].values()]
         data = dataset.described(
             effect_maps.as_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape))
@@ -135,7 +135,7 @@ def test_the_overview_shows_every_case_and_leaves_ensembles_out(tmp_path):
     cases = cost.read_cases(ROOT / "config", plan)
     told = cost.overview(cost.read_overview(ROOT / "config"), cases, "quick")
     tables = []
-    for name, case in told["cases"].items():
+    for name, case in sorted(told["cases"].items()):
         rows = {
             "solver": ["newton"] * 3,
             "knob": ["points", "tolerance", "members"],

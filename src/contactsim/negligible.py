@@ -158,7 +158,7 @@ def _take_over(settings: dict, source: str, files: Files, twin: str | Path, told
     settings = settings | {name: final[name] for name in ("points", "tolerance", "load", "increments") if name in final}
     (dim,) = data.transforms.dims
     spent = {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}
-    data = data.drop_vars("point").assign(spent, **told, seconds=(dim, np.zeros(data[dim].size)))
+    data = data.drop_vars("point").assign(spent | dict(told)).assign(seconds=(dim, np.zeros(data[dim].size)))
     if dim != "step":
         data = data.rename({dim: "step"})
     logger.info("taken over from %s, whose scene is the same without %s", twin, told["left_out"])

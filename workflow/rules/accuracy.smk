@@ -50,7 +50,7 @@ rule accuracy_figure:
 if OVERVIEW:
 
     rule overview:
-        input: [RESULTS / f"figures/accuracy_{case}.csv" for case in CASES]
+        input: [RESULTS / f"figures/accuracy_{case}.csv" for case in sorted(CASES)]
         output:
             png=RESULTS / "figures/overview.png",
             pdf=RESULTS / "figures/overview.pdf",

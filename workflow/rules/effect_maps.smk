@@ -15,7 +15,7 @@ if MAPS:
 
 
     rule effect_maps:
-        input: [RESULTS / f"effect_maps/{name}.nc" for name in MAPS["maps"]]
+        input: [RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
         output:
             png=RESULTS / "figures/effect_maps.png",
             pdf=RESULTS / "figures/effect_maps.pdf",
@@ -27,7 +27,7 @@ if MAPS:
 
 
     rule freeze_maps:
-        input: [RESULTS / f"effect_maps/{name}.nc" for name in MAPS["maps"]]
+        input: [RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
         output: RESULTS / "effect_maps/effect_maps.yaml"
         log: RESULTS / "logs/effect_maps/freeze.log"
         params: plan=canonical(MAPS)

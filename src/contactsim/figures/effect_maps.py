@@ -16,6 +16,7 @@ from contactsim.figures.render import framed, save
 COLUMNS = 4
 LEAST, MOST = 1e-4, 1.0
 """Ends of the colours."""
+NUMBER = {"fontsize": 5.5, "color": "#222222"}
 LINES = {0.01: ":", 0.05: "-"}
 NAMES = {
     "poisson_ratio": "Poisson's ratio ν",
@@ -30,8 +31,8 @@ NAMES = {
 
 
 def render(plan: Mapping, data: Sequence[str], targets: Mapping[str, str]) -> None:
-    """Draw all panels into their files; plan: of `contactsim.effect_maps.figure`; data: the maps, in order."""
-    maps = dict(zip(plan["titles"], map(dataset.read, data), strict=True))
+    """Draw all panels into their files; plan: of `contactsim.effect_maps.figure`; data: the maps, by name."""
+    maps = dict(zip(sorted(plan["titles"]), map(dataset.read, data), strict=True))
     panels = plan["settings"]["panels"]
     rows = -(-len(panels) // COLUMNS)
     places = sum(one.change_without.size for one in maps.values())
@@ -52,7 +53,7 @@ def draw(axes: Axes, data: xr.Dataset, panel: Mapping, title: str):
     cut = data.change_without.sel(panel["at"], method="nearest").transpose(panel["up"], panel["across"])
     x, y = np.arange(cut.shape[1]), np.arange(cut.shape[0])
     values = np.clip(cut.values, LEAST, MOST)
-    shown = axes.pcolormesh(x, y, values, norm=LogNorm(LEAST, MOST), cmap="magma_r", shading="nearest")
+    shown = axes.pcolormesh(x, y, values, norm=LogNorm(LEAST, MOST), cmap="YlOrBr", shading="nearest")
     if min(cut.shape) > 1:
         found = [level for level in LINES if values.min() < level < values.max()]
         if found:
@@ -61,14 +62,24 @@ def draw(axes: Axes, data: xr.Dataset, panel: Mapping, title: str):
             )
     for row in y:
         for column in x:
-            dark = values[row, column] > 0.05
-            text = f"{100 * cut.values[row, column]:.2g}"
-            axes.text(column, row, text, ha="center", va="center", fontsize=5, color="white" if dark else "#333333")
+            axes.text(column, row, _per_cent(cut.values[row, column]), ha="center", va="center", **NUMBER)
     axes.set(xticks=x, yticks=y, xlabel=NAMES[panel["across"]], ylabel=NAMES[panel["up"]])
-    axes.set_xticklabels([f"{value:.3g}" for value in cut[panel["across"]].values], fontsize=6)
-    axes.set_yticklabels([f"{value:.3g}" for value in cut[panel["up"]].values], fontsize=6)
-    others = ", ".join(f"{NAMES[name]} {value:.3g}" for name, value in panel["at"].items())
+    axes.set_xticklabels([_short(value) for value in cut[panel["across"]].values], fontsize=6)
+    axes.set_yticklabels([_short(value) for value in cut[panel["up"]].values], fontsize=6)
+    axes.tick_params(length=0)
+    others = ", ".join(f"{NAMES[name]} {_short(value)}" for name, value in panel["at"].items())
     axes.set_title(title + f"\n{others}" * bool(others), fontsize=7)
     for words, place in panel["conditions"].items():
-        axes.text(*place, words, transform=axes.transAxes, fontsize=9, weight="bold", color="#1f4e9c", ha="center")
+        box = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": "#1f4e9c", "lw": 0.6}
+        axes.text(*place, words, transform=axes.transAxes, fontsize=6.5, color="#1f4e9c", ha="center", bbox=box)
     return shown
+
+
+def _per_cent(change: float) -> str:
+    """A change in per cent, to two digits."""
+    return "<0.01" if change < 1e-4 else f"{float(f'{100 * change:.2g}'):g}"
+
+
+def _short(value: float) -> str:
+    """A value of an axis; a small part as one over a whole number."""
+    return f"1/{1 / value:.0f}" if 0 < value < 0.1 and abs(1 / value - round(1 / value)) < 1e-9 else f"{value:g}"

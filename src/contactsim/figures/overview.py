@@ -21,9 +21,9 @@ LEAST = 1e-7
 def render(plan: Mapping, tables: Sequence[str], targets: Mapping[str, str]) -> None:
     """Draw all cases into their files.
 
-    plan: settings, and title and quantity of each case; tables: the CSVs of their own figures, in that order.
+    plan: settings, and title and quantity of each case; tables: the CSVs of their own figures, by name.
     """
-    cases = plan["cases"]
+    cases = {name: plan["cases"][name] for name in sorted(plan["cases"])}
     found = {name: pd.read_csv(path) for name, path in zip(cases, tables, strict=True)}
     rows = -(-len(cases) // COLUMNS)
     count = sum(len(_priced(table)) for table in found.values())

@@ -54,7 +54,7 @@ def _footer(table: pd.DataFrame, plan: Mapping) -> str:
         [
             f"{plan['tier']} tier, seed {plan['seed']}",
             f"{int(table.met.sum())} of {len(table)} scenes within the error asked for",
-            f"median cost {table.cost.median():.2g} times the least ({table.cost_in_seconds.median():.2g} in seconds)",
+            f"median cost {table.cost.median():.3g} times the least ({table.cost_in_seconds.median():.3g} in seconds)",
             f"time within a factor of two in {int(near.sum())} of {len(table)}",
             f"refined in {int((table.solved > 2).sum())}",
         ]
@@ -75,6 +75,8 @@ def draw(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
     ends = np.array([table.asked.min() / 1.5, table.asked.max() * 1.5])
     errors.plot(ends, ends, color=style.EXACT, lw=0.8)
     errors.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="true relative error")
+    errors.set_xticks(sorted(set(table.asked)), [f"{value:g}" for value in sorted(set(table.asked))])
+    errors.minorticks_off()
     errors.legend(fontsize=6.5)
     cost.axvline(1, color=style.EXACT, lw=0.8)
     cost.axhline(table.cost.median(), color="#999999", lw=0.8, ls="--")
@@ -86,3 +88,6 @@ def draw(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
     for factor in (0.5, 2.0):
         seconds.plot(ends, factor * ends, color="#999999", lw=0.8, ls="--")
     seconds.set(xscale="log", yscale="log", xlabel="CPU seconds spent", ylabel="CPU seconds predicted")
+    style.ticks(cost.yaxis, *cost.get_ylim())
+    for panel, letter in zip(panels, "abc", strict=True):
+        style.letter(panel, letter)
