@@ -110,6 +110,7 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     ensemble = study(members) if settings["load"] else path_study([200.0] * members)
     table = precision.table(settings, jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
+    table["seconds_expected"] = table.work_expected / 1000
     columns = len(accuracy.turned(table)) + 1
     figure, panels = framed(settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
     axes = np.reshape(panels, (2, columns))

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 from contactsim import dataset
@@ -19,6 +20,7 @@ from contactsim.aggregate import combined
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
+from contactsim.forecast import forecast
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.priced import Setting, SingleLoads, Slide, WholePath, kind_of, read_turned, solutions
@@ -127,9 +129,22 @@ class Case:
             )
             solved = solutions(data)
             kept = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
+            kept = kept.assign(_expected([run.settings for run in runs]))
             found.append(kept.assign(setting.numbers | {"knob": setting.knob}))
             seconds.append(min(times))
         return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
+
+
+def _expected(runs: list[dict]) -> dict[str, float]:
+    """Transforms, and units of time, that all runs of a setting are forecast to take; NaN of what was not measured."""
+    try:
+        found = [forecast(settings) for settings in runs]
+    except SceneError:
+        return {"transforms_expected": np.nan, "time_expected": np.nan}
+    return {
+        "transforms_expected": sum(one.transforms for one in found),
+        "time_expected": sum(one.units for one in found),
+    }
 
 
 def simulated(settings: dict) -> xr.Dataset:

@@ -31,7 +31,8 @@ REPEATS, UNIT_POINTS, BATCH = 7, 4096, 100
 class Forecast:
     """What is expected of a run.
 
-    points: of its grid along x; unknowns: of a step; transforms: in those of its grid; seconds: of CPU on one thread;
+    points: of its grid along x; unknowns: of a step; transforms: in those of its grid; units: of time, what a transform
+    of 4096 points takes;
     megabytes: of all arrays at their peak; errors: relative, by quantity; unsure: features in which the scene is beyond
     all that was measured.
     """
@@ -40,10 +41,15 @@ class Forecast:
     unknowns: int
     steps: int
     transforms: float
-    seconds: float
+    units: float
     megabytes: float
     errors: dict[str, float]
     unsure: tuple[str, ...]
+
+    @property
+    def seconds(self) -> float:
+        """CPU seconds on one thread, here and now."""
+        return self.units * transform_seconds()
 
 
 def forecast(settings: dict, of: Sequence[str] = ()) -> Forecast:
@@ -66,7 +72,7 @@ def forecast(settings: dict, of: Sequence[str] = ()) -> Forecast:
         unknowns=size * len(scene.exerted),
         steps=steps,
         transforms=transforms,
-        seconds=seconds * transform_seconds() / told.unit,
+        units=seconds / told.unit,
         megabytes=solver(**settings["solver"]).fields * len(scene.components) * size * 8 / 1e6,
         errors={name: _left_open(settings, places, known, name) for name in of or MEASURES[kind]},
         unsure=tuple(dict.fromkeys(name for one in places for name in known.outside(one))),
@@ -103,7 +109,7 @@ def forecast_to(settings: dict, error: float, of: Sequence[str] = ()) -> Forecas
     scene, own, other = scene_of(found), forecast(found, of), forecast(coarser(found), of)
     before = other.transforms * size_of(scene, other.points) / size_of(scene, own.points)
     part = relations().kinds[kind_of(scene)].begun
-    return replace(own, transforms=part * own.transforms + before, seconds=part * own.seconds + other.seconds)
+    return replace(own, transforms=part * own.transforms + before, units=part * own.units + other.units)
 
 
 def forecast_of(settings: dict) -> Forecast:

@@ -31,7 +31,7 @@ logger = logging.getLogger(__name__)
 NEAR = 10.0
 """Up to how many times the tolerance an effect is checked."""
 COARSER = 4
-"""How many times coarser the grid of the check is."""
+"""How many times coarser the grid of the check is, where it shows all waves."""
 
 
 @dataclass
@@ -104,9 +104,11 @@ def _coarse(run: dict) -> dict:
     """A run on a coarser grid, which still carries its walk."""
     if "accuracy" in run:
         return coarser({name: value for name, value in run.items() if name != "accuracy"})
-    found = run | {"points": run["points"] // COARSER}
+    modes = scene_of(run).upper.surface.modes or 0
+    coarser_by = next(by for by in (COARSER, COARSER // 2, 1) if by == 1 or run["points"] // by > 2 * modes)
+    found = run | {"points": run["points"] // coarser_by}
     if is_smooth(run) and run["increments"]["kind"] == "nested":
-        ratio = max(run["increments"]["ratio"] // COARSER, 1)
+        ratio = max(run["increments"]["ratio"] // coarser_by, 1)
         found["increments"] = run["increments"] | {"ratio": ratio, "between": min(run["increments"]["between"], ratio)}
     return found
 

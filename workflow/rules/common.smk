@@ -41,7 +41,7 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
 onstart:
     _jobs = list(workflow.dag.needrun_jobs())
     _runs = [(PLAN.run(*map(str, job.wildcards)), job.output.costs) for job in _jobs if job.rule.name == "run"]
-    _others = sum(job.rule.name != "run" and not job.is_local for job in _jobs)
+    _others = sum(job.rule.name != "run" and bool(job.rule.output) for job in _jobs)
     print(outlook.told(_runs, _others, workflow.cores), file=sys.stderr)
 
 

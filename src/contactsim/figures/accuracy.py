@@ -17,6 +17,7 @@ from contactsim import cost, dataset, precision
 from contactsim.ensemble import converged
 from contactsim.figures import knobs, style
 from contactsim.figures.render import framed, move, save
+from contactsim.forecast import transform_seconds
 from contactsim.precision import ROUNDING
 
 KNOBS = {
@@ -47,6 +48,7 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     for name, values in (plan["selection"] | plan["loads"]).items():
         chosen = chosen[among(chosen[name], values)]
     table["seconds"] = seconds(table, times, chosen.seconds.sum() / max(alone.member.nunique(), 1))
+    table["seconds_expected"] = table.pop("time_expected") * transform_seconds()
     quantity, columns = settings["quantities"][0], len(turned(table)) + 1
     layout = {"rows": 2, "widths": [1.0] * (columns - 1) + [1.4]}
     figure, panels = framed(settings | {"panels": columns}, footer_text(table, plan), **layout)
@@ -140,6 +142,7 @@ def draw(table: pd.DataFrame, equal: pd.DataFrame, values: xr.Dataset, axes: np.
     for row, (measure, label) in enumerate(COSTS.items()):
         for panel, knob in zip(axes[row], turned(table), strict=False):
             knobs.panel(panel, table[table.knob == knob], quantity, measure, knobs.named(plan["marks"], knob))
+            _forecast(panel, table[(table.knob == knob) & table.own], quantity, measure)
             panel.set_title(titles[knob] if row == 0 else "", fontsize=9)
             panel.set_xlabel(f"relative error of {style.SYMBOLS[quantity]}" if row else "")
         axes[row, 0].set_ylabel(label)
@@ -149,6 +152,14 @@ def draw(table: pd.DataFrame, equal: pd.DataFrame, values: xr.Dataset, axes: np.
     keys = {label: line for label, line in keys.items() if not label.startswith("_")}
     ring = Line2D([], [], ls="", marker="o", ms=9, mfc="none", color=style.EXACT, label="used by a tier or the thesis")
     axes[0, 0].figure.legend(handles=[*keys.values(), ring], loc="outside upper right", ncols=len(keys) + 1)
+
+
+def _forecast(axes: Axes, own: pd.DataFrame, quantity: str, measure: str) -> None:
+    """What the study's own solver was forecast to take, where its errors are found."""
+    shown = own[(own[quantity] > ROUNDING) & np.isfinite(own[quantity]) & own[f"{measure}_expected"].notna()]
+    if len(shown):
+        look = {"ls": ":", "marker": "+", "lw": 1.0, "ms": 5, "color": style.EXACT, "label": "forecast"}
+        axes.plot(shown[quantity], shown[f"{measure}_expected"], **look)
 
 
 def _grid_dependence(axes: Axes, values: xr.Dataset, quantity: str, across: str) -> None:
