@@ -81,7 +81,7 @@ def make_quick_tier(folder: Path) -> None:
                 files = entry["path"], entry["costs"]
                 jobs.append((one.settings, one.source, *files, 1, plan.decision(one), plan.twin(one)))
                 if plan.decision(one) and one.member == 0:
-                    decisions.append((one.settings, plan.decision(one)[0]))
+                    decisions.append((one.settings, plan.decision(one)))
         jobs.sort(key=lambda job: -math.prod(scene_of(job[0]).upper.surface.shape(job[0]["points"])))
         with ProcessPoolExecutor(2, get_context("spawn")) as pool:
             list(pool.map(decided, decisions))

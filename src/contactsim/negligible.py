@@ -10,17 +10,18 @@ from __future__ import annotations
 import json
 import logging
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
 from contactsim import confirm, dataset, march
 from contactsim.build import scene_of
 from contactsim.choice import coarser
 from contactsim.confirm import Outcome
-from contactsim.effect_maps import FILE, change, expected
+from contactsim.effect_maps import FILE, change, expected, reduced
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.march import Files, keep, names_of
 from contactsim.provenance import digest, source_digest
@@ -30,6 +31,8 @@ logger = logging.getLogger(__name__)
 
 NEAR = 10.0
 """Up to how many times the tolerance an effect is checked."""
+LOOSE = 1e-5
+"""Tolerance of a check along a path, in parts of the strength, if that of the run is not looser."""
 COARSER = 4
 """How many times coarser the grid of the check is, where it shows all waves."""
 
@@ -83,11 +86,13 @@ def decide(run: dict, within: float, of: list[str], sample: int) -> Decision:
         """The largest change on the sample."""
         return max(change(one, names, of, solved) for one, solved in zip(samples, known, strict=True))
 
-    for name, value in found.expected.items():
-        if value is not None and value <= NEAR * within:
-            found.measured[name] = measured([name])
-    found.left_out = [name for name, value in found.measured.items() if value <= within]
+    near = [name for name, value in found.expected.items() if value is not None and value <= NEAR * within]
+    found.left_out = [name for name in near if found.expected[name] <= within]
     found.together = measured(found.left_out) if found.left_out else 0.0
+    if found.together > within or len(found.left_out) < len(near):  # one by one
+        found.measured = {name: measured([name]) for name in near}
+        found.left_out = [name for name, value in found.measured.items() if value <= within]
+        found.together = measured(found.left_out) if found.left_out else 0.0
     while found.together > within:
         worst = max(found.left_out, key=found.measured.__getitem__)
         found.left_out.remove(worst)
@@ -107,6 +112,8 @@ def _coarse(run: dict) -> dict:
     modes = scene_of(run).upper.surface.modes or 0
     coarser_by = next(by for by in (COARSER, COARSER // 2, 1) if by == 1 or run["points"] // by > 2 * modes)
     found = run | {"points": run["points"] // coarser_by}
+    if is_smooth(run):
+        found["tolerance"] = max(run["tolerance"], LOOSE)
     if is_smooth(run) and run["increments"]["kind"] == "nested":
         ratio = max(run["increments"]["ratio"] // coarser_by, 1)
         found["increments"] = run["increments"] | {"ratio": ratio, "between": min(run["increments"]["between"], ratio)}
@@ -115,11 +122,13 @@ def _coarse(run: dict) -> dict:
 
 def _words(found: Decision, within: float) -> str:
     """What was done, effect by effect."""
-    parts = []
+    parts, unknown = [], [name for name, value in found.expected.items() if value is None]
     for name, value in found.expected.items():
-        by_map = "no map knows it" if value is None else f"{value:.2g} by the maps"
-        by_check = f", {found.measured[name]:.2g} on the sample" if name in found.measured else ""
-        parts.append(f"{name} {'left out' if name in found.left_out else 'kept'}: {by_map}{by_check}")
+        if value is not None:
+            checked = f", {found.measured[name]:.2g} on the sample" if name in found.measured else ""
+            parts.append(f"{name} {'left out' if name in found.left_out else 'kept'}, {value:.2g} by the maps{checked}")
+    parts += [f"together {found.together:.2g} on the sample"] * bool(found.left_out)
+    parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
     return f"within {within:g}: " + "; ".join(parts or ["there is nothing to leave out"])
 
 
@@ -129,39 +138,43 @@ def run(
     target: str | Path,
     costs: str | Path,
     threads: int = 1,
-    decision: Sequence[str | Path] = (),
-    twin: Sequence[str | Path] = (),
+    decision: str | Path | None = None,
+    twin: str | Path | None = None,
 ) -> None:
     """Compute a run as it asks for, into its dataset and costs: see `march.run` and `confirm.run`.
 
-    decision: the file that says what is negligible, of a run that leaves that out; twin: dataset and decision of a run
-    whose scene is the same without what the maps find negligible, which is taken over where both decisions are alike.
+    decision: the file that says what is negligible, of a run that leaves that out; twin: dataset of a run whose scene is
+    the same without what the maps find negligible, which is taken over where that was left out of both.
     """
     follow = confirm.run if "accuracy" in settings else march.run
-    if not decision:
+    if decision is None:
         follow(settings, source, target, costs, threads)
         return
-    found = json.loads(Path(decision[0]).read_text(encoding="utf-8"))
+    found = json.loads(Path(decision).read_text(encoding="utf-8"))
     left = found["left_out"]
     told = {"left_out": ", ".join(left), "left_out_change": found["together"], "decision": found["words"]}
     told["transforms_of_check"] = found["work"] / settings["points"] if settings["member"] == 0 else 0.0
     settings = settings | {"leave_out": left}
-    if twin and json.loads(Path(twin[1]).read_text(encoding="utf-8"))["left_out"] == left:
-        _take_over(settings, source, (target, costs), twin[0], told)
+    other = dataset.read(twin) if twin else None
+    final = dataset.settings_of(other) if twin else {}
+    same = settings | {name: final[name] for name in CHOSEN if name in final}
+    if twin and reduced(final) == reduced(same):
+        _take_over(other, same, source, (target, costs), told)
     else:
         follow(settings, source, target, costs, threads, told)
 
 
-def _take_over(settings: dict, source: str, files: Files, twin: str | Path, told: Mapping[str, object]) -> None:
-    """A run's dataset from one whose scene is the same: nothing is spent."""
+CHOSEN = ("points", "tolerance", "load", "increments")
+"""What a run to an accuracy may have come to."""
+
+
+def _take_over(data: xr.Dataset, settings: dict, source: str, files: Files, told: Mapping[str, object]) -> None:
+    """A run's dataset from that of one whose scene is the same: nothing is spent."""
     begin = time.process_time()
-    data = dataset.read(twin)
-    final = dataset.settings_of(data)
-    settings = settings | {name: final[name] for name in ("points", "tolerance", "load", "increments") if name in final}
     (dim,) = data.transforms.dims
     spent = {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}
     data = data.drop_vars("point").assign(spent | dict(told)).assign(seconds=(dim, np.zeros(data[dim].size)))
     if dim != "step":
         data = data.rename({dim: "step"})
-    logger.info("taken over from %s, whose scene is the same without %s", twin, told["left_out"])
+    logger.info("taken over from a run whose scene is the same without %s", told["left_out"])
     keep(data, settings, names_of(settings, source), source, files, begin)

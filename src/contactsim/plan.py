@@ -181,14 +181,14 @@ class Plan:
         runs = {(run.variant, str(run.member)): run for run in self.studies[study].runs()}
         return runs[variant, member]
 
-    def decision(self, run: Run) -> list[Path]:
+    def decision(self, run: Run) -> Path | None:
         """The file that says what is negligible in a run; none where nothing is to be left out by itself."""
-        return [self.results / f"decisions/{run.study}/{run.variant}.json"] if "auto" in run.settings else []
+        return self.results / f"decisions/{run.study}/{run.variant}.json" if "auto" in run.settings else None
 
-    def twin(self, run: Run) -> list[Path]:
-        """Dataset and decision of an earlier run that is expected to be the same without what is negligible."""
+    def twin(self, run: Run) -> Path | None:
+        """The dataset of an earlier run that is expected to be the same without what is negligible, if there is one."""
         other = self._twins.get(run.stem)
-        return [] if other is None else [self.results / f"runs/{other.stem}.nc", *self.decision(other)]
+        return None if other is None else self.results / f"runs/{other.stem}.nc"
 
     @cached_property
     def _twins(self) -> dict[str, Run]:

@@ -11,11 +11,11 @@ def run_label(wildcards):
 
 
 def run_decision(wildcards):
-    return PLAN.decision(PLAN.run(wildcards.study, wildcards.variant, wildcards.member))
+    return PLAN.decision(PLAN.run(wildcards.study, wildcards.variant, wildcards.member)) or []
 
 
 def run_twin(wildcards):
-    return PLAN.twin(PLAN.run(wildcards.study, wildcards.variant, wildcards.member))
+    return PLAN.twin(PLAN.run(wildcards.study, wildcards.variant, wildcards.member)) or []
 
 
 def decide_params(wildcards):

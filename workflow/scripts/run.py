@@ -8,6 +8,6 @@ from contactsim.negligible import run
 
 logged(snakemake.log[0])
 plan, files = json.loads(snakemake.params.plan), [snakemake.output.data, snakemake.output.costs]
-decision, twin = ([*map(str, snakemake.input.get(name, []))] for name in ("decision", "twin"))
+decision, twin = (snakemake.input.get(name) or None for name in ("decision", "twin"))
 run(plan["settings"], plan["source"], *files, snakemake.threads, decision, twin)
 Path(snakemake.output.done).write_text(plan["source"])
