@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from dataclasses import dataclass, field
 
 import pytest
@@ -247,3 +248,9 @@ def test_null_takes_out_a_key_that_there_is():
         "b": {"d": 3},
         "e": None,
     }
+
+
+def test_an_error_stays_what_it_is_on_its_way_between_processes():
+    error = pickle.loads(pickle.dumps(SceneError("points", 3, "more", "file.yaml")))
+    assert (error.key, error.value, error.allowed, error.file) == ("points", 3, "more", "file.yaml")
+    assert str(error) == "file.yaml: points: got 3; allowed: more"

@@ -25,6 +25,10 @@ class SceneError(ValueError):
         where = f"{file}: " if file is not None else ""
         super().__init__(f"{where}{key}: got {shown(value)}; allowed: {allowed}")
 
+    def __reduce__(self) -> tuple:
+        """So that it can leave a process that it came up in."""
+        return SceneError, (self.key, self.value, self.allowed, self.file)
+
     def within(self, file: object, prefix: str = "") -> SceneError:
         """Return the same error with the file, and the section of it, in which the key was read."""
         key = f"{prefix}.{self.key}" if prefix else self.key
