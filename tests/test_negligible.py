@@ -154,10 +154,13 @@ def test_runs_whose_scenes_are_the_same_without_an_effect_are_the_same():
 
 
 def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(monkeypatch):
-    values = iter([np.nan, 3.0, np.nan, np.nan])
-    monkeypatch.setattr(effect_maps, "_solved", lambda *given: SimpleNamespace(values={"a": np.array([next(values)])}))
-    assert change({}, ["coupling"], ["a"]) == 1.0
+    values = iter([np.nan, 3.0, np.nan, np.nan, 2.0, 3.0])
+    monkeypatch.setattr(
+        effect_maps, "_solved", lambda *given: SimpleNamespace(values={"a": np.array([next(values)])}, solved=True)
+    )
+    assert change({}, ["coupling"], ["a"]) == np.inf
     assert change({}, ["coupling"], ["a"]) == 0.0
+    assert change({}, ["coupling"], ["a"]) == 0.5
 
 
 def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_taken_over(tmp_path):

@@ -17,7 +17,7 @@ from scipy.optimize import least_squares
 
 from contactsim.build import scene_of
 from contactsim.choice import chosen, coarser, grid_for, on_grid, walked
-from contactsim.confirm import Outcome, outcome
+from contactsim.confirm import Outcome, difference, outcome
 from contactsim.draws import draw
 from contactsim.forecast import transform_seconds, walk_features
 from contactsim.provenance import source_digest
@@ -179,7 +179,7 @@ def _rows(knob: str, found: Outcome, reference: Outcome, kind: str) -> list[dict
         row["increment"] = math.log(found.settings[part].get("increment", 1.0))
         row["resolved"] = math.log(max(found.resolved[count], 1e-9)) if found.resolved.size else np.nan
         for name in READ[kind]:
-            row[f"error_{name}"] = abs(found.values[name][count] / reference.values[name][count] - 1)
+            row[f"error_{name}"] = difference(reference, found, name)[count]
         steps = found.data.step.size
         row["count"] = 1 if found.resolved.size else steps
         row["transforms"] = float(found.data.transforms[count]) if found.resolved.size else found.transforms

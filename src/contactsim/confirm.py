@@ -39,6 +39,8 @@ TRUST = 0.7
 """Part of a change that counts: the coarser run is often too coarse to be of any order, and makes it large."""
 TINY = 1e-9
 """Least part of a contact that counts as its edge."""
+BLIND = 2.0
+"""How much finer a grid is made where nothing is known of the error."""
 LEAST = 1.25
 """How much finer a refined grid is at least."""
 
@@ -59,6 +61,11 @@ class Outcome:
     def points(self) -> int:
         """Of the grid along x."""
         return self.settings["points"]
+
+    @property
+    def solved(self) -> bool:
+        """Whether every state has converged."""
+        return bool(solved(self.data.status).all())
 
     @property
     def transforms(self) -> float:
@@ -94,14 +101,26 @@ def outcome(settings: dict, names: Sequence[str], threads: int = 1, begun: Outco
     )
     if is_smooth(settings):
         whole = of_states(combined([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
-        values = {name: np.atleast_1d(whole[name].values.astype(float)) for name in names}
-        lost = bool((~solved(data.status)).any())
         return Outcome(
-            settings, data, {name: np.full(1, np.nan) if lost else one for name, one in values.items()}, np.empty(0)
+            settings, data, {name: np.atleast_1d(whole[name].values.astype(float)) for name in names}, np.empty(0)
         )
-    values = {name: data[name].where(solved(data.status)).values.astype(float) for name in names}
+    values = {name: data[name].values.astype(float) for name in names}
     resolved = data.contact_edges.values / np.maximum(data.contact_points.values, 1)
     return Outcome(settings, data, values, resolved)
+
+
+def difference(one: Outcome, two: Outcome, name: str) -> Array:
+    """Relative change of a quantity from one solution to another, by load or of the path.
+
+    None where neither has it, as a path without a pull-off; infinite where one lacks it, or where a state of either has
+    not converged.
+    """
+    if not (one.solved and two.solved):
+        return np.full(one.values[name].shape, np.inf)
+    first, second = one.values[name], two.values[name]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = np.nan_to_num(np.abs(second / first - 1), nan=np.inf)
+    return np.where(np.isnan(first) & np.isnan(second), 0.0, found)
 
 
 @dataclass(frozen=True)
@@ -182,11 +201,8 @@ def estimated(fine: Outcome, coarse: Outcome, known: Kind, names: Sequence[str])
     """
     found = {}
     for name in names:
-        one, two = fine.values[name], coarse.values[name]
         left, before = _expected(fine, known, name), _expected(coarse, known, name)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            changes = np.abs(two / one - 1) * left / np.maximum(before - left, left)
-        changes = np.where(np.isnan(one) & np.isnan(two), 0.0, np.nan_to_num(changes, nan=np.inf))
+        changes = difference(fine, coarse, name) * left / np.maximum(before - left, left)
         found[name] = np.maximum(TRUST * changes, left)
     return found
 
@@ -216,12 +232,12 @@ def _after(settings: dict, companion: Outcome, known: Kind, names: Sequence[str]
 
 def _refined(run: Outcome, errors: dict[str, Array], error: float) -> dict:
     """The settings of a run that missed: a finer grid by as much as the estimates say, and half the increments."""
-    finer = 1.0
-    for name, values in errors.items():
-        finer = max(
-            finer,
-            (float(values.max()) / (SAFETY[kind_of(scene_of(run.settings))] * error)) ** (1 / ORDERS.get(name, SECOND)),
-        )
+    wanted = SAFETY[kind_of(scene_of(run.settings))] * error
+    worst = {name: float(values.max()) for name, values in errors.items()}
+    found = [
+        BLIND if np.isinf(one) else (one / wanted) ** (1 / ORDERS.get(name, SECOND)) for name, one in worst.items()
+    ]
+    finer = max(found)
     settings = run.settings | (rescaled(run.settings, 0.5) if is_smooth(run.settings) else {})
     return _on(settings, run.points * float(np.clip(finer, LEAST, _most(run))), error)
 

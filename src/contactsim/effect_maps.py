@@ -20,7 +20,7 @@ import yaml
 from contactsim import dataset
 from contactsim.build import scene_of
 from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, read, size, text
-from contactsim.confirm import Outcome, outcome
+from contactsim.confirm import Outcome, difference, outcome
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.leaving_out import LEFT_OUT
@@ -57,8 +57,6 @@ PANEL_KEYS = {
     "at": Key(mapping, "a mapping from the other axes to one of their values", {}),
     "conditions": Key(mapping, "a mapping from words to where they are written, across and up", {}),
 }
-ALL_CHANGED = 1.0
-"""Relative change of a quantity that exists with an effect or without it, but not both."""
 
 
 def read_maps(folder: str | Path, over: dict) -> dict | None:
@@ -117,7 +115,7 @@ def figure(settings: dict, tier: str) -> dict:
 
 
 def measure(name: str, settings: dict) -> xr.Dataset:
-    """One map: the largest relative change of its quantities, at every place; -1 where a path has no solution."""
+    """One map: the largest relative change of its quantities, at every place; infinite where a path has no solution."""
     axes, known = settings["axes"], {}
     errors = np.empty([len(axis["values"]) for axis in axes.values()])
     for place in np.ndindex(errors.shape):
@@ -139,13 +137,7 @@ def change(run: dict, names: list[str], of: list[str], known: dict[str, Outcome]
     """
     known = {} if known is None else known
     with_all, without = (_solved(run | {"leave_out": left}, of, known) for left in ([], names))
-    worst = 0.0
-    for name in of:
-        one, two = with_all.values[name], without.values[name]
-        if np.isnan(one).all() and np.isnan(two).all():
-            continue
-        worst = max(worst, float(np.nan_to_num(np.abs(two / one - 1), nan=ALL_CHANGED).max()))
-    return worst
+    return max(float(difference(with_all, without, name).max()) for name in of)
 
 
 def _solved(run: dict, of: list[str], known: dict[str, Outcome]) -> Outcome:

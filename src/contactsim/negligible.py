@@ -125,11 +125,16 @@ def _words(found: Decision, within: float) -> str:
     parts, unknown = [], [name for name, value in found.expected.items() if value is None]
     for name, value in found.expected.items():
         if value is not None:
-            checked = f", {found.measured[name]:.2g} on the sample" if name in found.measured else ""
+            checked = f", {_told(found.measured[name])} on the sample" if name in found.measured else ""
             parts.append(f"{name} {'left out' if name in found.left_out else 'kept'}, {value:.2g} by the maps{checked}")
     parts += [f"together {found.together:.2g} on the sample"] * bool(found.left_out)
     parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
     return f"within {within:g}: " + "; ".join(parts or ["there is nothing to leave out"])
+
+
+def _told(change: float) -> str:
+    """A change in words."""
+    return f"{change:.2g}" if change < float("inf") else "not to be compared"
 
 
 def run(
@@ -143,8 +148,8 @@ def run(
 ) -> None:
     """Compute a run as it asks for, into its dataset and costs: see `march.run` and `confirm.run`.
 
-    decision: the file that says what is negligible, of a run that leaves that out; twin: dataset of a run whose scene is
-    the same without what the maps find negligible, which is taken over where that was left out of both.
+    decision: the file that says what is negligible, of a run that leaves that out; twin: dataset of a run whose scene
+    is the same without what the maps find negligible, which is taken over where that was left out of both.
     """
     follow = confirm.run if "accuracy" in settings else march.run
     if decision is None:

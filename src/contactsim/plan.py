@@ -183,7 +183,11 @@ class Plan:
 
     def decision(self, run: Run) -> Path | None:
         """The file that says what is negligible in a run; none where nothing is to be left out by itself."""
-        return self.results / f"decisions/{run.study}/{run.variant}.json" if "auto" in run.settings else None
+        if "auto" not in run.settings:
+            return None
+        runs = self.studies[run.study].runs()  # one that measures an error does as the runs that it measures it of
+        same = next(one for one in runs if one.coordinates == run.coordinates)
+        return self.results / f"decisions/{run.study}/{same.variant}.json"
 
     def twin(self, run: Run) -> Path | None:
         """The dataset of an earlier run that is expected to be the same without what is negligible, if there is one."""

@@ -16,11 +16,10 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.build import scene_of
 from contactsim.choice import chosen, coarser, grid_for, rescaled, walked
-from contactsim.confirm import Outcome, Reached, outcome, reach
+from contactsim.confirm import Outcome, Reached, difference, outcome, reach
 from contactsim.draws import draw
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast_to, size_of
-from contactsim.grid import Array
 from contactsim.provenance import digest, source_digest
 from contactsim.relations import FILE, LINE, MEASURES, SURFACE, kind_of
 from contactsim.schema import is_smooth
@@ -71,13 +70,13 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     found = reach(run, asked)
     names = MEASURES[kind]
     reference = outcome(_finer(found.last, kind), names)
-    tried = [(one, _error(one.values, reference.values)) for one in _ladder(found, names)]
+    tried = [(one, _error(one, reference)) for one in _ladder(found, names)]
     met = [one for one, error in tried if error <= asked]
     least = min(met, key=lambda one: one.transforms * one.size, default=None)
     work = found.work * found.last.size
     row = {
         "asked": asked,
-        "true_error": _error(found.last.values, reference.values),
+        "true_error": _error(found.last, reference),
         "expected_error": max(float(values.max()) for values in found.errors.values()),
         "solved": len(found.before) + 1,
         "points": found.last.points,
@@ -100,14 +99,9 @@ def _all_points(run: dict, points: int) -> int:
     return size_of(scene_of(run), points)
 
 
-def _error(values: dict[str, Array], reference: dict[str, Array]) -> float:
-    """The largest relative error of all quantities; of one that neither has, none; infinite of one that one lacks."""
-    worst = 0.0
-    for name, one in values.items():
-        both = np.isnan(one) & np.isnan(reference[name])
-        errors = np.where(both, 0.0, np.nan_to_num(np.abs(one / reference[name] - 1), nan=np.inf))
-        worst = max(worst, float(errors.max()))
-    return worst
+def _error(one: Outcome, reference: Outcome) -> float:
+    """The largest relative error of all quantities."""
+    return max(float(difference(reference, one, name).max()) for name in one.values)
 
 
 def _on(settings: dict, points: float) -> dict:

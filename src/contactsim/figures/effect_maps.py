@@ -77,6 +77,8 @@ def draw(axes: Axes, data: xr.Dataset, panel: Mapping, title: str):
 
 def _per_cent(change: float) -> str:
     """A change in per cent, to two digits."""
+    if not np.isfinite(change):
+        return "–"
     return "<0.01" if change < 1e-4 else f"{float(f'{100 * change:.2g}'):g}"
 
 
