@@ -52,6 +52,7 @@ PLAN = {
     "tier": "quick",
     "default": "active_set",
     "selection": {},
+    "expected": [["5e3", "1e2"]] * 5 + [["nan", "nan"]],
     "loads": {"reduced_pressure": LOADS},
     "units": {},
     "surface": False,
@@ -110,6 +111,7 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     ensemble = study(members) if settings["load"] else path_study([200.0] * members)
     table = precision.table(settings, jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
+    table = table.assign(work_expected=np.where(table.own, table.work * 1.5, np.nan))
     table["seconds_expected"] = table.work_expected / 1000
     columns = len(accuracy.turned(table)) + 1
     figure, panels = framed(settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
@@ -362,7 +364,7 @@ def test_solvers_have_the_names_of_the_literature():
     heads = [cell.get_text().get_text() for (row, _), cell in axes[1, -1].tables[0].get_celld().items() if row == 0]
     assert "Polonsky–\nKeer" in heads
     names = [text.get_text() for text in axes[0, 0].figure.legends[0].get_texts()]
-    assert names == ["least cost", "active set", "Polonsky–Keer", "used by a tier or the thesis"]
+    assert names == ["least cost", "active set", "Polonsky–Keer", "forecast", "used by a tier or the thesis"]
 
 
 def test_entries_of_a_column_are_chosen_by_their_value():
@@ -383,3 +385,11 @@ def test_entries_of_a_column_are_chosen_by_their_value():
 )
 def test_ratios_have_two_digits_and_no_powers_of_ten(work, seconds, text):
     assert accuracy.times(pd.Series({"work": work, "seconds": seconds})) == text
+
+
+def test_what_was_forecast_stands_beside_what_the_own_solver_took(tmp_path):
+    table, _ = render(tmp_path)
+    own = table[(table.solver == "active_set") & (table.knob != "members")]
+    assert own.work_expected.tolist()[:5] == [5e3] * 5
+    assert (own.seconds_expected[:5] > 0).all()
+    assert table.work_expected.isna().sum() == len(table) - 5

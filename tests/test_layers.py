@@ -15,8 +15,9 @@ pairing loading scene wall interface solvers.base solvers solvers.active_set sol
 solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
-observables adhesion sliding analytic provenance validity dataset config schema build relations choice forecast study
-tabulate branch loads march extrapolation ensemble fits hysteresis area_load onset aggregate confirm effect_maps
+observables adhesion sliding analytic provenance validity dataset extrapolation ensemble
+hysteresis area_load onset config schema build relations choice forecast study
+tabulate branch loads march fits aggregate confirm effect_maps
 negligible costs joblog outlook takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
 verdicts wall_verdicts path_verdicts stability plan ladder compare explain priced cost precision draws

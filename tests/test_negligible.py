@@ -159,7 +159,7 @@ def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(monkeypat
         effect_maps, "_solved", lambda *given: SimpleNamespace(values={"a": np.array([next(values)])}, solved=True)
     )
     assert change({}, ["coupling"], ["a"]) == np.inf
-    assert change({}, ["coupling"], ["a"]) == 0.0
+    assert change({}, ["coupling"], ["a"]) == np.inf  # nothing can be said of what neither has
     assert change({}, ["coupling"], ["a"]) == 0.5
 
 

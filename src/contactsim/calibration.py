@@ -217,7 +217,7 @@ def _kind(kind: str, rows: pd.DataFrame) -> dict:
             name: _line(rows[rows.knob == "increment"], f"error_{name}", ("one", "increment"), {})
             for name in READ[kind]
         }
-    seen = [
+    seen = ["bodies", "layers"] + [
         name
         for name in WORK_FEATURES[kind]
         if name not in ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")

@@ -33,7 +33,7 @@ from contactsim.schema import is_smooth
 from contactsim.surface import SelfAffine
 from contactsim.traits import Trait
 
-SAFETY = {LINE: 0.7, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}
+SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}
 """Part of an error that the grid is chosen for: less where scenes of a kind differ more than what is known of them."""
 SHARES = {"increment": 0.2, "tolerance": 0.1}
 """Parts of the error that other knobs may make."""
@@ -77,7 +77,10 @@ def chosen(settings: dict, error: float, of: Sequence[str] = ()) -> dict:
     if is_smooth(settings):
         found |= _paced(settings, scene, known, names, error)
         found["tolerance"] = min(PATH_TOLERANCE, error * PATH_TOLERANCE / 1e-2)
-        scene = scene_of(found)
+        try:
+            scene = scene_of(found)
+        except SceneError as too_many:
+            raise SceneError("accuracy", error, f"an error for which increments are {too_many.allowed}") from too_many
     scale = scales(scene)
     spacing = min(
         scale_of * math.exp(grid)
@@ -107,7 +110,7 @@ def grid_for(scene: Scene, points: float, error: float) -> int:
 
 
 def coarser(settings: dict, points: int | None = None) -> dict:
-    """The companion of a run: every knob coarser; points: those of its grid, if they are known."""
+    """The companion of a run: its grid and increments coarser; points: those of its grid, if they are known."""
     scene = scene_of(settings)
     ratio = COARSER.get(kind_of(scene), 3.0)
     found = settings | {"points": points or grid_for(scene, settings["points"] / ratio, 0.0)}

@@ -1,7 +1,7 @@
 """`contactsim explain | run | cost | compare`: one scene from the shell; two tiers side by side.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight`, `whole` and
-`fit_limits`, and may give `seed`. In place of a file, `explain` takes the name of a study in ./config.
+`fit_limits`, and may give `seed`. In place of a file, `explain` and `cost` take the name of a study in ./config.
 `compare` reads the CSVs of the figures in ./config as they lie in its results folder.
 """
 
@@ -12,10 +12,11 @@ import logging
 import sys
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.aggregate import derived
+from contactsim.aggregate import combined, derived, of_states
 from contactsim.build import increments_of, points_of, scene_of
 from contactsim.choice import chosen as chosen_for
 from contactsim.compare import compared, is_within, summary
@@ -23,8 +24,9 @@ from contactsim.config import load_yaml, whole
 from contactsim.confirm import reach
 from contactsim.errors import SceneError
 from contactsim.explain import explain
-from contactsim.forecast import Forecast, forecast_of
+from contactsim.forecast import expectation, forecast_of
 from contactsim.march import chosen, labelled, simulate
+from contactsim.negligible import without
 from contactsim.plan import Plan
 from contactsim.scene import Scene
 from contactsim.schema import COMPANIONS
@@ -35,9 +37,11 @@ from contactsim.study import Study
 DRAWN = (".png", ".pdf", ".svg")
 
 
-def read_scene(path: str) -> Study:
-    """The one-run study in a scene file."""
+def read_scene(path: str, accuracy: float | None = None) -> Study:
+    """The one-run study in a scene file; accuracy: one that it is asked for where it says nothing of its grid."""
     section = load_yaml(path)
+    if accuracy is not None and not {"accuracy", "tolerance"} & set(section):
+        section["accuracy"] = accuracy
     for key in ("vary", "members", *COMPANIONS, "fit_limits"):
         if key in section:
             raise SceneError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
@@ -53,12 +57,14 @@ def read_scene(path: str) -> Study:
         raise SceneError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
 
 
-def named(scene: str, tier: str | None) -> Study:
-    """A study, from a scene file or by its name in ./config."""
+def named(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
+    """A study, from a scene file or by its name in ./config; accuracy: see `read_scene`."""
+    if accuracy is not None and not 0 < accuracy < 1:
+        raise SceneError("--accuracy", accuracy, "a relative error, above 0 and below 1")
     if Path(scene).suffix:
         if tier is not None:
             raise SceneError("--tier", tier, "none with a scene file: tiers belong to studies")
-        return read_scene(scene)
+        return read_scene(scene, accuracy)
     if not Path("config").is_dir():
         raise SceneError("scene", scene, "a scene file, or a study's name where there is a folder config")
     studies = Plan.read("config", tier).studies
@@ -130,62 +136,43 @@ def run_scene(options: argparse.Namespace) -> None:
 
 
 def _reached(data: xr.Dataset) -> str:
-    """What came of an accuracy that was asked for."""
+    """What came of an accuracy that was asked for: errors relative to what was found."""
     ending = "_estimated_error"
     names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
-    errors = [f"{name} to {float(data[name + ending].max()):.2g} {data[name + ending].units}" for name in names]
-    met = "reached" if data.reached else "not reached"
-    return (
-        f"relative error {float(data.accuracy):g} {met} on {int(data.points)} points: {', '.join(errors)}, as estimated"
+    whole = of_states(combined([(data, {"member": 0})])) if "step" in data.dims else data
+    errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
+    met, found = (
+        "reached" if data.reached else "not reached",
+        ", ".join(f"{name} to {one:.2g}" for name, one in errors.items()),
     )
+    return f"relative error {float(data.accuracy):g} {met} on {int(data.points)} points: {found}, as estimated"
 
 
 def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     """The simulation of a study's first run, as it asks for or to its accuracy; and the settings that it came to."""
-    scene, settings, points = first_scene(study)
+    settings, decided = without(study.runs()[0].settings)
+    if decided:
+        sys.stdout.write(f"{decided}\n")
     if "accuracy" in settings:
         found = reach(settings, **settings["accuracy"], threads=threads)
         return found.data, found.last.settings
-    method = solver(**settings["solver"])
+    scene, method = scene_of(settings), solver(**settings["solver"])
+    points = points_of(settings, scene.upper.surface)
     given = {"tolerance": settings["tolerance"], "method": method, "threads": threads}
     return simulate(scene, points=points, **given, **chosen(settings)), settings
 
 
 def cost_scene(options: argparse.Namespace) -> None:
     """Print what a scene, or each run of a study, is expected to cost, as it is or to an accuracy."""
-    study = named(options.scene, options.tier)
-    runs = [run.settings for run in study.runs()]
-    if options.accuracy is not None:
-        if not 0 < options.accuracy < 1:
-            raise SceneError("--accuracy", options.accuracy, "a relative error, above 0 and below 1")
-        asked = {"error": options.accuracy, "of": []}
-        runs = [chosen_for(settings, **asked) | {"accuracy": asked} for settings in runs]
-    expected = [forecast_of(settings) for settings in runs]
-    sys.stdout.write(_expectation(runs, expected))
-
-
-def _expectation(runs: list[dict], expected: list[Forecast]) -> str:
-    """Forecasts in words: what the first run is chosen to be and costs, and all of them together."""
-    first, settings = expected[0], runs[0]
-    part = settings["slide" if settings.get("slide") else "load"]
-    grid = f"{first.points} points, tolerance {settings['tolerance']:.2g}"
-    grid += f", increments of {part['increment']:g} {settings['increments']['kind']}" if "increment" in part else ""
-    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
-    lines = [
-        f"grid         {grid}",
-        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
-        f"transforms   {first.transforms:.3g} of that grid"
-        + ", a coarser run before included" * ("accuracy" in settings),
-        f"seconds      {first.seconds:.2g} of CPU on one thread",
-        f"memory       {first.megabytes:.3g} MB of arrays",
-        f"error        {errors} (relative, as expected of such scenes)",
-    ]
-    if len(runs) > 1:
-        total = sum(one.seconds for one in expected)
-        lines.append(f"all {len(runs):4d} runs {total:.3g} s, {sum(one.transforms for one in expected):.3g} transforms")
-    unsure = dict.fromkeys(name for one in expected for name in one.unsure)
-    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
-    return "\n".join(lines) + "\n"
+    study = named(options.scene, options.tier, options.accuracy)
+    runs = [run.settings for run in study.runs() if not run.companion]
+    try:
+        if options.accuracy is not None:
+            asked = {"of": []} | (study.settings["accuracy"] or {}) | {"error": options.accuracy}
+            runs = [chosen_for(settings, **asked) | {"accuracy": asked} for settings in runs]
+        sys.stdout.write(expectation(runs, [forecast_of(settings) for settings in runs]))
+    except SceneError as error:
+        raise error.within(study.file) from error
 
 
 def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:

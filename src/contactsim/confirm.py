@@ -120,7 +120,7 @@ def difference(one: Outcome, two: Outcome, name: str) -> Array:
     first, second = one.values[name], two.values[name]
     with np.errstate(divide="ignore", invalid="ignore"):
         found = np.nan_to_num(np.abs(second / first - 1), nan=np.inf)
-    return np.where(np.isnan(first) & np.isnan(second), 0.0, found)
+    return np.where((np.isnan(first) & np.isnan(second)) | (first == second), 0.0, found)
 
 
 @dataclass(frozen=True)

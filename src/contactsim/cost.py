@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from contactsim import dataset
@@ -20,7 +19,7 @@ from contactsim.aggregate import combined
 from contactsim.build import scene_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
-from contactsim.forecast import forecast
+from contactsim.forecast import forecast, size_of
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.priced import Setting, SingleLoads, Slide, WholePath, kind_of, read_turned, solutions
@@ -110,6 +109,23 @@ class Case:
         apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(COMPANIONS)
         return replace(self.study, settings=self.study.settings | changed | apart)
 
+    def expected(self) -> list[list[float]]:
+        """Of every setting of the study's own solver, work and units of time that it is forecast to take.
+
+        NaN of what was not measured.
+        """
+        found = []
+        for setting in self.turned(self.default):
+            try:
+                settings = [run.settings for run in self._study(setting, self.default).runs()]
+                runs = [forecast(one) for one in settings]
+            except SceneError:
+                found.append([float("nan")] * 2)
+            else:
+                size = size_of(scene_of(settings[0]), setting.points)
+                found.append([sum(one.transforms for one in runs) * size, sum(one.units for one in runs)])
+        return found
+
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:
         """Quantities and transforms of every setting of a job, and seconds.
 
@@ -129,22 +145,9 @@ class Case:
             )
             solved = solutions(data)
             kept = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
-            kept = kept.assign(_expected([run.settings for run in runs]))
             found.append(kept.assign(setting.numbers | {"knob": setting.knob}))
             seconds.append(min(times))
         return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
-
-
-def _expected(runs: list[dict]) -> dict[str, float]:
-    """Transforms, and units of time, that all runs of a setting are forecast to take; NaN of what was not measured."""
-    try:
-        found = [forecast(settings) for settings in runs]
-    except SceneError:
-        return {"transforms_expected": np.nan, "time_expected": np.nan}
-    return {
-        "transforms_expected": sum(one.transforms for one in found),
-        "time_expected": sum(one.units for one in found),
-    }
 
 
 def simulated(settings: dict) -> xr.Dataset:
@@ -187,6 +190,8 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     if settings["study"] not in plan.studies:
         raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
     study = plan.studies[settings["study"]]
+    if study.settings["accuracy"] is not None:
+        raise SceneError(f"{prefix}.study", study.name, "a study whose knobs can be turned, without an accuracy", file)
     kind = kind_of(study)
     if kind is None:
         raise SceneError(f"{prefix}.study", study.name, "a study of loads, or of a path of smooth laws", file)
@@ -252,6 +257,7 @@ def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
         "tier": plan.tier,
         "default": case.default,
         "selection": case.selection,
+        "expected": [[f"{value:.6g}" for value in one] for one in case.expected()],
         "loads": case.kind.loads(case.study, case.settings["load"]),
         "units": case.kind.units(case.study),
         "surface": Trait.SURFACE in scene_of(case.study.runs()[0].settings).traits,

@@ -86,8 +86,6 @@ VARIABLES = {
     "iterations": ("1", "outer iterations of the solver"),
     "transforms": ("1", "real transforms, in equivalents of one on the finest grid"),
     "transforms_before": ("1", "real transforms of coarser runs before, in equivalents of one on the finest grid"),
-    "transforms_expected": ("1", "real transforms that all runs of a setting are forecast to take"),
-    "time_expected": ("1", "CPU time that they are forecast to take, in transforms of 4096 points"),
     "accuracy": ("1", "relative error asked for"),
     "left_out": ("1", "effects left out as negligible"),
     "decision": ("1", "what was left out as negligible and what was not, and why"),

@@ -1,8 +1,9 @@
 """Maps of what leaving an effect out changes, over the numbers that govern it; and what they say of a scene.
 
-A map varies some settings of one scene, as they are or as ratios of settings, so that it holds at any scale. It is
-measured by the workflow and kept in a file of the package. Of a scene whose place lies between those of a map, the
-largest change at the corners around it counts; of one beyond the map nothing is known.
+A map varies some settings of one scene, as they are or as ratios of settings. It is measured by the workflow and kept
+in a file of the package. Of a scene whose place lies between those of a map, the largest change at the corners around
+it counts; of one beyond its axes nothing is known. What is on no axis, such as how deep a surface is pressed, a map
+takes to matter less: it proposes, and a check on the scene itself decides (`contactsim.negligible`).
 """
 
 from __future__ import annotations
@@ -131,12 +132,14 @@ def as_dataset(settings: dict, errors: Array) -> xr.Dataset:
 
 
 def change(run: dict, names: list[str], of: list[str], known: dict[str, Outcome] | None = None) -> float:
-    """The largest relative change of quantities on leaving effects out of a run; infinite without a solution.
+    """The largest relative change of quantities on leaving effects out of a run; infinite where it has none of them.
 
     known: solutions by digest of what they depend on, which is added to.
     """
     known = {} if known is None else known
     with_all, without = (_solved(run | {"leave_out": left}, of, known) for left in ([], names))
+    if all(np.isnan(one.values[name]).all() for one in (with_all, without) for name in of):
+        return np.inf
     return max(float(difference(with_all, without, name).max()) for name in of)
 
 
@@ -199,8 +202,10 @@ def _at(section: Mapping, key: str) -> float | None:
     return DEFAULTS.get(head) if found is None else None if tail else found
 
 
-def _unit(section: Mapping, keys: list[str]) -> float:
-    return float(np.prod([_at(section, key) for key in keys])) if keys else 1.0
+def _unit(section: Mapping, keys: list[str]) -> float | None:
+    """The product of the values of dotted keys; None where one is missing."""
+    found = [_at(section, key) for key in keys]
+    return None if None in found else math.prod(found)
 
 
 def as_text(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
@@ -236,8 +241,10 @@ def expected(run: dict, effect: str) -> float | None:
 
 
 def _applies(run: dict, one: Mapping) -> bool:
-    """Whether a map is about such scenes."""
+    """Whether a map is about such scenes: of that surface, of such bodies, with these effects, pressed and not slid."""
     bodies = [run[part]["kind"] for part in ("body", "counter_body") if run.get(part)]
+    if run.get("pairing") or run.get("slide") or run["load"].get("control", "approach") != "approach":
+        return False
     return (one["surface"], one["effects"], one["bodies"]) == (run["surface"]["kind"], run["effects"], bodies)
 
 
@@ -246,8 +253,9 @@ def _read(run: dict, one: Mapping) -> float | None:
     table = np.reshape(one["change"], [len(axis["values"]) for axis in one["axes"].values()])
     corners = []
     for axis in one["axes"].values():
-        value = _at(run, axis["key"])
-        place = None if value is None else _around(np.array(axis["values"]), value / _unit(run, axis["per"]))
+        value, unit = _at(run, axis["key"]), _unit(run, axis["per"])
+        known = value is not None and unit is not None
+        place = _around(np.array(axis["values"]), value / unit) if known else None
         if place is None:
             return None
         corners.append(place)

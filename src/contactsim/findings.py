@@ -55,7 +55,7 @@ def find(claim: Mapping, data: Sequence[xr.Dataset], condition: Mapping | None =
     ensemble = math.hypot(*(_jackknife(claim, data, together) for together in _alike(data)))
     grid = _shifted(claim, data, value)
     if "thesis" in [part["grid"] for part in parts]:
-        own = all(int(one.points) == dataset.settings_of(one)["thesis_points"] for one in data)
+        own = all((one.points == dataset.settings_of(one)["thesis_points"]).all() for one in data)
         grid = 0.0 if own else NAN
     return Finding(value, ensemble, grid)
 

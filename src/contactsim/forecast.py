@@ -119,6 +119,31 @@ def forecast_of(settings: dict) -> Forecast:
     return forecast(settings)
 
 
+def expectation(runs: list[dict], expected: list[Forecast]) -> str:
+    """Forecasts of runs in words: what the first is to be and costs, and all of them together."""
+    first, settings = expected[0], runs[0]
+    part = settings["slide" if settings.get("slide") else "load"]
+    grid = f"{first.points} points, tolerance {settings['tolerance']:.2g}"
+    grid += f", increments of {part['increment']:g} {settings['increments']['kind']}" if "increment" in part else ""
+    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
+    before = ", a coarser run before included" * ("accuracy" in settings)
+    lines = [
+        f"grid         {grid}",
+        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
+        f"transforms   {first.transforms:.3g} of that grid{before}",
+        f"seconds      {first.seconds:.2g} of CPU on one thread",
+        f"memory       {first.megabytes:.3g} MB of arrays",
+        f"error        {errors} (relative, as expected of such scenes)",
+    ]
+    if len(runs) > 1:
+        total = sum(one.seconds for one in expected)
+        lines.append(f"all {len(runs):4d} runs {total:.3g} s, {sum(one.transforms for one in expected):.3g} transforms")
+    unsure = dict.fromkeys(name for one in expected for name in one.unsure)
+    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
+    lines += ["with all effects: what is negligible is found out by the run"] * ("auto" in settings)
+    return "\n".join(lines) + "\n"
+
+
 @cache
 def transform_seconds() -> float:
     """Seconds that a real transform of 4096 points takes here and now, the unit of predicted times."""

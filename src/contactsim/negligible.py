@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import logging
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -18,14 +18,19 @@ import numpy as np
 import xarray as xr
 
 from contactsim import confirm, dataset, march
-from contactsim.build import scene_of
+from contactsim.build import points_of, scene_of
 from contactsim.choice import coarser
 from contactsim.confirm import Outcome
 from contactsim.effect_maps import FILE, change, expected, reduced
+from contactsim.errors import SceneError
+from contactsim.forecast import size_of
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.march import Files, keep, names_of
 from contactsim.provenance import digest, source_digest
+from contactsim.scene import Scene
 from contactsim.schema import is_smooth
+from contactsim.traits import Trait
+from contactsim.validity import LIMITS, process_zone
 
 logger = logging.getLogger(__name__)
 
@@ -67,7 +72,15 @@ def source() -> str:
 def effects_of(run: dict) -> list[str]:
     """The effects of a run that can be left out."""
     scene = scene_of(run | {"leave_out": []})
-    return [name for name, less in LEFT_OUT.items() if less(scene) != scene]
+    return [name for name, less in LEFT_OUT.items() if _leaves(scene, less)]
+
+
+def _leaves(scene: Scene, less: Callable[[Scene], Scene]) -> bool:
+    """Whether a scene has an effect, and is one without it."""
+    try:
+        return less(scene) != scene
+    except SceneError:
+        return False
 
 
 def foreseen(run: dict, within: float) -> list[str]:
@@ -109,15 +122,28 @@ def _coarse(run: dict) -> dict:
     """A run on a coarser grid, which still carries its walk."""
     if "accuracy" in run:
         return coarser({name: value for name, value in run.items() if name != "accuracy"})
-    modes = scene_of(run).upper.surface.modes or 0
-    coarser_by = next(by for by in (COARSER, COARSER // 2, 1) if by == 1 or run["points"] // by > 2 * modes)
-    found = run | {"points": run["points"] // coarser_by}
+    scene = scene_of(run)
+    points, modes = points_of(run, scene.upper.surface), scene.upper.surface.modes or 0
+    coarsest = max(2 * modes + 1, scene.length / _finest(scene))
+    coarser_by = next(by for by in (COARSER, COARSER // 2, 1) if by == 1 or points // by >= coarsest)
+    if scene.upper.surface.points is not None:
+        coarser_by = 1  # a measured surface has its own grid
+    found = run | ({"points": points // coarser_by} if coarser_by > 1 else {})
     if is_smooth(run):
         found["tolerance"] = max(run["tolerance"], LOOSE)
     if is_smooth(run) and run["increments"]["kind"] == "nested":
         ratio = max(run["increments"]["ratio"] // coarser_by, 1)
         found["increments"] = run["increments"] | {"ratio": ratio, "between": min(run["increments"]["between"], ratio)}
     return found
+
+
+def _finest(scene: Scene) -> float:
+    """The longest grid spacing, nm, at which the model describes a scene's process zone."""
+    laws = [effect for effect in scene.effects if Trait.SMOOTH in effect.traits]
+    if not laws:
+        return np.inf
+    zone = process_zone(scene.contact_modulus, sum(law.strength for law in laws), min(law.reach for law in laws))
+    return LIMITS["process_zone_step"][0] * zone
 
 
 def _words(found: Decision, within: float) -> str:
@@ -130,6 +156,14 @@ def _words(found: Decision, within: float) -> str:
     parts += [f"together {found.together:.2g} on the sample"] * bool(found.left_out)
     parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
     return f"within {within:g}: " + "; ".join(parts or ["there is nothing to leave out"])
+
+
+def without(run: dict) -> tuple[dict, str]:
+    """A run's settings without what is found negligible now, and what was decided; as they are where none is sought."""
+    if "auto" not in run:
+        return run, ""
+    found = decide(run, **run["auto"])
+    return run | {"leave_out": found.left_out}, found.words
 
 
 def _told(change: float) -> str:
@@ -158,7 +192,8 @@ def run(
     found = json.loads(Path(decision).read_text(encoding="utf-8"))
     left = found["left_out"]
     told = {"left_out": ", ".join(left), "left_out_change": found["together"], "decision": found["words"]}
-    told["transforms_of_check"] = found["work"] / settings["points"] if settings["member"] == 0 else 0.0
+    size = size_of(scene_of(settings), points_of(settings, scene_of(settings).upper.surface))
+    told["transforms_of_check"] = found["work"] / size if settings["member"] == 0 else 0.0
     settings = settings | {"leave_out": left}
     other = dataset.read(twin) if twin else None
     final = dataset.settings_of(other) if twin else {}

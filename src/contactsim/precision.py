@@ -19,8 +19,6 @@ from contactsim.cost import REFERENCE
 from contactsim.priced import KNOBS, solutions
 from contactsim.solvers.base import solved
 
-EXPECTED = ("work_expected", "time_expected")
-"""What a setting was forecast to take: work, and time in transforms of 4096 points."""
 ROUNDING = 1e-10
 """Errors below it are rounding: both solutions have the same contact."""
 
@@ -43,9 +41,7 @@ def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, d
                 rows[-1][name] = _root_mean_square(one[name] / reference[name] - 1)
             rows[-1]["work"] = float(one.transforms.sum() * _size(one))
             rows[-1]["unconverged"] = _unconverged(one)
-            rows[-1]["work_expected"] = float(one.get("transforms_expected", np.nan)) * _size(one)
-            rows[-1]["time_expected"] = float(one.get("time_expected", np.nan))
-    columns = ["solver", "knob", *knobs, "members", *case_settings["quantities"], "work", "unconverged", *EXPECTED]
+    columns = ["solver", "knob", *knobs, "members", *case_settings["quantities"], "work", "unconverged"]
     table = pd.DataFrame(rows + list(_ensembles(case_settings, study, default)), columns=columns)
     return table.assign(own=table.solver == default)
 

@@ -10,13 +10,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from contactsim import loading
+from contactsim.adhesion import SUMMARY
+from contactsim.area_load import AREA_LOAD
 from contactsim.config import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
 from contactsim.elasticity import ELASTICITIES
 from contactsim.errors import SceneError
 from contactsim.follow import INCREMENTS
+from contactsim.hysteresis import CYCLE
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.observables import KEPT
+from contactsim.onset import ONSET
 from contactsim.pairing import PAIRINGS
 from contactsim.solvers import SOLVERS, solver_class, usual_kind
 from contactsim.surface import SURFACES, Flat
@@ -173,12 +177,19 @@ def acting(settings: dict, file: object, prefix: str) -> dict:
         allowed = "left out, for what is negligible is left out anyway"
         raise SceneError(f"{prefix}.leave_out", settings["leave_out"], allowed, file)
     effects = auto.pop("auto")
+    known = OF_PATHS if is_smooth({"effects": effects}) else OF_WALLS
+    for name in auto["of"]:
+        if name not in known:
+            raise SceneError(f"{prefix}.effects.of", name, f"some of {', '.join(known)}", file)
     if auto["sample"] > settings["members"]:
         allowed = f"at most {settings['members']}, the study's members"
         raise SceneError(f"{prefix}.effects.sample", auto["sample"], allowed, file)
     return {"effects": effects, "auto": auto}
 
 
+OF_WALLS = ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
+OF_PATHS = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
+"""Quantities whose change can say whether an effect is negligible."""
 FOLLOWS = "left out, for it follows from the accuracy"
 
 
@@ -192,8 +203,14 @@ def settled(section: dict, settings: dict, file: object, prefix: str) -> dict:
     for key in CHOSEN:
         if section.get(key) is not None:
             raise SceneError(f"{prefix}.{key}", section[key], FOLLOWS, file)
-    if "points" in settings["vary"]:
-        raise SceneError(f"{prefix}.vary.points", settings["vary"]["points"], FOLLOWS, file)
+    for key, values in settings["vary"].items():
+        if key == "points" or str(key).endswith(".increment") or str(key).startswith("increments."):
+            raise SceneError(f"{prefix}.vary.{key}", values, FOLLOWS, file)
+    kept = {"snapshots": settings["snapshots"], "keep": "fields" in settings["keep"] and settings["keep"]}
+    for key in [key for key, value in kept.items() if value]:
+        if settings["vary"] or settings["members"] > 1:
+            allowed = "left out, for runs to an accuracy have grids of their own; or one run"
+            raise SceneError(f"{prefix}.{key}", kept[key], allowed, file)
     given = settings["accuracy"]
     accuracy = read(given if isinstance(given, dict) else {"error": given}, ACCURACY_KEYS, file, f"{prefix}.accuracy")
     return settings | BEGIN | {"accuracy": accuracy}

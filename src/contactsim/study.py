@@ -22,6 +22,7 @@ from contactsim.interface import check_tolerance
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.provenance import digest, source_digest, versions
+from contactsim.relations import FILE
 from contactsim.schema import (
     BODIES,
     COMPANIONS,
@@ -68,7 +69,9 @@ class Run:
         """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
         follows = ["march"] + [module for key, module in FOLLOWED.items() if key in self.settings]
         follows = [f"contactsim.{module}" for module in follows]
-        return digest(source_digest(*follows, module_of(self.settings["solver"]["kind"])), versions())
+        code = source_digest(*follows, module_of(self.settings["solver"]["kind"]))
+        measured = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
+        return digest(code, versions(), *measured)
 
     @cached_property
     def digest(self) -> str:

@@ -219,8 +219,9 @@ class SelfAffine(_Smooth):
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
                 raise SceneError(name, value, f"a positive, finite number{unit}")
-        if self.smoothed is not None and not 0 < self.smoothed < self.rolloff_wavelength:
-            allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm, or left out"
+        if self.smoothed is not None and not self.shortest_wavelength < self.smoothed < self.rolloff_wavelength:
+            ends = f"above the shortest wavelength {self.shortest_wavelength} nm, below the roll-off wavelength"
+            allowed = f"{ends} {self.rolloff_wavelength} nm, or left out"
             raise SceneError("smoothed", self.smoothed, allowed)
         if self.amplitudes not in AMPLITUDES:
             raise SceneError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")

@@ -41,8 +41,15 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
 onstart:
     _jobs = list(workflow.dag.needrun_jobs())
     _runs = [(PLAN.run(*map(str, job.wildcards)), job.output.costs) for job in _jobs if job.rule.name == "run"]
-    _others = sum(job.rule.name != "run" and bool(job.rule.output) for job in _jobs)
-    print(outlook.told(_runs, _others, workflow.cores), file=sys.stderr)
+    _runs = [(run, costs) for run, costs in _runs if PLAN.twin(run) is None]
+    _rules = [job.rule.name for job in _jobs if job.rule.name != "run" and job.rule.output]
+    print(outlook.told(_runs, _rules, workflow.cores), file=sys.stderr)
+
+
+def of_the_standard_tier(wildcards):
+    if PLAN.trials or PLAN.effect_maps:
+        sys.exit(f"Error: tier: got {PLAN.tier}; allowed: one at which trials and maps are whole, such as standard")
+    return []
 
 
 def figure_files(name):

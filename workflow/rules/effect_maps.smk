@@ -27,7 +27,7 @@ if MAPS:
 
 
     rule freeze_maps:
-        input: [RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
+        input: of_the_standard_tier, maps=[RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
         output: RESULTS / "effect_maps/effect_maps.yaml"
         log: RESULTS / "logs/effect_maps/freeze.log"
         params: plan=canonical(MAPS)

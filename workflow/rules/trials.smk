@@ -47,7 +47,7 @@ if DRAWS:
 
 
     rule relations:
-        input: [RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
+        input: of_the_standard_tier, [RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
         message: "relations, to be put in the place of src/contactsim/relations.yaml: {output}"

@@ -9,5 +9,5 @@ from contactsim.march import write_text
 
 logged(snakemake.log[0])
 settings = json.loads(snakemake.params.plan)
-maps = dict(zip(sorted(settings["maps"]), map(dataset.read, snakemake.input), strict=True))
+maps = dict(zip(sorted(settings["maps"]), map(dataset.read, snakemake.input.maps), strict=True))
 write_text(as_text(maps, settings), snakemake.output[0])

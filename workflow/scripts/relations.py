@@ -7,4 +7,4 @@ from contactsim.joblog import logged
 from contactsim.march import write_text
 
 logged(snakemake.log[0])
-write_text(as_text(pd.concat(map(pd.read_csv, snakemake.input))), snakemake.output[0])
+write_text(as_text(pd.concat(map(pd.read_csv, snakemake.input.tables))), snakemake.output[0])

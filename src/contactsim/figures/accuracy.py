@@ -48,7 +48,7 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     for name, values in (plan["selection"] | plan["loads"]).items():
         chosen = chosen[among(chosen[name], values)]
     table["seconds"] = seconds(table, times, chosen.seconds.sum() / max(alone.member.nunique(), 1))
-    table["seconds_expected"] = table.pop("time_expected") * transform_seconds()
+    table = foreseen(table, plan["expected"])
     quantity, columns = settings["quantities"][0], len(turned(table)) + 1
     layout = {"rows": 2, "widths": [1.0] * (columns - 1) + [1.4]}
     figure, panels = framed(settings | {"panels": columns}, footer_text(table, plan), **layout)
@@ -56,6 +56,17 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     draw(table, equal, data[plan["default"]], np.reshape(panels, (2, columns)), plan)
     save(figure, table, targets)
     move(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
+
+
+def foreseen(table: pd.DataFrame, expected: list) -> pd.DataFrame:
+    """The table with the work and seconds that each setting of the study's own solver was forecast to take.
+
+    expected: work and units of time, setting by setting; NaN of all else.
+    """
+    found = np.full((len(table), 2), np.nan)
+    own = (table.own & (table.knob != "members")).to_numpy()
+    found[own] = np.reshape([float(value) for one in expected for value in one], (-1, 2))
+    return table.assign(work_expected=found[:, 0], seconds_expected=found[:, 1] * transform_seconds())
 
 
 def among(column: pd.Series, values: list) -> np.ndarray:

@@ -238,7 +238,7 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         for offset, value, alpha in zip((0.2, -0.2), spent, (1.0, FAINT), strict=True):
             axes[1].barh(-place + offset, value, 0.36, color=color, alpha=alpha)
         told = str(less.decision.isel(member=0).item())
-        lines.append(f"{words}: {spent[1] / spent[0]:.2g} times less; {told}")
+        lines.append(f"{words}: {spent[0] / spent[1]:.2g} of the work; {told}")
         twice = {"saved": spent[1] / spent[0], "transforms": spent[0], "transforms_whole": spent[1], "decision": told}
         same = less.member.values, "area_at_twelve"
         change = abs(less[same[1]].mean("member") / more[same[1]].sel(member=same[0]).mean("member") - 1)

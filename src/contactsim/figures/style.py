@@ -231,6 +231,8 @@ def averages(data: xr.Dataset, names: Iterable[str]) -> pd.DataFrame:
 def points_text(settings: Mapping, *points: int) -> str:
     """Grid points, with those per shortest wavelength where the surface has one, beside the thesis's own."""
     surface, thesis = settings["surface"], settings["thesis_points"]
+    if settings.get("accuracy"):
+        return f"{min(points):.0f} to {max(points):.0f} points, for an accuracy of {settings['accuracy']['error']:g}"
     grids = ", ".join(f"{count:.0f}" for count in points)
     if surface["kind"] != "self_affine":
         return f"{grids} points (thesis {thesis})" if thesis else f"{grids} points"
