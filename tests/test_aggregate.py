@@ -27,6 +27,7 @@ def numbers(hurst, member, companion=False, loads=PRESSURES):
     draw = np.random.default_rng([int(10 * hurst), member, companion])
     return {
         "relative_contact_area": np.asarray(loads) * (1.5 + 0.3 * hurst + 0.1 * draw.random(len(loads))),
+        "relative_contact_area_subgrid": np.asarray(loads) * 1.4,
         "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(loads))),
         "rms_gradient_contact_bond": GRADIENT * (1 - 0.1 * draw.random(len(loads))),
         "mean_gap": draw.random(len(loads)),

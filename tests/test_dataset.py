@@ -55,6 +55,9 @@ WRITERS = (
     "branch.py",
     "ladder.py",
     "tabulate.py",
+    "confirm.py",
+    "effect_maps.py",
+    "negligible.py",
 )
 
 

@@ -54,7 +54,7 @@ def test_all_of_them_together_in_any_order_leave_a_normal_scene():
     found = [left_out(SCENE, names) for names in itertools.permutations(LEFT_OUT)]
     assert all(less == found[0] for less in found)
     assert found[0].components == found[0].exerted == ("n",)
-    assert set(LEFT_OUT) == {"friction", "height", "compressibility", "coupling"}
+    assert set(LEFT_OUT) == {"friction", "height", "compressibility", "coupling", "second_body", "short_waves"}
 
 
 def test_an_effect_that_no_variant_has_is_refused_and_one_that_some_have_is_not():

@@ -31,6 +31,7 @@ COLUMNS = {
 """Head and width in inches of each column."""
 SYMBOLS = {
     "relative_contact_area": "aᵣₑₗ",
+    "relative_contact_area_subgrid": "aᵣₑₗ with edges between points",
     "kappa": "κ",
     "kappa_r": "κᵣ",
     "kappa_r_bond": "κᵣ of pairs",
@@ -81,6 +82,7 @@ SYMBOLS = {
     "largest_jump_loading": "the largest jump on loading",
     "largest_jump_unloading": "the largest jump on unloading",
     "final_repulsive_length": "the contact size",
+    "final_interacting_length": "the interacting length",
     "final_load": "the load",
     "final_repulsive_load": "the repulsive force",
     "final_adhesive_load": "the adhesive force",
