@@ -1,4 +1,4 @@
-"""All kinds of scene on one page: error against seconds, a panel a case, a line a solver."""
+"""All kinds of scene on one page: error against seconds, a panel a case, two lines a solver."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from contactsim.figures.knobs import LOOKS
 from contactsim.figures.render import framed, save
 
 COLUMNS = 3
+LINES = {"points": "-", "tolerance": ":"}
+"""Knobs whose curves are drawn: against a finer grid, and against the same grid solved tightly."""
 LEAST = 1e-7
 """Errors below it are drawn there: they are rounding, or as good as that."""
 
@@ -43,22 +45,19 @@ def render(plan: Mapping, tables: Sequence[str], targets: Mapping[str, str]) -> 
 
 
 def _priced(table: pd.DataFrame) -> pd.DataFrame:
-    """Settings of one member: an ensemble's error is of another kind."""
-    return table[table.knob != "members"]
+    """Settings of the knobs that are drawn."""
+    return table[table.knob.isin(LINES)]
 
 
 def draw(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
-    """One case: every setting as a dot, and of each solver the least time at which an error is met."""
+    """One case: for each solver a curve of grids and one of tolerances, whose errors are of two kinds."""
     good = precision.met(table, quantity)
     for kind, rows in good.groupby("solver", sort=False):
         marker, color = LOOKS.get(kind, ("v", "#777777"))
-        own = bool(rows.own.any())
-        axes.plot(
-            np.maximum(rows[quantity], LEAST), rows.seconds, ls="", marker=marker, color=color, ms=2.5, alpha=0.45
-        )
-        front = precision.front(rows, quantity, "seconds")
-        label = style.SOLVERS.get(kind, kind)
-        look = {"color": color, "lw": 2.0 if own else 1.0, "label": label, "where": "pre"}
-        axes.step(np.maximum(front[quantity], LEAST), front.seconds, **look)
+        for knob, line in LINES.items():
+            curve = rows[rows.knob == knob].sort_values(quantity)
+            look = {"color": color, "ls": line, "lw": 1.8 if rows.own.any() else 1.0, "marker": marker, "ms": 3}
+            label = style.SOLVERS.get(kind, kind) if knob == "points" else None
+            axes.plot(np.maximum(curve[quantity], LEAST), curve.seconds, label=label, **look)
     axes.set(xscale="log", yscale="log", xlabel="relative error", ylabel="CPU seconds")
     axes.legend(fontsize=6, loc="best")
