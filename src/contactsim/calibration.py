@@ -16,7 +16,7 @@ import yaml
 from scipy.optimize import least_squares
 
 from contactsim.build import scene_of
-from contactsim.choice import chosen, coarser, grid_for, on_grid, walked
+from contactsim.choice import by_increment, chosen, coarser, on_grid, on_points, paced_part
 from contactsim.confirm import Outcome, difference, outcome
 from contactsim.draws import draw
 from contactsim.forecast import transform_seconds, walk_features
@@ -136,29 +136,19 @@ def _ladders(run: dict, kind: str) -> Iterator[tuple[str, dict, list[dict]]]:
 
     def on(resolution: float, **more: object) -> dict:
         """Settings at that many points for each length of contact."""
-        settings = run | more
-        points = grid_for(scene, resolution * scene.length / scale, 0.0)
-        settings |= {"points": points}
-        if smooth:
-            settings["increments"] = walked(scene, kind, points, settings)
-        return settings
-
-    def by(increment: float) -> dict:
-        """The section with such an increment."""
-        part = "slide" if run.get("slide") else "load"
-        return {part: run[part] | {"increment": increment}}
+        return on_points(run | more, resolution * scene.length / scale)
 
     tight = {"tolerance": REFERENCE_TOLERANCE[smooth]}
     resolutions = RESOLUTIONS[kind]
-    usual = tight | (by(SMALL[kind]) if smooth else {})
+    usual = tight | (by_increment(run, SMALL[kind]) if smooth else {})
     yield "points", on(FINEST[kind] * resolutions[-1], **usual), [on(value, **usual) for value in resolutions]
     middle = resolutions[len(resolutions) // 2]
     if smooth:
         rest = {"tolerance": 1e-4}
-        ladder = [on(middle, **rest, **by(value)) for value in INCREMENTS[kind]]
+        ladder = [on(middle, **rest, **by_increment(run, value)) for value in INCREMENTS[kind]]
         if kind in (PATH, ROUGH_PATH):  # the same with every increment solved, for their cost
             ladder += [one | {"increments": {"kind": "requested"}} for one in ladder[1:2]]
-        yield "increment", on(middle, **rest, **by(SMALL[kind])), ladder
+        yield "increment", on(middle, **rest, **by_increment(run, SMALL[kind])), ladder
         yield (
             "tolerance",
             on(middle, **usual),
@@ -172,7 +162,7 @@ def _rows(knob: str, found: Outcome, reference: Outcome, kind: str) -> list[dict
     """One row a load, or one for a path."""
     scene = scene_of(found.settings)
     places = on_grid(scene, found.points)
-    part = "slide" if found.settings.get("slide") else "load"
+    part = paced_part(found.settings)
     rows = []
     for count, one in enumerate(places):
         row = {"kind": kind, "knob": knob, **one, **walk_features(found.settings), "points": found.points}

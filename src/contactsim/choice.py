@@ -26,6 +26,7 @@ from contactsim.relations import (
     contact_scale,
     features,
     kind_of,
+    reach_of,
     relations,
 )
 from contactsim.scene import Scene
@@ -51,6 +52,10 @@ PATH_TOLERANCE = 1e-4
 """Tolerance on paths, in parts of the strength: one that is looser costs more, as states are then sought by flow."""
 TOLERANCES = (1e-4, 1e-2)
 """Least and largest tolerance at a wall, in grid steps."""
+FLAT = 0.3
+"""Powers of a knob below it count as none."""
+LONGEST = 2.0
+"""Longest increment of a path, in the laws' length."""
 WAVES = 2.5
 """Least points for each shortest wavelength."""
 
@@ -109,21 +114,41 @@ def grid_for(scene: Scene, points: float, error: float) -> int:
     return at_least(points)
 
 
-def coarser(settings: dict, points: int | None = None) -> dict:
-    """The companion of a run: its grid and increments coarser; points: those of its grid, if they are known."""
+def on_points(settings: dict, points: float, error: float = 0.0) -> dict:
+    """A run's settings on a grid of about that many points, its path walked as suits it; error: see `grid_for`."""
     scene = scene_of(settings)
-    ratio = COARSER.get(kind_of(scene), 3.0)
-    found = settings | {"points": points or grid_for(scene, settings["points"] / ratio, 0.0)}
+    found = settings | {"points": grid_for(scene, points, error)}
     if is_smooth(settings):
-        found |= rescaled(settings, PACE)
-        found["increments"] = walked(scene, kind_of(scene), found["points"], settings)
+        found["increments"] = walked(scene, kind_of(scene), found["points"], found)
     return found
 
 
+def coarser(settings: dict) -> dict:
+    """The companion of a run: its grid and increments coarser."""
+    ratio = COARSER.get(kind_of(scene_of(settings)), 3.0)
+    paced = settings | rescaled(settings, PACE) if is_smooth(settings) else settings
+    return on_points(paced, settings["points"] / ratio)
+
+
+def paced_part(settings: dict) -> str:
+    """The section of a run whose increment counts: that of its slide, or of its path."""
+    return "slide" if settings.get("slide") else "load"
+
+
+def by_increment(settings: dict, increment: float) -> dict:
+    """The section of a run with such an increment."""
+    part = paced_part(settings)
+    return {part: settings[part] | {"increment": increment}}
+
+
 def rescaled(settings: dict, factor: float) -> dict:
-    """The sections of a run with increments: those of its path, or slide, times a factor."""
-    part = "slide" if settings.get("slide") else "load"
-    return {part: settings[part] | {"increment": settings[part]["increment"] * factor}}
+    """The section of a run with its increment times a factor."""
+    return by_increment(settings, settings[paced_part(settings)]["increment"] * factor)
+
+
+def size_of(scene: Scene, points: int) -> int:
+    """All points of a grid with that many along x."""
+    return math.prod(scene.upper.surface.shape(points))
 
 
 def _solved(
@@ -151,20 +176,15 @@ def left_open(settings: dict, known: Kind, name: str) -> float:
     """The relative error of a quantity of a path that its grid and increments are expected to leave."""
     scene = scene_of(settings)
     (place,) = on_grid(scene, settings["points"])
-    part = settings["slide" if settings.get("slide") else "load"]
-    place |= {"increment": math.log(part["increment"] / _reach(scene))}
+    increment = settings[paced_part(settings)]["increment"]
+    place |= {"increment": math.log(increment / reach_of(scene))}
     laws = [known.errors[knob][name] for knob in ("points", "increment") if name in known.errors[knob]]
     return sum(law(place) for law in laws)
 
 
-def _reach(scene: Scene) -> float:
-    """The laws' length, nm."""
-    return min(effect.reach for effect in scene.effects if Trait.SMOOTH in effect.traits)
-
-
 def on_grid(scene: Scene, points: int) -> list[dict[str, float]]:
     """Features with the grid's: spacing over what contacts are measured by; and the number of points."""
-    spacing, size = scene.length / points, math.prod(scene.upper.surface.shape(points))
+    spacing, size = scene.length / points, size_of(scene, points)
     return [
         one | {"grid": math.log(spacing / scale), "size": math.log(size)}
         for one, scale in zip(features(scene), scales(scene), strict=True)
@@ -174,17 +194,9 @@ def on_grid(scene: Scene, points: int) -> list[dict[str, float]]:
 def _paced(settings: dict, scene: Scene, known: Kind, names: Sequence[str], error: float) -> dict:
     """The sections of a run with the increments of its path for an error."""
     (one,) = features(scene)
-    reach = _reach(scene)
     found = _solved(known.errors["increment"], names, "increment", one, SHARES["increment"] * error)
-    part = "slide" if settings.get("slide") else "load"
-    increment = float(f"{reach * math.exp(min([*found, math.log(LONGEST)])):.2g}")
-    return {part: settings[part] | {"increment": increment}} | _pressed(settings, increment)
-
-
-FLAT = 0.3
-"""Powers of a knob below it count as none."""
-LONGEST = 2.0
-"""Longest increment of a path, in the laws' length."""
+    increment = float(f"{reach_of(scene) * math.exp(min([*found, math.log(LONGEST)])):.2g}")
+    return by_increment(settings, increment) | _pressed(settings, increment)
 
 
 def _pressed(settings: dict, increment: float) -> dict:

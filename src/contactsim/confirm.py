@@ -22,7 +22,7 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.aggregate import combined, of_states
 from contactsim.build import scene_of
-from contactsim.choice import SAFETY, chosen, coarser, grid_for, left_open, on_grid, rescaled, walked
+from contactsim.choice import SAFETY, chosen, coarser, left_open, on_grid, on_points, rescaled
 from contactsim.grid import Array
 from contactsim.march import chosen as asked_of
 from contactsim.march import keep, names_of, simulate
@@ -118,8 +118,8 @@ def difference(one: Outcome, two: Outcome, name: str) -> Array:
     if not (one.solved and two.solved):
         return np.full(one.values[name].shape, np.inf)
     first, second = one.values[name], two.values[name]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.nan_to_num(np.abs(second / first - 1), nan=np.inf)
+    found, missing = np.full(first.shape, np.inf), np.isnan(first) | np.isnan(second)
+    np.divide(np.abs(second - first), np.abs(first), out=found, where=~missing & (first != 0))
     return np.where((np.isnan(first) & np.isnan(second)) | (first == second), 0.0, found)
 
 
@@ -227,7 +227,7 @@ def _after(settings: dict, companion: Outcome, known: Kind, names: Sequence[str]
     for name in names:
         off = _expected(companion, known, name).max()
         finest = max(finest, (off / (SAFETY[kind_of(scene_of(settings))] * error)) ** (1 / ORDERS.get(name, SECOND)))
-    return _on(settings, companion.points * min(max(finest, 2.0), _most(companion)), error)
+    return on_points(settings, companion.points * min(max(finest, 2.0), _most(companion)), error)
 
 
 def _refined(run: Outcome, errors: dict[str, Array], error: float) -> dict:
@@ -239,20 +239,11 @@ def _refined(run: Outcome, errors: dict[str, Array], error: float) -> dict:
     ]
     finer = max(found)
     settings = run.settings | (rescaled(run.settings, 0.5) if is_smooth(run.settings) else {})
-    return _on(settings, run.points * float(np.clip(finer, LEAST, _most(run))), error)
+    return on_points(settings, run.points * float(np.clip(finer, LEAST, _most(run))), error)
 
 
 def _most(run: Outcome) -> float:
     return MOST[2 if "points_y" in run.data else 1]
-
-
-def _on(settings: dict, points: float, error: float) -> dict:
-    """Settings on a grid of about that many points."""
-    scene = scene_of(settings)
-    settings = settings | {"points": grid_for(scene, points, error)}
-    if is_smooth(settings):
-        settings["increments"] = walked(scene, kind_of(scene), settings["points"], settings)
-    return settings
 
 
 def _told(errors: dict[str, Array], asked: float) -> str:

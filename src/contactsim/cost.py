@@ -17,9 +17,10 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.aggregate import combined
 from contactsim.build import scene_of
+from contactsim.choice import size_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
-from contactsim.forecast import forecast, size_of
+from contactsim.forecast import forecast
 from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
 from contactsim.priced import Setting, SingleLoads, Slide, WholePath, kind_of, read_turned, solutions

@@ -15,11 +15,10 @@ from functools import cache
 import numpy as np
 
 from contactsim.build import scene_of
-from contactsim.choice import PATH_TOLERANCE, chosen, coarser, left_open, on_grid
+from contactsim.choice import PATH_TOLERANCE, chosen, coarser, left_open, on_grid, paced_part, size_of
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
 from contactsim.relations import MEASURES, Kind, kind_of, relations
-from contactsim.scene import Scene
 from contactsim.schema import is_smooth
 from contactsim.solvers import solver, usual_kind
 
@@ -86,11 +85,6 @@ def _left_open(settings: dict, places: list[dict[str, float]], known: Kind, name
     return max(known.errors["points"][name](one) for one in places)
 
 
-def size_of(scene: Scene, points: int) -> int:
-    """All points of a grid with that many along x."""
-    return math.prod(scene.upper.surface.shape(points))
-
-
 def walk_features(settings: dict) -> dict[str, float]:
     """Features of how a run is solved: its tolerance, looser and tighter than usual, and whether every increment is."""
     tolerance = math.log(settings["tolerance"] / PATH_TOLERANCE)
@@ -122,7 +116,7 @@ def forecast_of(settings: dict) -> Forecast:
 def expectation(runs: list[dict], expected: list[Forecast]) -> str:
     """Forecasts of runs in words: what the first is to be and costs, and all of them together."""
     first, settings = expected[0], runs[0]
-    part = settings["slide" if settings.get("slide") else "load"]
+    part = settings[paced_part(settings)]
     grid = f"{first.points} points, tolerance {settings['tolerance']:.2g}"
     grid += f", increments of {part['increment']:g} {settings['increments']['kind']}" if "increment" in part else ""
     errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())

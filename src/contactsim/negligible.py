@@ -19,14 +19,14 @@ import xarray as xr
 
 from contactsim import confirm, dataset, march
 from contactsim.build import points_of, scene_of
-from contactsim.choice import coarser
+from contactsim.choice import coarser, size_of
 from contactsim.confirm import Outcome
 from contactsim.effect_maps import FILE, change, expected, reduced
 from contactsim.errors import SceneError
-from contactsim.forecast import size_of
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.march import Files, keep, names_of
 from contactsim.provenance import digest, source_digest
+from contactsim.relations import reach_of, strength_of
 from contactsim.scene import Scene
 from contactsim.schema import is_smooth
 from contactsim.traits import Trait
@@ -139,11 +139,9 @@ def _coarse(run: dict) -> dict:
 
 def _finest(scene: Scene) -> float:
     """The longest grid spacing, nm, at which the model describes a scene's process zone."""
-    laws = [effect for effect in scene.effects if Trait.SMOOTH in effect.traits]
-    if not laws:
+    if Trait.SMOOTH not in scene.traits:
         return np.inf
-    zone = process_zone(scene.contact_modulus, sum(law.strength for law in laws), min(law.reach for law in laws))
-    return LIMITS["process_zone_step"][0] * zone
+    return LIMITS["process_zone_step"][0] * process_zone(scene.contact_modulus, strength_of(scene), reach_of(scene))
 
 
 def _words(found: Decision, within: float) -> str:

@@ -132,6 +132,16 @@ def kind_of(scene: Scene) -> str:
     return ROUGH_PATH if rough else PATH
 
 
+def reach_of(scene: Scene) -> float:
+    """The length over which a scene's smooth laws change, nm: the shortest of theirs."""
+    return min(effect.reach for effect in scene.effects if Trait.SMOOTH in effect.traits)
+
+
+def strength_of(scene: Scene) -> float:
+    """The strength of a scene's smooth laws together, GPa."""
+    return sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits)
+
+
 def features(scene: Scene) -> list[dict[str, float]]:
     """What a scene is like, in numbers without units that do not depend on its grid: of each load, or of its path."""
     kind, surface = kind_of(scene), scene.upper.surface
@@ -143,11 +153,9 @@ def features(scene: Scene) -> list[dict[str, float]]:
         found |= {"rough": 1.0, "hurst": surface.hurst, "octaves": float(octaves)}
     if kind in (LINE, SURFACE):
         return [found | _pressed(scene, step.value) for step in scene.path.steps]
-    laws = [effect for effect in scene.effects if Trait.SMOOTH in effect.traits]
-    reach, strength = min(law.reach for law in laws), sum(law.strength for law in laws)
+    reach, strength = reach_of(scene), strength_of(scene)
     deepest = max(step.value for step in scene.path.steps if step.held is None)
-    zone = process_zone(scene.contact_modulus, strength, reach)
-    size = contact_scale(scene)
+    zone, size = process_zone(scene.contact_modulus, strength, reach), contact_scale(scene)
     found |= {
         "deep": float(np.log(max(deepest, reach) / reach)),
         "steps": float(np.log(len(scene.path.steps))),
@@ -190,8 +198,7 @@ def contact_scale(scene: Scene, pressure: float = 0.0) -> float:
         return surface.finest
     if Trait.WALL not in scene.traits:
         deepest = max(step.value for step in scene.path.steps if step.held is None)
-        reach = min(effect.reach for effect in scene.effects if Trait.SMOOTH in effect.traits)
-        return float(np.sqrt(surface.radius * max(deepest, reach)))
+        return float(np.sqrt(surface.radius * max(deepest, reach_of(scene))))
     load = pressure * float(np.prod(scene.lengths))
     if len(scene.lengths) == 1:
         return float(np.sqrt(load / analytic.cylinder_load(1.0, surface.radius, scene.contact_modulus)))

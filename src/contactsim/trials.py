@@ -15,13 +15,13 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.build import scene_of
-from contactsim.choice import chosen, coarser, grid_for, rescaled, walked
+from contactsim.choice import chosen, coarser, on_points, rescaled, size_of
 from contactsim.confirm import Outcome, Reached, difference, outcome, reach
 from contactsim.draws import draw
 from contactsim.errors import SceneError
-from contactsim.forecast import forecast_to, size_of
+from contactsim.forecast import forecast_to
 from contactsim.provenance import digest, source_digest
-from contactsim.relations import FILE, LINE, MEASURES, SURFACE, kind_of
+from contactsim.relations import FILE, LINE, MEASURES, SURFACE
 from contactsim.schema import is_smooth
 from contactsim.solvers import USUAL, module_of
 
@@ -29,6 +29,8 @@ GRIDS = (1 / 8, 1 / 5.7, 1 / 4, 1 / 2.8, 1 / 2, 1 / 1.4, 1.0, 1.4, 2.0)
 """Grids of the ladder, over the final one's points."""
 PACES, TOLERANCES = (4.0, 2.0, 1.0), (10.0, 1.0)
 """Increments and tolerances of the ladder, over the final ones."""
+SYMBOLS = {"reduced_pressure": "p*", "contact_ratio": "c/R"}
+"""Loads in words."""
 FINER = {LINE: 6.0, SURFACE: 3.0}
 """How many times finer the grid of the reference is than the final one; along paths three times."""
 PATH_FINER, PACE, TIGHTER = 3.0, 0.25, 0.1
@@ -82,7 +84,7 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
         "points": found.last.points,
         "points_expected": expected.points,
         "work": work,
-        "work_expected": expected.transforms * _all_points(run, expected.points),
+        "work_expected": expected.transforms * size_of(scene_of(run), expected.points),
         "least_work": least.transforms * least.size if least else np.nan,
         "least_points": least.points if least else -1,
         "settings_tried": len(tried),
@@ -95,31 +97,18 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     return dataset.described(data), spent
 
 
-def _all_points(run: dict, points: int) -> int:
-    return size_of(scene_of(run), points)
-
-
 def _error(one: Outcome, reference: Outcome) -> float:
     """The largest relative error of all quantities."""
     return max(float(difference(reference, one, name).max()) for name in one.values)
-
-
-def _on(settings: dict, points: float) -> dict:
-    """Settings on a grid of about that many points."""
-    scene = scene_of(settings)
-    found = settings | {"points": grid_for(scene, points, 0.0)}
-    if is_smooth(settings):
-        found["increments"] = walked(scene, kind_of(scene), found["points"], found)
-    return found
 
 
 def _finer(last: Outcome, kind: str) -> dict:
     """The settings of the reference."""
     settings = last.settings
     if not is_smooth(settings):
-        return _on(settings | {"tolerance": settings["tolerance"] * TIGHTER}, last.points * FINER[kind])
+        return on_points(settings | {"tolerance": settings["tolerance"] * TIGHTER}, last.points * FINER[kind])
     settings = settings | {"tolerance": settings["tolerance"] * TIGHTER} | rescaled(settings, PACE)
-    return _on(settings, last.points * PATH_FINER)
+    return on_points(settings, last.points * PATH_FINER)
 
 
 def _ladder(found: Reached, names: tuple[str, ...]) -> list[Outcome]:
@@ -130,7 +119,7 @@ def _ladder(found: Reached, names: tuple[str, ...]) -> list[Outcome]:
     tried = {}
     for grid, pace, tolerance in itertools.product(GRIDS, paces, tolerances):
         one = settings | {"tolerance": settings["tolerance"] * tolerance}
-        one = _on(one | rescaled(settings, pace) if is_smooth(settings) else one, found.last.points * grid)
+        one = on_points(one | rescaled(settings, pace) if is_smooth(settings) else one, found.last.points * grid)
         tried[one["points"], pace, tolerance] = one
     return [one for one in (_solved(one, names) for one in tried.values()) if one]
 
@@ -161,6 +150,3 @@ def _words(run: dict) -> str:
         parts += [f"φn {law['work_of_separation']:.2g} N/m", f"φt/φn {law['work_ratio']:.2g}"]
         parts += [f"ν {body['poisson_ratio']:.2g}", f"δ {deepest:.3g} nm"]
     return ", ".join(parts)
-
-
-SYMBOLS = {"reduced_pressure": "p*", "contact_ratio": "c/R"}
