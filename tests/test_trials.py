@@ -48,6 +48,8 @@ def test_errors_are_asked_for_by_turns():
     for kind in settings["kinds"]:
         asked = [trials.error_asked(settings, kind, count) for count in range(3)]
         assert sorted(asked) == settings["errors"]
+        backwards = settings | {"kinds": dict(reversed(settings["kinds"].items()))}
+        assert [trials.error_asked(backwards, kind, count) for count in range(3)] == asked
     assert trials.names(SETTINGS) == ["line_0", "line_1", "path_0", "path_1"]
 
 

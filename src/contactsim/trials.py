@@ -21,7 +21,7 @@ from contactsim.draws import draw
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast_to
 from contactsim.provenance import digest, source_digest
-from contactsim.relations import FILE, LINE, MEASURES, SURFACE
+from contactsim.relations import FILE, KINDS, LINE, MEASURES, SURFACE
 from contactsim.schema import is_smooth
 from contactsim.solvers import USUAL, module_of
 
@@ -60,7 +60,7 @@ def figure(settings: dict, tier: str) -> dict:
 
 def error_asked(settings: dict, kind: str, count: int) -> float:
     """The error asked of a scene: by turns those of the list, another at first for each kind."""
-    return settings["errors"][(count + list(settings["kinds"]).index(kind)) % len(settings["errors"])]
+    return settings["errors"][(count + sorted(KINDS).index(kind)) % len(settings["errors"])]
 
 
 def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
