@@ -1,10 +1,12 @@
 # Reads and checks the config once, and keeps two runs in one folder apart.
 import fcntl
+import os
 import shlex
+import subprocess
 import sys
 from pathlib import Path
 
-from contactsim import calibration, cost, draws, effect_maps, ladder, outlook, trials
+from contactsim import calibration, cost, draws, effect_maps, ladder, outlook, standby, trials
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical
@@ -22,6 +24,7 @@ try:
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
+REAL_PYTHON = sys.executable
 sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it and does not quote it
 STABILITY = ["stability"] if PLAN.stability else []
 EFFECTS = ["effects"] if LADDER else []
@@ -44,6 +47,17 @@ onstart:
     _runs = [(run, costs) for run, costs in _runs if PLAN.twin(run) is None]
     _rules = [job.rule.name for job in _jobs if job.rule.name != "run" and job.rule.output]
     print(outlook.told(_runs, _rules, workflow.cores), file=sys.stderr)
+    workflow.scheduler.job_rate_limiter = None  # else each job adds a timer that wakes the scheduler every second, for good
+    if workflow.local_exec:
+        stand_by()
+
+
+def stand_by():
+    """Have a process stand by of which jobs are forks; it ends with this one, whose end of the pipe then closes."""
+    place, python = f".snakemake/standby-{os.getpid()}", [*map(str, (REAL_PYTHON, standby.__file__))]
+    serve = [*python, "--serve", place, str(Path(workflow.basedir) / "workflow/scripts")]
+    workflow.standing_by = subprocess.Popen(serve, stdin=subprocess.PIPE, start_new_session=True)
+    sys.executable = shlex.join([python[0], "-I", "-S", python[1], place])
 
 
 def of_the_standard_tier(wildcards):
