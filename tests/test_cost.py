@@ -343,7 +343,7 @@ def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowe
 
 def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
     one = cost.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
-    found = cost.figure_settings(one, PLAN, ROOT / "config")
+    found = cost.figure_settings(one, PLAN, cost.every_tier(ROOT / "config"))
     marks = found["marks"]
     assert {name: own.get("increment") for name, own in marks.items()} == {
         "quick": None,  # they adapt
@@ -365,8 +365,9 @@ def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
 
 
 def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
-    for tier in ("quick", "standard", "full"):
-        plan = Plan.read(ROOT / "config", tier)
+    tiers = cost.every_tier(ROOT / "config")
+    assert list(tiers) == ["quick", "standard", "full"]
+    for plan in tiers.values():
         cases = cost.read_cases(ROOT / "config", plan)
         assert list(cases) == [
             "cylinder",
@@ -381,11 +382,11 @@ def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_th
         own = [case.default for case in cases.values()]
         assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"] * 3
         assert cases["layer"].selection == {"thickness": [640.0]}
-        marks = cost.figure_settings(cases["rough_line"], plan, ROOT / "config")["marks"]
+        marks = cost.figure_settings(cases["rough_line"], plan, tiers)["marks"]
         points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
         members = {"quick": 3, "standard": 10, "full": 10, "thesis": 10}
         assert {name: own["points"] for name, own in marks.items()} == points
         assert {name: own["members"] for name, own in marks.items()} == members
         assert marks["quick"]["tolerance"] == plan.studies["rough_line"].settings["tolerance"]
         assert "tolerance" not in marks["thesis"]
-        assert "members" not in cost.figure_settings(cases["cylinder"], plan, ROOT / "config")["marks"]["thesis"]
+        assert "members" not in cost.figure_settings(cases["cylinder"], plan, tiers)["marks"]["thesis"]

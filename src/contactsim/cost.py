@@ -9,6 +9,7 @@ reproducible. `contactsim.precision` makes errors and costs of it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -239,13 +240,17 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
     return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
-def figure_settings(case: Case, plan: Plan, folder: str | Path) -> dict:
+def every_tier(folder: str | Path) -> dict[str, Plan]:
+    """The plans of all tiers."""
+    return {tier: Plan.read(folder, tier) for tier in load_yaml(Path(folder) / "tiers.yaml")}
+
+
+def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
     """What the figure of a case depends on: settings, jobs and their digests, the study's, and where its marks are.
 
-    The marks are each tier's value of each knob, and the thesis's as far as it is known.
+    The marks are each tier's value of each knob, and the thesis's as far as it is known. tiers: from `every_tier`.
     """
-    tiers = load_yaml(Path(folder) / "tiers.yaml")
-    studies = {tier: Plan.read(folder, tier).studies[case.study.name].settings for tier in tiers}
+    studies = {tier: own.studies[case.study.name].settings for tier, own in tiers.items()}
     shared = ("points", "tolerance", "members")
     marks = {tier: {knob: own[knob] for knob in shared} | case.kind.turns(own) for tier, own in studies.items()}
     thesis = {knob: case.settings[f"thesis_{knob}"] for knob in ("members", "increment")}

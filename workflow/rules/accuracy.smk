@@ -15,8 +15,13 @@ def case_study(ending, folder):
     return file
 
 
+@functools.cache
+def all_tiers():
+    return cost.every_tier(CONFIG)
+
+
 def case_figure(wildcards):
-    return canonical(cost.figure_settings(CASES[wildcards.case], PLAN, CONFIG))
+    return canonical(cost.figure_settings(CASES[wildcards.case], PLAN, all_tiers()))
 
 
 rule price:

@@ -1,5 +1,6 @@
 # Reads and checks the config once, and keeps two runs in one folder apart.
 import fcntl
+import functools
 import os
 import shlex
 import subprocess
