@@ -41,6 +41,7 @@ RESERVED = (
     "measure_map",
     "freeze_maps",
     "stability",
+    "bundle",
     "targets",
     "run",
     "aggregate",
