@@ -15,6 +15,7 @@ include: "workflow/rules/trials.smk"
 include: "workflow/rules/effect_maps.smk"
 include: "workflow/rules/judge.smk"
 include: "workflow/rules/stability.smk"
+include: "workflow/rules/bundle.smk"
 
 
 rule all:

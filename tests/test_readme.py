@@ -106,6 +106,7 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "claims",
         "effect_maps",
         "trials",
+        "bundle",
     }
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", README, re.MULTILINE)
     assert commands

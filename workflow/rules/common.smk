@@ -10,7 +10,7 @@ from pathlib import Path
 from contactsim import calibration, cost, draws, effect_maps, ladder, outlook, standby, trials
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
-from contactsim.provenance import canonical
+from contactsim.provenance import canonical, digest, source_digest
 
 try:
     if set(config) - {"tier"}:
@@ -91,7 +91,8 @@ def target_lines():
     lines += [f"  {name:14} {MAPS['title']}" for name in EFFECT_MAPS]
     lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
-    return "\n".join([*lines, f"  {'all':14} all of these"])
+    lines += [f"  {'all':14} all of these"]
+    return "\n".join([*lines, f"  {'bundle':14} all results in one folder to deposit"])
 
 
 def list_targets(wildcards):
