@@ -15,11 +15,12 @@ include: "workflow/rules/trials.smk"
 include: "workflow/rules/effect_maps.smk"
 include: "workflow/rules/judge.smk"
 include: "workflow/rules/stability.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/bundle.smk"
 
 
 rule all:
-    input: all_figures, all_claims
+    input: all_figures, all_claims, RESULTS / "report.html"
 
 
 rule unknown_target:

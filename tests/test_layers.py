@@ -26,7 +26,7 @@ figures figures.style figures.maps figures.resolution figures.stress figures.loa
 figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render
 figures.claims figures.knobs
 figures.accuracy figures.sketch
-figures.effects figures.trials figures.effect_maps figures.overview cli
+figures.effects figures.trials figures.effect_maps figures.overview gallery rulegraph report cli
 """.split()
 """Modules in import order: each may import those before it."""
 

@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from contactsim import calibration, cost, draws, effect_maps, ladder, outlook, standby, trials
+from contactsim import calibration, cost, draws, effect_maps, gallery, ladder, outlook, report, standby, trials
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical, digest, source_digest
@@ -91,7 +91,9 @@ def target_lines():
     lines += [f"  {name:14} {MAPS['title']}" for name in EFFECT_MAPS]
     lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
+    lines += [f"  {'report':14} all that was found, on one page"]
     lines += [f"  {'all':14} all of these"]
+    lines += [f"  {'gallery':14} the figures in small pictures, with verdicts, errors and costs"]
     return "\n".join([*lines, f"  {'bundle':14} all results in one folder to deposit"])
 
 

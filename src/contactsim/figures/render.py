@@ -113,7 +113,13 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     ]
     if "beyond" in data and (far := validity.told(data)):
         parts.append(f"beyond the model: {', '.join(far)} of the states")
-    priced = PRICED_SLIDES if "static_friction" in data else PRICED
+    parts += errors_told(data)
+    return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])
+
+
+def errors_told(data: xr.Dataset) -> list[str]:
+    """The largest errors of the quantities that are told, a line a kind of error."""
+    priced, told = PRICED_SLIDES if "static_friction" in data else PRICED, []
     for error in ("grid", "increment", "tolerance", "left_out", "estimated"):
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
@@ -121,8 +127,8 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
             if f"{name}_{error}_error" in data and not np.isnan(data[f"{name}_{error}_error"]).all()
         ]
         if sizes:
-            parts.append(f"{error.replace('_', ' ')} error up to: {', '.join(sizes)}")
-    return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])
+            told.append(f"{error.replace('_', ' ')} error up to: {', '.join(sizes)}")
+    return told
 
 
 def _unit(values: xr.DataArray) -> str:

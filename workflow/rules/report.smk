@@ -1,0 +1,40 @@
+# All that was found on one page, and the same in small pictures for the README.
+_accuracy = {f"accuracy_{name}": case.settings for name, case in CASES.items()} | ({"trials": DRAWS} if DRAWS else {})
+OTHER_FIGURES = {
+    "accuracy": _accuracy | ({"overview": OVERVIEW} if OVERVIEW else {}),
+    "stability": {"stability": PLAN.stability} if PLAN.stability else {},
+    "effects": ({"effects": LADDER} if LADDER else {}) | ({"effect_maps": MAPS} if MAPS else {}),
+}
+
+
+def report_inputs():
+    studies = [PLAN.dataset_name(name) for name in PLAN.studies]
+    data = [RESULTS / f"{folder}/{name}.{end}" for name in studies for folder, end in (("datasets", "nc"), ("costs", "csv"))]
+    return data + [file for file in all_figures(None) if file.suffix == ".png"] + all_claims(None)
+
+
+def report_params(wildcards):
+    return canonical(report.settings(PLAN, OTHER_FIGURES))
+
+
+def gallery_params(wildcards):
+    shown = {name: one["title"] for group in OTHER_FIGURES.values() for name, one in group.items()}
+    return canonical(gallery.settings(PLAN, shown))
+
+
+rule report:
+    input: report_inputs()
+    output: RESULTS / "report.html"
+    log: RESULTS / "logs/report.log"
+    params: plan=report_params, config=str(CONFIG)
+    message: "report: {output}"
+    script: "../scripts/report.py"
+
+
+rule gallery:
+    input: report_inputs()
+    output: RESULTS / "gallery/gallery.csv"
+    log: RESULTS / "logs/gallery.log"
+    params: plan=gallery_params, config=str(CONFIG)
+    message: f"gallery: {RESULTS}/gallery"
+    script: "../scripts/gallery.py"

@@ -1,0 +1,14 @@
+"""Small pictures, verdicts, errors and costs of all figures, as they stand in the README."""
+
+import json
+from pathlib import Path
+
+from contactsim import gallery
+from contactsim.joblog import logged
+from contactsim.plan import Plan
+
+logged(snakemake.log[0])
+target = Path(snakemake.output[0])
+settings = json.loads(snakemake.params.plan)
+plan = Plan.read(snakemake.params.config, settings["tier"])
+gallery.make(plan, target.parent.parent, target.parent, settings["others"])
