@@ -388,6 +388,10 @@ def test_a_figure_needs_its_own_study_only(fresh: Project) -> None:
     assert apart(planned) == {"dataset of smooth", "fig_9_1"}
 
 
+def test_a_cluster_is_asked_for_the_same_jobs(fresh: Project) -> None:
+    assert fresh.planned("all", options=("--workflow-profile", "profiles/slurm")) == fresh.planned("all")
+
+
 def test_nothing_is_planned_when_nothing_has_changed(made: Project) -> None:
     assert made.planned("all", "rough", "baseline", "smooth") == []
 

@@ -1,7 +1,8 @@
 """`contactsim explain | run | cost | compare`: one scene from the shell; two tiers side by side.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight`, `whole` and
-`fit_limits`, and may give `seed`. In place of a file, `explain` and `cost` take the name of a study in ./config.
+`fit_limits`, and may give `seed`. In place of a file, `explain` and `cost` take the name of a study in ./config;
+without either, `cost` is of every figure there.
 `compare` reads the CSVs of the figures in ./config as they lie in its results folder.
 """
 
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset
+from contactsim import budget, dataset
 from contactsim.aggregate import combined, derived, of_states
 from contactsim.build import increments_of, points_of, scene_of
 from contactsim.choice import chosen as chosen_for
@@ -163,7 +164,12 @@ def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
 
 
 def cost_scene(options: argparse.Namespace) -> None:
-    """Print what a scene, or each run of a study, is expected to cost, as it is or to an accuracy."""
+    """Print what a scene, each run of a study or every figure is expected to cost, as it is or to an accuracy."""
+    if options.scene is None:
+        if options.accuracy is not None:
+            raise SceneError("--accuracy", options.accuracy, "none without a scene or a study")
+        sys.stdout.write(budget.table("config", Plan.read("config", options.tier)))
+        return
     study = named(options.scene, options.tier, options.accuracy)
     runs = [run.settings for run in study.runs() if not run.companion]
     try:
@@ -206,8 +212,8 @@ def main(arguments: list[str] | None = None) -> None:
     running.add_argument("--threads", type=int, default=1, help=threads)
     running.set_defaults(call=run_scene)
     costing = commands.add_parser("cost", help="what it is expected to cost, before anything runs")
-    costing.add_argument("scene", help="a scene file, or the name of a study in ./config")
-    costing.add_argument("--tier", help="tier of the study")
+    costing.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; without it, all figures")
+    costing.add_argument("--tier", help="tier of the study or figures")
     costing.add_argument("--accuracy", type=float, help="relative error for which grid and increments are chosen")
     costing.set_defaults(call=cost_scene)
     comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")

@@ -31,6 +31,7 @@ rule price:
     log: RESULTS / "logs/accuracy/{case}/{job}.log"
     params: plan=case_params, config=str(CONFIG), tier=PLAN.tier
     threads: workflow.cores
+    group: together("timed")
     message: "accuracy of {wildcards.case}: {wildcards.job}"
     script: "../scripts/price.py"
 
@@ -48,6 +49,7 @@ rule accuracy_figure:
         equal_error=RESULTS / "figures/accuracy_{case}_at_equal_error.csv",
     log: RESULTS / "logs/figures/accuracy_{case}.log"
     params: plan=case_figure
+    group: together("figures")
     message: "accuracy_{wildcards.case}: {output.png}"
     script: "../scripts/accuracy.py"
 
@@ -62,6 +64,7 @@ if OVERVIEW:
             csv=RESULTS / "figures/overview.csv",
         log: RESULTS / "logs/figures/overview.log"
         params: plan=canonical(cost.overview(OVERVIEW, CASES, PLAN.tier))
+        group: together("figures")
         message: f"overview: {RESULTS}/figures/overview.png"
         script: "../scripts/overview.py"
 

@@ -61,6 +61,17 @@ def stand_by():
     sys.executable = shlex.join([python[0], "-I", "-S", python[1], place])
 
 
+def together(name):
+    """A group of jobs that share a job of a cluster; none in local and dry runs."""
+    def group(wildcards):
+        if not workflow.non_local_exec:
+            return None
+        if not workflow.is_main_process:  # there they start together, not each by itself; Snakemake does not pass it on
+            workflow.group_settings.group_components = {name: sys.maxsize}
+        return name
+    return group
+
+
 def of_the_standard_tier(wildcards):
     if PLAN.trials or PLAN.effect_maps:
         sys.exit(f"Error: tier: got {PLAN.tier}; allowed: one at which trials and maps are whole, such as standard")

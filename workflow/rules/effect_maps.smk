@@ -10,6 +10,7 @@ if MAPS:
         wildcard_constraints: map="|".join(MAPS["maps"])
         log: RESULTS / "logs/effect_maps/{map}.log"
         params: plan=map_params
+        group: together("maps")
         message: "effect map {wildcards.map}: with and without, everywhere"
         script: "../scripts/measure_map.py"
 
@@ -22,6 +23,7 @@ if MAPS:
             csv=RESULTS / "figures/effect_maps.csv",
         log: RESULTS / "logs/figures/effect_maps.log"
         params: plan=canonical(effect_maps.figure(MAPS, PLAN.tier))
+        group: together("figures")
         message: f"effect_maps: {RESULTS}/figures/effect_maps.png"
         script: "../scripts/effect_maps.py"
 

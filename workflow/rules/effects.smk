@@ -8,6 +8,7 @@ if LADDER:
         log: RESULTS / "logs/datasets/effects.log"
         params: plan=canonical(ladder.plan(LADDER))
         threads: workflow.cores
+        group: together("timed")
         message: "effects: every rung measured"
         script: "../scripts/effects.py"
 
@@ -22,5 +23,6 @@ if LADDER:
             csv=RESULTS / "figures/effects.csv",
         log: RESULTS / "logs/figures/effects.log"
         params: plan=canonical(ladder.figure(LADDER, PLAN.tier))
+        group: together("figures")
         message: f"effects: {RESULTS}/figures/effects.png"
         script: "../scripts/effects_figure.py"

@@ -17,6 +17,7 @@ rule judge:
     wildcard_constraints: chapter=r"ch\d+"
     log: RESULTS / "logs/claims/{chapter}.log"
     params: plan=claims_params
+    group: together("figures")
     message: "claims of {wildcards.chapter}: {output.png}"
     script: "../scripts/claims.py"
 

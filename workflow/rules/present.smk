@@ -21,6 +21,7 @@ rule aggregate:
     wildcard_constraints: chapter=r"ch\d+"
     log: RESULTS / "logs/datasets/{chapter}_{study}.log"
     params: plan=study_params
+    group: together("datasets")
     message: "dataset of {wildcards.study}"
     script: "../scripts/aggregate.py"
 
@@ -40,6 +41,7 @@ for _name, _figure in PLAN.figures.items():
             **{kind: RESULTS / f"figures/{_name}.{kind}" for kind in _figure.endings[3:]},
         log: RESULTS / f"logs/figures/{_name}.log"
         params: plan=canonical(PLAN.figure_settings(_name))
+        group: together("figures")
         message: f"{_name}: {RESULTS}/figures/{_name}.png"
         script: "../scripts/figure.py"
 

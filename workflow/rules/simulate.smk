@@ -18,6 +18,23 @@ def run_twin(wildcards):
     return PLAN.twin(PLAN.run(wildcards.study, wildcards.variant, wildcards.member)) or []
 
 
+def run_outlook(wildcards):
+    run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
+    return run, RESULTS / f"costs/runs/{run.stem}.json"
+
+
+def run_memory(wildcards, attempt):
+    return outlook.memory_asked(*run_outlook(wildcards), attempt)
+
+
+def run_minutes(wildcards, attempt):
+    return outlook.minutes_asked(*run_outlook(wildcards), attempt)
+
+
+def run_group(wildcards):
+    return together("runs")(wildcards) if outlook.is_short(*run_outlook(wildcards)) else None
+
+
 def decide_params(wildcards):
     return canonical(PLAN.decision_settings(wildcards.study, wildcards.variant))
 
@@ -28,6 +45,7 @@ rule decide:
         costs=RESULTS / "costs/decisions/{study}/{variant}.json",
     log: RESULTS / "logs/decisions/{study}/{variant}.log"
     params: plan=decide_params
+    group: together("decisions")
     message: "{wildcards.study} {wildcards.variant}: what is negligible"
     script: "../scripts/decide.py"
 
@@ -42,5 +60,7 @@ rule run:
         done=RESULTS / "runs/{study}/{variant}/{member}.done",  # written last, so a run that failed is never taken for one that is up to date
     log: RESULTS / "logs/runs/{study}/{variant}/{member}.log"
     params: plan=run_params, label=run_label
+    resources: mem_mb=run_memory, runtime=run_minutes   # asked of a cluster; others: profiles/slurm
+    group: run_group
     message: "{wildcards.study} {wildcards.variant}: member {wildcards.member}{params.label}"
     script: "../scripts/run.py"

@@ -9,6 +9,7 @@ if PLAN.stability:
         output: RESULTS / "stability/{hazard}.nc"
         log: RESULTS / "logs/stability/{hazard}.log"
         params: plan=hazard_params
+        group: together("hazards")
         message: "hazard {wildcards.hazard}: every solver, every severity"
         script: "../scripts/hazard.py"
 
@@ -18,6 +19,7 @@ if PLAN.stability:
         output: RESULTS / "datasets/stability.nc"
         log: RESULTS / "logs/datasets/stability.log"
         params: plan=canonical(PLAN.map_settings())
+        group: together("figures")
         message: "dataset of stability"
         script: "../scripts/stability.py"
 
@@ -31,5 +33,6 @@ if PLAN.stability:
             csv=RESULTS / "figures/stability.csv",
         log: RESULTS / "logs/figures/stability.log"
         params: plan=canonical(PLAN.map_figure())
+        group: together("figures")
         message: f"stability: {RESULTS}/figures/stability.png"
         script: "../scripts/figure.py"

@@ -17,6 +17,7 @@ if DRAWS:
         log: RESULTS / "logs/trials/{kind}_{number}.log"
         params: plan=trial_params
         threads: workflow.cores
+        group: together("timed")
         message: "trial: {wildcards.kind} {wildcards.number}, solved to an accuracy, and judged"
         script: "../scripts/trial.py"
 
@@ -32,6 +33,7 @@ if DRAWS:
             csv=RESULTS / "figures/trials.csv",
         log: RESULTS / "logs/figures/trials.log"
         params: plan=canonical(trials.figure(DRAWS, PLAN.tier))
+        group: together("figures")
         message: f"trials: {RESULTS}/figures/trials.png"
         script: "../scripts/trials.py"
 
@@ -42,6 +44,7 @@ if DRAWS:
         log: RESULTS / "logs/relations/{kind}.log"
         params: plan=relation_params
         threads: workflow.cores
+        group: together("timed")
         message: "relations of {wildcards.kind}: scenes on a ladder of every knob"
         script: "../scripts/measure_relations.py"
 
