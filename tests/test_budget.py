@@ -14,6 +14,12 @@ def plan():
     return Plan.read(ROOT / "config", "quick")
 
 
+@pytest.fixture(autouse=True)
+def nowhere(tmp_path, monkeypatch):
+    """A folder without results: what runs took there would be known."""
+    monkeypatch.chdir(tmp_path)
+
+
 def first_run(plan, study):
     return plan.studies[study].runs()[0]
 

@@ -32,7 +32,8 @@ def run_minutes(wildcards, attempt):
 
 
 def run_group(wildcards):
-    return together("runs")(wildcards) if outlook.is_short(*run_outlook(wildcards)) else None
+    name = together("runs")(wildcards)
+    return name if name and outlook.is_short(*run_outlook(wildcards)) else None
 
 
 def decide_params(wildcards):
