@@ -54,11 +54,17 @@ SMALL = {
 """The studies that the example analyses, of Chapters 3 and 5, on few points."""
 
 
-def small(chapter, name):
-    """A study of the config, with what is small about it, and no other runs to measure errors by."""
+def small_section(chapter, name):
+    """A study of the config, as it is written, with what is small about it."""
     section = yaml.safe_load((ROOT / f"config/{chapter}.yaml").read_text(encoding="utf-8"))["studies"][name]
     for key, value in SMALL[chapter][name].items():
         section[key] = section[key] | value if key in ("surface", "path", "increments") else value
+    return section | {"companion": {"points": section["points"] // 2, "members": 1}}
+
+
+def small(chapter, name):
+    """The same, without other runs to measure errors by."""
+    section = small_section(chapter, name)
     for key in ("companion", "tight", "thesis_points", "fit_limits"):
         section.pop(key, None)
     return Study.read(name, section, f"config/{chapter}.yaml", 1)

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -32,6 +37,8 @@ from contactsim.stability import STABILITY_KEYS
 from contactsim.study import Study
 from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs
+from test_bundle import PROJECT, SMALL, small_section
+from test_workflow import CYLINDER, Project
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 KEYS = (ROOT / "config/README.md").read_text(encoding="utf-8")
@@ -60,6 +67,55 @@ def test_the_python_of_the_readme_runs_and_reconstructs_the_solution(made, monke
     assert np.array_equal(again.contact, names["contact"])
     assert np.allclose(again.pressure, names["pressure"], rtol=1e-5, atol=1e-7 * again.pressure.max())
     assert np.allclose(again.gap, names["gap"], atol=2e-3 * step)
+    law, gap, step = names["Morse"](0.8, 1.5), np.linspace(-4.0, 6.0, 60)[None], 1e-6
+    between = [law.traction(gap + step) - law.traction(gap - step), law.energy(gap + step) - law.energy(gap - step)]
+    assert np.allclose(law.tangent(gap)[1][0], between[0] / (2 * step), atol=1e-6)
+    assert np.allclose(law.traction(gap)[0], between[1] / (2 * step), atol=1e-6)
+    assert np.isclose(law.traction(np.linspace(0, 6, 2000)[None]).max(), law.strength, rtol=1e-5)
+    assert names["pressed"].status.values.max() == 0
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """A project of the studies that the README names, small, with make, a test, a scene and the example."""
+    project = Project.new(tmp_path_factory.mktemp("readme") / "project")
+    folder = project.folder
+    for file in (folder / "config").glob("ch*.yaml"):
+        file.unlink()
+    for chapter, studies in SMALL.items():
+        content = yaml.safe_load((ROOT / f"config/{chapter}.yaml").read_text(encoding="utf-8"))
+        (name,) = studies
+        own = {"studies": {name: small_section(chapter, name)}, "figures": {}}
+        if chapter == "ch3":
+            own["figures"] = {"fig_3_2": content["figures"]["fig_3_2"]}
+        project.configure(chapter, own)
+    project.configure("tiers", {"standard": {}, "quick": {}, "full": {}})
+    scene = {key: value for key, value in CYLINDER.items() if key != "title"}
+    (folder / "scene.yaml").write_text(yaml.safe_dump(scene | {"title": "A cylinder"}), encoding="utf-8")
+    for name in ("Makefile", "pyproject.toml", *PROJECT[:4], "tests/test_grid.py", "profiles/slurm/config.yaml"):
+        (folder / name).parent.mkdir(exist_ok=True, parents=True)
+        shutil.copy2(ROOT / name, folder / name)
+    (folder / ".venv").mkdir()
+    for name in ("bin", "lib", "pyvenv.cfg"):
+        (folder / ".venv" / name).symlink_to(Path(sys.prefix) / name)
+    (folder / ".venv/.ready").touch()
+    return project
+
+
+@pytest.mark.slow
+def test_every_command_of_the_readme_does_what_it_is_there_for(project):
+    lines = [line.partition("  #")[0].strip() for block in blocks("sh") for line in block.splitlines()]
+    assert len(lines) > 12
+    environment = project.environment(PATH=f"{project.folder / '.venv/bin'}:{os.environ['PATH']}")
+    for line in lines:
+        in_bundle = line.startswith(("sha256sum", "python examples"))
+        folder = project.folder / "results/standard/bundle" if in_bundle else project.folder
+        command = f"{line} --dry-run" if "profiles/slurm" in line else line  # there is no Slurm here
+        done = subprocess.run(command, shell=True, cwd=folder, env=environment, capture_output=True, text=True)
+        assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    made = {str(file.relative_to(project.folder)) for file in project.folder.rglob("*") if file.is_file()}
+    assert {"sketch.png", "scene.nc", "results/standard/figures/fig_3_2.png", "results/standard/report.html"} <= made
+    assert {"results/quick/figures/fig_3_2.png", "results/standard/bundle/SHA256SUMS"} <= made
 
 
 def test_the_study_of_the_readme_can_be_added_to_the_config(made, tmp_path, monkeypatch):
@@ -107,6 +163,8 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "effect_maps",
         "trials",
         "bundle",
+        "report",
+        "gallery",
     }
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", README, re.MULTILINE)
     assert commands
