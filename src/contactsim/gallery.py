@@ -16,6 +16,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.figures.claims import rounded, symbol
 from contactsim.figures.render import errors_told
 from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
@@ -95,6 +96,41 @@ def markdown(rows: pd.DataFrame, pictures: str) -> str:
     return "\n".join(["<table>", *(f"<tr>{''.join(line)}</tr>" for line in lines), "</table>"]) + "\n"
 
 
+def counts(every: pd.DataFrame) -> str:
+    """How many statements of each chapter came to which verdict, as a table in Markdown; every: from `verdicts`."""
+    lines = [f"| chapter | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 1) + "|"]
+    for chapter, own in [*every.groupby("chapter"), ("all", every)]:
+        cells = [str(int((own.verdict == verdict).sum())) for verdict in VERDICTS]
+        lines.append(f"| {str(chapter).removeprefix('ch')} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def verdict_page(every: pd.DataFrame, tier: str) -> str:
+    """Every statement by verdict, those not reproduced first, as a page in Markdown; every: from `verdicts`."""
+    parts = [f"# Every statement, and what came of it at the {tier} tier\n", counts(every)]
+    parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
+    for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED):
+        parts += [
+            f"## {verdict.capitalize()}\n",
+            "| thesis | statement | compared | expected | found | why this band |",
+        ]
+        parts[-1] += "\n|---|---|---|---|---|---|"
+        parts += [_statement(row) for row in every[every.verdict == verdict].to_dict("records")]
+        parts.append("")
+    return "\n".join(parts)
+
+
+def _statement(row: Mapping) -> str:
+    texts = {key: "" if isinstance(value, float) else str(value).replace("|", "\\|") for key, value in row.items()}
+    found = " ± ".join(rounded(row["value"], row["ensemble_error"], row["grid_error"]))
+    if texts["condition"]:
+        numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
+        found += f"; {texts['condition']}: {' ± '.join(rounded(*numbers))}"
+    compared = " ".join(symbol(word).replace("_", " ") for word in texts["measure"].split())
+    cells = (texts["source"], texts["statement"], compared, texts["expected"], found, texts["because"])
+    return f"| {' | '.join(cells)} |"
+
+
 def _cell(row: Mapping, pictures: str) -> str:
     name, title = row["figure"], row["title"]
     counted = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
@@ -120,7 +156,7 @@ def settings(plan: Plan, others: Mapping[str, str]) -> dict:
 
 
 def make(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> None:
-    """Small pictures of all figures, their table, all verdicts, and the page in Markdown, into a folder.
+    """Small pictures of all figures, their table, all verdicts, and pages of both in Markdown, into a folder.
 
     folder: of the tier's results; others: as `table` takes them.
     """
@@ -130,6 +166,7 @@ def make(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> N
     for name in rows.figure:
         small(folder / "figures" / f"{name}.png", target / f"{name}.png")
     every.to_csv(target / "verdicts.csv", index=False)
+    (target / "verdicts.md").write_text(verdict_page(every, plan.tier), encoding="utf-8")
     rows.to_csv(target / "gallery.csv", index=False)
     (target / "gallery.md").write_text(markdown(rows, "docs/gallery"), encoding="utf-8")
 

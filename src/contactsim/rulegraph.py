@@ -21,7 +21,9 @@ def drawn(dot: str, together: Mapping[str, str]) -> Markup:
     for first, then in EDGE.findall(dot):
         if names[first] != names[then]:
             needs[names[then]].add(names[first])
-    places = _places(needs)
+    order = list(TopologicalSorter({name: sorted(needs[name]) for name in sorted(needs)}).static_order())
+    needs = _direct(needs, order)
+    places = _places(needs, order)
     width = max((x for x, _ in places.values()), default=0) + WIDTH + 20
     height = max((y for _, y in places.values()), default=0) + HEIGHT + 20
     lines = [_line(places[one], places[name]) for name, others in needs.items() for one in sorted(others)]
@@ -30,18 +32,27 @@ def drawn(dot: str, together: Mapping[str, str]) -> Markup:
     return Markup(f'<svg viewBox="0 0 {width} {height}" width="{width}" role="img" aria-label="rules">{text}</svg>')
 
 
-def _places(needs: Mapping[str, set[str]]) -> dict[str, tuple[int, int]]:
-    """Upper left corner of each box: as far to the right as the longest way to it, below those of its column."""
-    depth: dict[str, int] = {}
-    for name in TopologicalSorter({name: sorted(others) for name, others in sorted(needs.items())}).static_order():
-        depth[name] = 1 + max((depth[one] for one in needs[name]), default=-1)
-    filled: dict[int, int] = {}
-    places = {}
-    for name, column in sorted(depth.items(), key=lambda item: (item[1], item[0])):
-        row = filled.get(column, 0)
-        filled[column] = row + 1
-        places[name] = (10 + column * ACROSS, 10 + row * DOWN)
-    return places
+def _direct(needs: Mapping[str, set[str]], order: list[str]) -> dict[str, set[str]]:
+    """What each rule needs, without what one of its needs already needs; order: each after its needs."""
+    every: dict[str, set[str]] = {}
+    for name in order:
+        every[name] = needs[name].union(*(every[one] for one in needs[name]))
+    return {name: {one for one in needs[name] if not any(one in every[two] for two in needs[name])} for name in order}
+
+
+def _places(needs: Mapping[str, set[str]], order: list[str]) -> dict[str, tuple[int, int]]:
+    """Upper left corner of each box: as far to the right as what needs it allows, columns centred."""
+    left: dict[str, int] = {}
+    for name in reversed(order):
+        left[name] = 1 + max((left[other] for other in order if name in needs[other]), default=-1)
+    last = max(left.values(), default=0)
+    columns = {column: sorted(name for name in order if last - left[name] == column) for column in range(last + 1)}
+    tallest = max(map(len, columns.values()), default=0)
+    return {
+        name: (10 + column * ACROSS, 10 + row * DOWN + (tallest - len(own)) * DOWN // 2)
+        for column, own in columns.items()
+        for row, name in enumerate(own)
+    }
 
 
 def _line(start: tuple[int, int], end: tuple[int, int]) -> str:
