@@ -58,6 +58,7 @@ WRITERS = (
     "confirm.py",
     "effect_maps.py",
     "negligible.py",
+    "trials.py",
 )
 
 
@@ -102,6 +103,12 @@ def test_a_half_width_of_the_contact_is_no_half_width_of_an_interval():
     made = described(xr.Dataset({"half_width": 1.0, "fit_b1_half_width": 1.0}))
     assert made.half_width.long_name == "half-width of the contact"
     assert made.fit_b1_half_width.long_name.startswith("parameter b1 of Eq. 3.11: half-width of the 95 %")
+
+
+def test_the_limit_of_a_fit_is_no_limit_on_finer_grids():
+    made = described(xr.Dataset({"fit_limit": 1.0, "kappa_limit": 1.0}))
+    assert made.fit_limit.long_name == "largest reduced pressure that a fit uses"
+    assert made.kappa_limit.long_name.endswith(": mean over members, extrapolated to the limit on finer grids")
 
 
 def test_every_key_that_can_be_varied_gets_a_dimension_that_no_result_has_with_its_unit():

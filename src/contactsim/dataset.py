@@ -129,6 +129,19 @@ VARIABLES = {
     "harder": ("1", "what gets harder with the severity"),
     "rung": ("1", "rung of the ladder of effects"),
     "components": ("1", "components of displacement and traction that exist"),
+    "scene": ("1", "scene drawn at random: its kind and number"),
+    "words": ("1", "scene in words"),
+    "asked": ("1", "relative error asked of a scene"),
+    "true_error": ("1", "relative error in truth, against a finer run"),
+    "expected_error": ("1", "relative error as it was expected"),
+    "solved": ("1", "how often the scene was solved"),
+    "points_expected": ("1", "grid points along x, as expected"),
+    "work": ("1", "work: transforms times grid points"),
+    "work_expected": ("1", "work as expected"),
+    "least_work": ("1", "work of the cheapest setting that is within the error asked for"),
+    "least_points": ("1", "grid points along x of that setting, -1 for none"),
+    "settings_tried": ("1", "settings tried"),
+    "settings_met": ("1", "settings tried that are within the error asked for"),
     "unknowns": ("1", "real unknowns of a step"),
     "unconverged": ("1", "steps that did not converge"),
     "steps": ("1", "steps of the path"),
@@ -307,6 +320,8 @@ SUFFIXES = {
 
 def base_name(name: str) -> tuple[str, str]:
     """A variable's name without what aggregation has added, and how that is put in words."""
+    if name in VARIABLES:
+        return name, ""
     for suffix, text in SUFFIXES.items():
         if name.endswith(suffix):
             return name.removesuffix(suffix), text
