@@ -15,8 +15,10 @@ from contactsim.errors import SceneError
 from contactsim.hazards import HAZARDS, first_line
 from contactsim.hazards.adhesive import ADHESIVE
 from contactsim.hazards.cases import Case, alone, complete, made, mirrored, on_top
+from contactsim.hazards.lines import LINES
 from contactsim.hazards.rough import ROUGH
 from contactsim.hazards.sliding import SLIDING
+from contactsim.hazards.surfaces import SURFACES
 from contactsim.solvers import solver_class
 from contactsim.solvers.base import Status
 from contactsim.stability import judge
@@ -46,6 +48,12 @@ def test_few_points_carry_a_light_load(name):
 PATHS = [hazard.__name__ for hazard in (*ADHESIVE, *ROUGH, *SLIDING)]
 WALLS = [hazard for hazard in HAZARDS if hazard not in PATHS]
 ON_LINES_ONLY = {name for name in WALLS if HAZARDS[name](0).heights.ndim == 1}
+
+
+def test_no_two_hazards_have_one_name():
+    assert len(HAZARDS) == len(LINES) + len(SURFACES) + len(ADHESIVE) + len(ROUGH) + len(SLIDING)
+
+
 TAKEN = [(hazard, name) for hazard in WALLS for name in (ALL if hazard in ON_LINES_ONLY else ON_SURFACES)]
 TIGHT = ("flat", "tight_tolerance", "tight_surface_tolerance")
 """Below what rounding allows at last."""

@@ -150,4 +150,4 @@ def test_the_digest_of_settings_never_changes():
 def test_versions_are_those_installed():
     found = versions()
     assert found["contactsim"] == metadata.version("contactsim")
-    assert set(found) == {"contactsim", "numpy", "scipy", "ducc0", "xarray", "netCDF4"}
+    assert set(found) == {"contactsim", "numpy", "scipy", "ducc0", "numba", "xarray", "netCDF4"}

@@ -171,6 +171,15 @@ def test_every_command_names_a_target_or_an_option_that_exists():
     assert set(commands) <= targets
 
 
+def test_nothing_in_the_readme_waits_to_be_filled_in():
+    assert not re.search(r"^[A-Z]{6,}$|: [A-Z]{6,}$|TODO", README, re.MULTILINE)
+
+
+def test_every_figure_stands_among_the_targets():
+    table = README[README.index("| target |") : README.index("| `all` |")]
+    assert set(Plan.read(ROOT / "config").figures) <= set(re.findall(r"`(\w+)`", table))
+
+
 def test_every_link_leads_somewhere():
     for text, folder in ((README, ROOT), (KEYS, ROOT / "config")):
         for link in re.findall(r"\]\(([^)#:]+)\)", text):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -36,7 +37,7 @@ def scene_of(settings: dict) -> Scene:
     if elasticity is None and counter is None:
         raise SceneError("counter_body", None, "an elastic body, as the one below is rigid")
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
-    path = load_path(settings, upper, elasticity or counter)
+    path = load_path(settings, upper, [one for one in (elasticity, counter) if one is not None])
     bodies = Body(Flat.facing(upper), elasticity), Body(upper, counter)
     scene = Scene(*bodies, effects, path, paired(settings.get("pairing")))
     return left_out(scene, settings.get("leave_out", ()))
@@ -84,20 +85,21 @@ def points_of(settings: dict, surface: Surface) -> int:
     return points
 
 
-def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadPath:
+def load_path(settings: dict, surface: Surface, elasticities: Sequence[Elasticity]) -> LoadPath:
     """The steps of a path as they are; else mean pressures from the loads as the study gives them.
 
-    reduced_pressure: times E* and the rms gradient, of self-affine heights that of the band-limited profile, of others
-    that of their differences on the grid; contact_ratio: what a cylinder needs for a half-width, or a sphere for a
-    contact radius, of that part of its radius on a half-space (Eq. 3.5).
+    reduced_pressure: times E*, of two bodies that of the pair, and the rms gradient, of self-affine heights that of
+    the band-limited profile, of others that of their differences on the grid; contact_ratio: what a cylinder needs for
+    a half-width, or a sphere for a contact radius, of that part of its radius on a half-space (Eq. 3.5).
     """
-    contact_modulus = elasticity.contact_modulus
     if "control" in settings["load"]:
         load, slide = settings["load"], settings.get("slide")
         described = load["control"], tuple(load["through"]), load["increment"], load.get("origin") == "first_touch"
         if slide is None:
             return _path(*described)
         return _sliding(*described, tuple(slide["through"]), slide["increment"], *_held(slide))
+    moduli = [one.contact_modulus for one in elasticities]
+    contact_modulus = moduli[0] if len(moduli) == 1 else 1 / sum(1 / modulus for modulus in moduli)
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
@@ -114,7 +116,7 @@ def load_path(settings: dict, surface: Surface, elasticity: Elasticity) -> LoadP
         radius = settings["surface"].get("radius")
         if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
-        if Trait.HALF_SPACE not in elasticity.traits:
+        if any(Trait.HALF_SPACE not in one.traits for one in elasticities):
             raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: analytic.cylinder_load, 2: analytic.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)

@@ -43,7 +43,7 @@ def read_scene(path: str, accuracy: float | None = None) -> Study:
     section = load_yaml(path)
     if accuracy is not None and not {"accuracy", "tolerance"} & set(section):
         section["accuracy"] = accuracy
-    for key in ("vary", "members", *COMPANIONS, "fit_limits"):
+    for key in ("vary", "members", *COMPANIONS, "fit_limits", "surfaces_of", "snapshot_members"):
         if key in section:
             raise SceneError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
     seed = section.pop("seed", 0)

@@ -86,7 +86,7 @@ def explain(
         unknowns=size * len(scene.exerted),
         steps=len(scene.path.steps),
         increments="" if increments is None else _described(increments),
-        transforms=chosen.transforms(points),
+        transforms=chosen.transforms(points) * (len(scene.exerted) if Trait.SMOOTH in scene.traits else 1),
         megabytes=chosen.fields * len(scene.components) * size * 8 / 1e6,
         solvers={name: _why_not(scene, name) for name in SOLVERS},
         chosen=method,

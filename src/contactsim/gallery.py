@@ -7,6 +7,7 @@ figure shows; nothing here is typed twice.
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -160,20 +161,22 @@ def make(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> N
 
     folder: of the tier's results; others: as `table` takes them.
     """
-    target.mkdir(parents=True, exist_ok=True)
+    shutil.rmtree(target, ignore_errors=True)  # a figure that is gone leaves no picture
+    target.mkdir(parents=True)
     every = verdicts(folder, list(plan.claims))
     rows = table(plan, folder, every, others)
     for name in rows.figure:
         small(folder / "figures" / f"{name}.png", target / f"{name}.png")
     every.to_csv(target / "verdicts.csv", index=False)
     (target / "verdicts.md").write_text(verdict_page(every, plan.tier), encoding="utf-8")
-    rows.to_csv(target / "gallery.csv", index=False)
     (target / "gallery.md").write_text(markdown(rows, "docs/gallery"), encoding="utf-8")
+    (target / "counts.md").write_text(counts(every), encoding="utf-8")
+    rows.to_csv(target / "gallery.csv", index=False)  # last: with it the gallery is whole
 
 
-def small(source: Path, target: Path) -> None:
-    """A picture scaled to the width of a page, in few colours."""
+def small(source: Path, target: Path, width: int = WIDTH) -> None:
+    """A picture scaled to so many pixels across, in few colours."""
     with Image.open(source) as picture:
-        height = round(picture.height * WIDTH / picture.width)
-        scaled = picture.convert("RGB").resize((WIDTH, height), Image.Resampling.LANCZOS)
+        height = round(picture.height * width / picture.width)
+        scaled = picture.convert("RGB").resize((width, height), Image.Resampling.LANCZOS)
         scaled.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)

@@ -19,6 +19,7 @@ from contactsim.march import chosen, simulate
 from contactsim.provenance import digest, source_digest
 from contactsim.scene import Scene
 from contactsim.solvers import module_of, solver
+from contactsim.solvers.base import solved
 from contactsim.study import Study
 
 KEYS = {
@@ -85,7 +86,7 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
                 "components": " ".join(scene.components),
                 "unknowns": _unknowns(scene, options["points"]),
                 "transforms": float(data.transforms.sum()),
-                "unconverged": int((data.status != 0).sum()),
+                "unconverged": int((~solved(data.status)).sum()),
                 "steps": data.status.size,
             }
         )

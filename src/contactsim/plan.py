@@ -48,8 +48,16 @@ RESERVED = (
     "run",
     "aggregate",
     "unknown_target",
+    "price",
+    "accuracy_figure",
+    "judge",
+    "hazard",
+    "stability_dataset",
+    "test",
+    "setup",
+    "help",
 )
-"""Names that the workflow's own rules have."""
+"""Names that the workflow's own rules and the Makefile's targets have."""
 
 TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),

@@ -14,7 +14,7 @@ from importlib import metadata
 from pathlib import Path
 
 PACKAGE = "contactsim"
-LIBRARIES = ("numpy", "scipy", "ducc0", "xarray", "netCDF4")
+LIBRARIES = ("numpy", "scipy", "ducc0", "numba", "xarray", "netCDF4")
 
 
 @cache

@@ -36,6 +36,8 @@ SKETCH = (4.6, 2.9), 160
 """Size in inches and dots an inch of a sketch."""
 COLOURS, FINE = 256, 2
 """Colours of a picture on the page, and how many of its pixels go into one of the page's."""
+SECTION = 2000
+"""Points that show a section of a surface."""
 MARKS = dict(zip(VERDICTS, ("yes", "condition", "no", "open"), strict=True))
 """How a verdict is called in the style sheet."""
 HIDDEN = ("name", "title", "tier", "seed")
@@ -71,41 +73,50 @@ class Solved:
     sketch: Picture
 
 
-def settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]]) -> dict:
-    """What the page depends on, beside the files that it is made of; others: by group and name, all other figures."""
+def settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]], rules: str) -> dict:
+    """What the page depends on, beside the files that it is made of.
+
+    others: by group and name, all other figures; rules: the text of the workflow's rules.
+    """
     data = [gallery.settings(plan, {}), {study: plan.study_settings(study) for study in plan.studies}]
     shown = {group: {name: _titled(one) for name, one in figures.items()} for group, figures in others.items()}
-    source = digest(source_digest("contactsim.report"), TEMPLATE.read_text(encoding="utf-8"))
-    return {"tier": plan.tier, "others": shown, "order": list(shown), "data": digest(data), "source": source}
+    source = digest(source_digest("contactsim.report"), TEMPLATE.read_text(encoding="utf-8"), rules)
+    made = {"tier": plan.tier, "others": shown, "order": list(shown), "data": digest(data), "source": source}
+    used = {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas")}
+    return made | {"versions": {"Python": platform.python_version()} | versions() | used}
 
 
 def _titled(settings: Mapping) -> dict[str, str]:
     return {key: settings[key] for key in ("title", "caption")}
 
 
-def render(plan: Plan, settings: Mapping, folder: Path, rules: str) -> str:
-    """The page as HTML.
+def found(plan: Plan, settings: Mapping, folder: Path) -> dict:
+    """All that the page shows, but for the rules.
 
-    settings: from the function of that name; folder: of the tier's results; rules: the graph of rules as dot.
+    settings: from the function of that name; folder: of the tier's results.
     """
     every = gallery.verdicts(folder, list(plan.claims))
+    return {
+        "tier": plan.tier,
+        "seed": plan.seed,
+        "data": settings["data"],
+        "marks": MARKS,
+        "counts": _counts(every),
+        "statements": _statements(every, plan),
+        "chapters": _chapters(plan, folder, every),
+        "studies": {name: _study(plan, folder, name) for name in plan.studies},
+        "own": {_chapter(chapter): _studies_of(plan, chapter) for chapter in plan.chapters.values()},
+        "others": _others(settings, folder),
+        "together": {name: _chapter(figure.chapter) for name, figure in plan.figures.items()},
+        "versions": settings["versions"],
+    }
+
+
+def render(shown: Mapping, rules: str) -> str:
+    """The page as HTML; shown: from `found`; rules: the graph of rules as dot."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     page = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
-    return page.render(
-        tier=plan.tier,
-        seed=plan.seed,
-        data=settings["data"],
-        marks=MARKS,
-        counts=_counts(every),
-        statements=_statements(every, plan),
-        chapters=_chapters(plan, folder, every),
-        studies={name: _study(plan, folder, name) for name in plan.studies},
-        own={_chapter(chapter): _studies_of(plan, chapter) for chapter in plan.chapters.values()},
-        others=_others(settings, folder),
-        rules=drawn(rules, {name: _chapter(figure.chapter) for name, figure in plan.figures.items()}),
-        versions=versions() | {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas", "numba")},
-        python=platform.python_version(),
-    )
+    return page.render(shown, rules=drawn(rules, shown["together"]))
 
 
 def _chapter(name: str) -> str:
@@ -138,6 +149,7 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
             texts["there"] = " ± ".join(rounded(*(row[f"condition_{name}"] for name in numbers)))
         texts["figures"] = sorted(named_in(row["source"]) & set(plan.figures))
         texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies
+        texts["statement"] = texts["statement"].replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*")
         rows.append(texts)
     return rows
 
@@ -185,7 +197,10 @@ def _sketch(run: dict) -> Picture:
     size, dots = SKETCH
     figure, file = Figure(figsize=size, layout="constrained"), io.BytesIO()
     scene = scene_of(run)
-    sketch(scene, points_of(run, scene.upper.surface), figure.subplots())
+    surface = scene.upper.surface
+    enough = max(SECTION, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
+    points = points_of(run, surface)
+    sketch(scene, points if surface.points else min(points, enough), figure.subplots())
     figure.savefig(file, format="png", dpi=dots)
     return _embedded(file)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Mapping
 from graphlib import TopologicalSorter
 
@@ -12,6 +14,21 @@ NODE, EDGE = re.compile(r'(\d+)\[label = "(\w+)"'), re.compile(r"(\d+) -> (\d+)"
 """Lines of dot, as snakemake writes them."""
 ACROSS, DOWN, WIDTH, HEIGHT = 175, 42, 130, 26
 """Distances of boxes and their size, in pixels."""
+
+
+def ask(tier: str) -> subprocess.Popen:
+    """Ask snakemake for the graph of what `all` needs at a tier; it takes seconds."""
+    command = ["--dry-run", "--rulegraph", "dot", "all", "--config", f"tier={tier}"]
+    pipe = subprocess.PIPE
+    return subprocess.Popen([sys.executable, "-m", "snakemake", *command], stdout=pipe, stderr=pipe, text=True)
+
+
+def answer(asked: subprocess.Popen) -> str:
+    """The graph as dot; RuntimeError with what snakemake says where it makes none."""
+    graph, told = asked.communicate()
+    if asked.returncode:
+        raise RuntimeError(told)
+    return graph
 
 
 def drawn(dot: str, together: Mapping[str, str]) -> Markup:

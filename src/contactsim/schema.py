@@ -124,7 +124,7 @@ STUDY_KEYS = {
     "leave_out": Key(some_of(LEFT_OUT), f"a list from {', '.join(LEFT_OUT)}", []),
     "whole": Key(mapping, "a mapping with `members`, of runs with nothing left out", None),
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
-    "tolerance": Key(positive, "a positive number of grid steps", None),
+    "tolerance": Key(positive, "a positive number: of grid steps or, of smooth laws, parts of their strength", None),
     "accuracy": Key(error_or_more, "a relative error below 1, or a mapping with `error` and `of`", None),
     "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
     "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
@@ -160,7 +160,7 @@ COMPANIONS = {
     "tight": (
         "tolerance",
         "tolerance",
-        {"tolerance": Key(positive, "a positive number of grid steps, below the study's")} | FEWER,
+        {"tolerance": Key(positive, "a positive number, in the units of the study's and below it")} | FEWER,
     ),
     "whole": ("leave_out", "left_out", FEWER),
 }
@@ -257,7 +257,10 @@ def _path(section: dict, accurate: bool, file: object, prefix: str) -> dict:
     if len(controls) != 1:
         raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
     points, control = section[controls[0]], Trait[controls[0].upper()]
-    path = loading.through(control, points, section["increment"])
+    try:
+        path = loading.through(control, points, section["increment"])
+    except SceneError as error:
+        raise error.within(file, prefix) from error
     given = {"control": controls[0], "through": points, "increment": section["increment"]}
     if section["origin"] != ORIGINS[0]:
         if control is not Trait.APPROACH:
@@ -291,7 +294,7 @@ def usual_solver(settings: dict) -> str:
     """The kind of solver for a study's surface and effects; what is wrong with them is refused later."""
     surface = settings["surface"]
     kind = SURFACES.get(str(surface.get("kind")), Flat)
-    dimensions = surface.get("dimensions", getattr(kind, "dimensions", 1))
+    dimensions = surface.get("dimensions", getattr(kind, "dimensions", 2 if surface.get("width") else 1))
     traits = {Trait.SURFACE if dimensions == 2 else Trait.LINE}
     return usual_kind(frozenset(traits | ({Trait.SMOOTH} if is_smooth(settings) else set())))
 

@@ -10,25 +10,35 @@ process that stands by ends with the one that started it.
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import sys
+from contextlib import suppress
 
-WORD = 8
-"""Bytes of the length that precedes a message."""
+WORD, READY, KILLED = 8, b"+", 137
+"""Bytes of the length that precedes a message; what a fork says first; the code of a job that said nothing at last."""
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""Environment in which libraries of linear algebra count on one thread; they read it when they are imported."""
 
 
 def main(arguments: list[str]) -> None:
-    """Run `SCRIPT ...` in the process that stands by at the socket; start it anew where there is none."""
+    """Run `SCRIPT ...` in the process that stands by at the socket; in an ordinary Python where there is none."""
     place, command = arguments[0], arguments[1:]
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     if os.environ.get("OMP_NUM_THREADS") == "1" and os.path.isfile(command[0]):
         with socket.socket(socket.AF_UNIX) as link:
-            try:
-                link.connect(place)
-            except OSError:
-                pass
-            else:
+            if _forked(link, place):
                 sys.exit(_hand_over(link, command))
     os.execv(sys.executable, [sys.executable, *command])
+
+
+def _forked(link: socket.socket, place: str) -> bool:
+    """Whether there is a fork at the other end, which says so."""
+    try:
+        link.connect(place)
+        return link.recv(1) == READY
+    except OSError:
+        return False
 
 
 def _hand_over(link: socket.socket, command: list[str]) -> int:
@@ -38,14 +48,28 @@ def _hand_over(link: socket.socket, command: list[str]) -> int:
     socket.send_fds(link, [len(told).to_bytes(WORD, "big")], [0, 1, 2])
     link.sendall(told)
     code = link.recv(1)
-    return code[0] if code else 1  # none: the fork was killed
+    if code:
+        return code[0]
+    print("The job was killed, perhaps for want of memory", file=sys.stderr)
+    return KILLED
+
+
+def start(python: str, place: str, scripts: str) -> tuple[object, list[str]]:
+    """Start a process that stands by for the scripts of a folder; that process, and how a job is started now.
+
+    It counts on one thread, as its jobs do, and ends when this process does, whose end of a pipe then closes.
+    """
+    from subprocess import PIPE, Popen
+
+    command = [python, "-P", __file__, "--serve", place, scripts]
+    process = Popen(command, stdin=PIPE, start_new_session=True, env=os.environ | ONE_THREAD)
+    return process, [python, "-I", "-S", __file__, place]
 
 
 def serve(place: str, scripts: str) -> None:
     """Stand by at a socket, with all that the scripts of a folder import, until the standard input ends."""
     import gc
     import select
-    import signal
 
     temporary = f"{place}.{os.getpid()}"
     listener = socket.socket(socket.AF_UNIX)
@@ -55,14 +79,15 @@ def serve(place: str, scripts: str) -> None:
     _import_all(scripts)
     gc.freeze()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody here waits for a fork
-    while sys.stdin not in select.select([listener, sys.stdin], [], [])[0]:
-        link = listener.accept()[0]
-        if os.fork() == 0:
-            listener.close()
-            signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-            _work(link)
-        link.close()
-    os.unlink(place)
+    try:
+        while sys.stdin not in select.select([listener, sys.stdin], [], [])[0]:
+            with listener.accept()[0] as link, suppress(OSError):  # without a fork the job starts by itself
+                if os.fork() == 0:
+                    listener.close()
+                    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+                    _work(link)
+    finally:
+        os.unlink(place)
 
 
 def _import_all(scripts: str) -> None:
@@ -75,7 +100,9 @@ def _import_all(scripts: str) -> None:
     for script in sorted(Path(scripts).glob("*.py")):
         for node in ast.walk(ast.parse(script.read_text())):
             if isinstance(node, ast.ImportFrom):
-                importlib.import_module(node.module)
+                for name in (node.module, *(f"{node.module}.{alias.name}" for alias in node.names)):
+                    with suppress(ImportError):  # a name within a module; or what the script itself will stumble over
+                        importlib.import_module(name)
 
 
 def _work(link: socket.socket) -> None:
@@ -86,10 +113,11 @@ def _work(link: socket.socket) -> None:
 
     code = 1
     try:
+        link.sendall(READY)
         length, files, _, _ = socket.recv_fds(link, WORD, 3)
         told = b""
         while len(told) < int.from_bytes(length, "big"):
-            told += link.recv(2**20)
+            told += link.recv(2**20) or _leave()
         for number, file in enumerate(files):
             os.dup2(file, number)
             os.close(file)
@@ -108,10 +136,16 @@ def _work(link: socket.socket) -> None:
     except BaseException:
         traceback.print_exc()
     finally:
-        sys.stdout.flush()
-        sys.stderr.flush()
-        link.sendall(bytes([code]))
-        os._exit(code)
+        with suppress(OSError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+            link.sendall(bytes([code & 255]))
+        os._exit(code & 255)
+
+
+def _leave() -> bytes:
+    """End this process, whose messenger is gone before it said all."""
+    os._exit(1)
 
 
 def _die_with(link: socket.socket) -> None:

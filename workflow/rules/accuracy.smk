@@ -29,7 +29,7 @@ rule price:
         data=RESULTS / "accuracy/{case}/{job}.nc",
         costs=RESULTS / "costs/accuracy/{case}/{job}.json",
     log: RESULTS / "logs/accuracy/{case}/{job}.log"
-    params: plan=case_params, config=str(CONFIG), tier=PLAN.tier
+    params: plan=case_params, config=os.path.relpath(CONFIG), tier=PLAN.tier
     threads: workflow.cores
     group: together("timed")
     message: "accuracy of {wildcards.case}: {wildcards.job}"

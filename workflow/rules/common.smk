@@ -3,7 +3,6 @@ import fcntl
 import functools
 import os
 import shlex
-import subprocess
 import sys
 from pathlib import Path
 
@@ -49,16 +48,15 @@ onstart:
     _rules = [job.rule.name for job in _jobs if job.rule.name != "run" and job.rule.output]
     print(outlook.told(_runs, _rules, workflow.cores), file=sys.stderr)
     workflow.scheduler.job_rate_limiter = None  # else each job adds a timer that wakes the scheduler every second, for good
-    if workflow.local_exec:
+    if workflow.local_exec and sys.platform == "linux":  # elsewhere forks are not safe
         stand_by()
 
 
 def stand_by():
-    """Have a process stand by of which jobs are forks; it ends with this one, whose end of the pipe then closes."""
-    place, python = f".snakemake/standby-{os.getpid()}", [*map(str, (REAL_PYTHON, standby.__file__))]
-    serve = [*python, "--serve", place, str(Path(workflow.basedir) / "workflow/scripts")]
-    workflow.standing_by = subprocess.Popen(serve, stdin=subprocess.PIPE, start_new_session=True)
-    sys.executable = shlex.join([python[0], "-I", "-S", python[1], place])
+    """Have a process stand by of which jobs are forks."""
+    place, scripts = f".snakemake/standby-{os.getpid()}", str(Path(workflow.basedir) / "workflow/scripts")
+    workflow.standing_by, command = standby.start(REAL_PYTHON, place, scripts)
+    sys.executable = shlex.join(command)
 
 
 def together(name):
@@ -103,7 +101,7 @@ def target_lines():
     lines += [f"  {'accuracy':14} error against cost: {', '.join(CASES)}"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
     lines += [f"  {'report':14} all that was found, on one page"]
-    lines += [f"  {'all':14} all of these"]
+    lines += [f"  {'all':14} all of these, beside which there are:"]
     lines += [f"  {'gallery':14} the figures in small pictures, with verdicts, errors and costs"]
     return "\n".join([*lines, f"  {'bundle':14} all results in one folder to deposit"])
 

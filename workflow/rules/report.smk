@@ -14,7 +14,8 @@ def report_inputs():
 
 
 def report_params(wildcards):
-    return canonical(report.settings(PLAN, OTHER_FIGURES))
+    texts = [file.read_text(encoding="utf-8") for file in sorted(CONFIG.parent.glob("workflow/rules/*.smk"))]
+    return canonical(report.settings(PLAN, OTHER_FIGURES, "".join(texts)))
 
 
 def gallery_params(wildcards):
@@ -26,7 +27,7 @@ rule report:
     input: report_inputs()
     output: RESULTS / "report.html"
     log: RESULTS / "logs/report.log"
-    params: plan=report_params, config=str(CONFIG)
+    params: plan=report_params, config=os.path.relpath(CONFIG)
     message: "report: {output}"
     script: "../scripts/report.py"
 
@@ -35,6 +36,6 @@ rule gallery:
     input: report_inputs()
     output: RESULTS / "gallery/gallery.csv"
     log: RESULTS / "logs/gallery.log"
-    params: plan=gallery_params, config=str(CONFIG)
+    params: plan=gallery_params, config=os.path.relpath(CONFIG)
     message: f"gallery: {RESULTS}/gallery"
     script: "../scripts/gallery.py"

@@ -1,19 +1,16 @@
-"""The page of all that was found; the graph of rules is asked of snakemake."""
+"""The page of all that was found; the graph of rules is asked of snakemake while all else is read."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
-from contactsim import report
+from contactsim import report, rulegraph
 from contactsim.figures.render import move
 from contactsim.joblog import logged
 from contactsim.plan import Plan
 
 logged(snakemake.log[0])
 settings, target = json.loads(snakemake.params.plan), Path(snakemake.output[0])
-plan = Plan.read(snakemake.params.config, settings["tier"])
-ask = [sys.executable, "-m", "snakemake", "--dry-run", "--rulegraph", "dot", "all", "--config", f"tier={plan.tier}"]
-rules = subprocess.run(ask, capture_output=True, text=True, check=True).stdout
-page = report.render(plan, settings, target.parent, rules)
+asked = rulegraph.ask(settings["tier"])
+found = report.found(Plan.read(snakemake.params.config, settings["tier"]), settings, target.parent)
+page = report.render(found, rulegraph.answer(asked))
 move(str(target), lambda path: path.write_text(page, encoding="utf-8"))

@@ -45,8 +45,7 @@ def fig_2_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         )
         panel.set_xlim(data[along].values[[0, -1]] / lengths[name])
         panel.legend(loc="lower right")
-    for panel, letter in zip(axes, "ab", strict=True):
-        style.letter(panel, letter)
+    style.letters(axes)
     return pd.concat(rows)[["component", "fixed_gap", "gap", "traction", "strength"]]
 
 

@@ -222,10 +222,9 @@ def fig_3_5(
     smooth = analytic.CYLINDER_KAPPA_R / analytic.SPHERE_KAPPA_R
     colours = resolution.QUANTITIES
     for panel, lines, name in zip(axes[:2], (coarse, line), ("equal", "own"), strict=True):
-        shared = lines.sel(reduced_pressure=surface.reduced_pressure, method="nearest")
-        shared = shared.assign_coords(reduced_pressure=surface.reduced_pressure)
+        loads = np.intersect1d(lines.reduced_pressure, surface.reduced_pressure)
         for value in surface.hurst.values:
-            one, two = shared.sel(hurst=value), surface.sel(hurst=value)
+            one, two = (data.sel(reduced_pressure=loads, hurst=value) for data in (lines, surface))
             for quantity, color in colours.items():
                 found = ensemble.ratio_of_means(one, two, quantity)
                 bars = found.error if np.isfinite(found.error).any() else None
@@ -238,8 +237,7 @@ def fig_3_5(
         panel.axhline(ratio, color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
         panel.axhline(smooth, color=style.EXACT, lw=0.8)
         panel.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}/\kappa^{2D}$")
-    for panel, letter in zip(axes, "abc", strict=True):
-        style.letter(panel, letter)
+    style.letters(axes)
     names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_bond"}
     keys = {words: colours[quantity] for words, quantity in names.items()}
     axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)

@@ -48,7 +48,7 @@ def fig_4_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         parts = [data.sel(work_of_separation=work, work_ratio=ratio) for ratio in (0.0, 1.0)]
         rows.append(_profiles(panel, parts, work).assign(work_of_separation=work))
         panel.set_title(rf"$\varphi_n={work:g}$ N/m", fontsize=9)
-    _lettered(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -63,7 +63,7 @@ def fig_4_3(pulled: xr.Dataset, more: xr.Dataset, close: xr.Dataset, axes: list[
     for panel, (words, parts) in zip(axes, cases.items(), strict=True):
         rows.append(_profiles(panel, parts, REFERENCE_WORK).assign(case=words.replace("$", "")))
         panel.set_title(words, fontsize=9)
-    _lettered(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -73,7 +73,7 @@ def _profiles(panel: Axes, parts: list[xr.Dataset], work: float) -> pd.DataFrame
     for one in parts:
         radius, ratio = curves.radius(one), float(one.work_ratio)
         place, order = curves.centred(one)
-        here = one.isel(member=0).sel(snapshot=INDENTED, method="nearest")
+        here = one.isel(member=0).sel(snapshot=INDENTED, method="nearest", tolerance=style.SAME)
         strength = float(one.strength.isel(member=0)) if "member" in one.strength.dims else float(one.strength)
         traction = here.normal_traction.values[order] / strength
         size = float(one.final_repulsive_length.isel(member=0))
@@ -131,7 +131,7 @@ def fig_4_4(
         low, high = panel.get_ylim()
         panel.set_ylim(low, high + 0.3 * (high - low))
         panel.legend(loc="upper left", ncols=2)
-    _lettered(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -193,7 +193,7 @@ def _load_axes(axes: list[Axes], titles: tuple[str, ...]) -> None:
         panel.axhline(0.0, color=style.EXACT, lw=0.5)
         panel.set(xlabel=r"approach $\delta/\delta_n$", ylabel=curves.LOAD_LABEL)
         panel.set_title(title, fontsize=9)
-    _lettered(axes)
+    style.letters(axes)
 
 
 def fig_4_6(pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -203,7 +203,8 @@ def fig_4_6(pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     for ratio, color in colours.items():
         one = pulled.sel(poisson_ratio=ratio, work_of_separation=REFERENCE_WORK, work_ratio=0.0)
         place, order = curves.centred(one)
-        moved = one.isel(member=0).sel(snapshot=APPROACHING, method="nearest").normal_displacement.values[order]
+        near = one.isel(member=0).sel(snapshot=APPROACHING, method="nearest", tolerance=style.SAME)
+        moved = near.normal_displacement.values[order]
         for panel in axes:
             panel.plot(place / 1e3, moved, color=color, lw=1.1, label=rf"$\nu={ratio:g}$")
         rows.append(pd.DataFrame({"position": place, "normal_displacement": moved}).assign(poisson_ratio=ratio))
@@ -215,7 +216,7 @@ def fig_4_6(pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.axhline(0.0, color=style.EXACT, lw=0.5)
         panel.set(xlabel=r"$x$ (µm)", ylabel=r"displacement $u_z$ (nm)")
     axes[0].legend(loc="upper right")
-    _lettered(axes)
+    style.letters(axes)
     return shown
 
 
@@ -280,7 +281,7 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
     lines = {words: line for words, (_, line) in limits.items()}
     keys = style.key({_ratio_words(share): color for share, color in colours.items()}, lines)
     axes[0].legend(handles=[*keys, *marks], loc="upper left")
-    _lettered(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -301,7 +302,7 @@ def _pull_offs(panel: Axes, one: xr.Dataset, color: str) -> pd.DataFrame:
 def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Stress in the layer under the contact at the largest approach, with friction (Section 2.2)."""
     one = data.sel(work_of_separation=REFERENCE_WORK, work_ratio=1.0).isel(member=0)
-    here = one.sel(snapshot=INDENTED, method="nearest")
+    here = one.sel(snapshot=INDENTED, method="nearest", tolerance=style.SAME)
     body = elastic(curves.settings(one)["body"])
     grid = Grid((one.x.size,), (float(one.length),))
     shift = one.x.size // 2 - int(np.argmax(here.heights.values))
@@ -314,8 +315,3 @@ def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 
 def _depths(reach: float) -> Array:
     return np.linspace(0.0, reach, 81)
-
-
-def _lettered(axes: list[Axes]) -> None:
-    for panel, letter in zip(axes, "abcd", strict=False):
-        style.letter(panel, letter)

@@ -85,7 +85,7 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
     axes[1].set(xlim=(-0.004, 0.012), ylim=(0, 0.5))
     axes[1].xaxis.set_major_locator(MaxNLocator(5))
     axes[1].legend(loc="lower right", bbox_to_anchor=(1.0, 0.07))
-    _letters(axes)
+    style.letters(axes)
     return pd.concat(rows[: len(rows) // 2])
 
 
@@ -103,7 +103,7 @@ def fig_5_4(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes]) -> pd.DataFram
     axes[0].set_yscale("symlog", linthresh=1e-3)
     axes[1].set_ylim(0, 1.4)
     axes[2].legend(loc="upper left")
-    _letters(axes)
+    style.letters(axes)
     return pd.concat(rows[: len(rows) // 3])
 
 
@@ -167,7 +167,7 @@ def fig_5_6(
             one = rough.prepared(one)
             rows.append(_against_pressure(panel, one, f"${symbol}={value:g}${unit}", color=color))
         _pressures(panel)
-    _letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -198,7 +198,7 @@ def fig_5_7(
         panel.set(xlabel="$x$ (nm)", ylabel="$z$ (nm)")
         panel.set_title(f"$H={value:g}$", fontsize=9)
         panel.legend(loc="lower right")
-    _letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -217,7 +217,7 @@ def fig_5_8(data: xr.Dataset, normal: xr.Dataset, axes: list[Axes]) -> pd.DataFr
     rows.append(_against_pressure(axes[0], strong, "uncoupled", color=style.EXACT, ls=":", marker="."))
     _pressures(axes[0])
     axes[1].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS["relative_interacting_area"])
-    _letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -251,7 +251,7 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
     axes[1].set(yticks=-np.arange(count), yticklabels=[line.partition(":")[0] for line in lines])
     text = "\n".join("\n".join(textwrap.wrap(line, 100, subsequent_indent="   ")) for line in lines)
     axes[1].text(0.02, 0.02, text, transform=axes[1].transAxes, fontsize=5, va="bottom")
-    _letters(axes)
+    style.letters(axes)
     return table
 
 
@@ -286,7 +286,7 @@ def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.set(xlabel=r"$h_{\mathrm{rms}}$ (nm)")
     axes[2].set_yscale("log")
     axes[2].legend(loc="upper right")
-    _letters(axes)
+    style.letters(axes)
     return pd.concat([*rows, pd.DataFrame({"rms_height": data.surface_rms_height.values} | ends)])
 
 
@@ -311,7 +311,7 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.set_title(rough.work_words(data, float(work)), fontsize=9)
     axes[0].legend(loc="upper left")
     axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
-    _letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -364,11 +364,6 @@ def _about(one: xr.Dataset, place: float, share: float) -> slice:
     width = int(count * share)
     middle = int(np.clip(round(place * count), width // 2, count - width // 2))
     return slice(middle - width // 2, middle + width // 2)
-
-
-def _letters(axes: list[Axes]) -> None:
-    for panel, letter in zip(axes, "abcd", strict=False):
-        style.letter(panel, letter)
 
 
 def _line(data: xr.Dataset, thickness: float) -> str:

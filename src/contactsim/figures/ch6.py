@@ -68,7 +68,7 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=curves.FORCE)
         curves.headroom(panel, 0.6)
         panel.legend(loc="upper left")
-    curves.letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -166,7 +166,7 @@ def fig_6_7(data: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.Data
     left.set(xlabel=curves.SLIDE, ylabel=curves.AREA)
     curves.headroom(left, 0.3)
     left.legend(loc="upper right")
-    curves.letters(axes)
+    style.letters(axes)
     return pd.DataFrame(rows)
 
 
@@ -202,7 +202,7 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     right.legend(loc="upper left")
     right.set_ylim(bottom=0.0)
     curves.headroom(right, 0.25)
-    curves.letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -248,7 +248,7 @@ def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.
         row[1].set(xlabel=curves.SLIDE, ylabel=curves.AREA)
         curves.headroom(row[0], 0.3)
         row[0].legend(loc="upper left", ncols=2)
-    curves.letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
@@ -277,14 +277,14 @@ def open_choices(
         curves.headroom(panel, 0.35)
         unit = other[dim].attrs["units"]
         panel.legend(title=words if unit == "1" else f"{words} ({unit})", loc="upper left", ncols=3, fontsize=6.5)
-    curves.letters(axes)
+    style.letters(axes)
     return pd.concat(rows)
 
 
 def rough_slide_forces(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Forces and contact of a rough surface sliding over a flat, and its gap before (beyond the thesis)."""
     one = data.isel(member=0)
-    curve, before = curves.curve(one), one.sel(snapshot=0.0, method="nearest")
+    curve, before = curves.curve(one), one.sel(snapshot=0.0, method="nearest", tolerance=style.SAME)
     axes[0].plot(one.x / one.length, before.normal_gap, color=style.EXACT, lw=0.8)
     axes[0].fill_between(one.x / one.length, before.normal_gap, 0.0, where=before.normal_gap < 0, color=style.CONTACT)
     axes[0].set(xlabel="$x/w$", ylabel="gap at $U_x=0$ (nm)")
@@ -295,7 +295,7 @@ def rough_slide_forces(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     axes[1].legend(loc="best")
     axes[2].plot(curve.slide, curve.area, color=style.WHOLE, lw=1.0)
     axes[2].set(xlabel=r"$U_x$ (nm)", ylabel=curves.AREA)
-    curves.letters(axes)
+    style.letters(axes)
     return curve
 
 

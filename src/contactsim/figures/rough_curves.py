@@ -80,7 +80,7 @@ def interface(
 
     filled: the profile grey; else a line in the colour of the surface alone, beside another that is grey.
     """
-    here = one.isel(member=0).sel(snapshot=place, method="nearest")
+    here = one.isel(member=0).sel(snapshot=place, method="nearest", tolerance=style.SAME)
     x = here.x.values[part]
     down = float(here.approach_first_touch) + place
     rigid = -here.heights.values[part] - down

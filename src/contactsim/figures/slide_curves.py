@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 
 from contactsim import analytic, dataset
 from contactsim.ensemble import converged
-from contactsim.figures import style
 from contactsim.grid import Array
 
 MODULUS, START = 70.0, 10.0
@@ -62,12 +61,6 @@ def exact_flat(one: xr.Dataset, slides: Array) -> Array:
     strength = law["work_of_separation"] * law["work_ratio"] / law["tangential_length"]
     lattice = known["pairing"]["lattice_constant"]
     return analytic.uniform_slide(slides, stiffness, strength, lattice, law["tangential_length"]) / MODULUS
-
-
-def letters(axes: list[Axes]) -> None:
-    """Letters above the panels."""
-    for panel, letter in zip(axes, "abcdefgh", strict=False):
-        style.letter(panel, letter)
 
 
 def headroom(axes: Axes, share: float) -> None:

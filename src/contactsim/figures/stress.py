@@ -39,6 +39,5 @@ def draw(fields: Fields, axes: Sequence[Axes], scale: float = 1.0, unit: str = "
             xlabel=r"$x$ (nm)", ylabel="depth (nm)", aspect="equal", ylim=(fields.depth.max(), fields.depth.min())
         )
         panel.tick_params(direction="out", top=False, right=False)
-    for panel, letter in zip(axes, "abc", strict=True):
-        style.letter(panel, letter)
+    style.letters(axes)
     return shown

@@ -19,6 +19,8 @@ HURST = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
 WHOLE, CONTACT, PAIRS = "#c1272d", "#1f4e9c", "#2a9d6f"
 """Gradient over the whole surface, over the contact (Eq. 3.8), over pairs in contact."""
 EXACT = "#333333"
+SAME = 1e-6
+"""Distance, in a dimension's unit, up to which a place in a dataset is the one that is asked for."""
 SYMBOLS = {
     "kappa": r"$\kappa$",
     "kappa_r": r"$\kappa_r$",
@@ -210,6 +212,12 @@ def _number(value: float, plain: bool) -> str:
 def letter(axes: Axes, name: str) -> None:
     """The panel's letter, above its left corner."""
     axes.set_title(f"({name})", loc="left", fontsize=9)
+
+
+def letters(axes: Iterable[Axes]) -> None:
+    """Letters above the panels, from a on."""
+    for panel, name in zip(axes, "abcdefgh", strict=False):
+        letter(panel, name)
 
 
 def table(axes: Axes, heads: list[str], rows: list[list[str]]) -> None:

@@ -89,5 +89,4 @@ def draw(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
         seconds.plot(ends, factor * ends, color="#999999", lw=0.8, ls="--")
     seconds.set(xscale="log", yscale="log", xlabel="CPU seconds spent", ylabel="CPU seconds predicted")
     style.ticks(cost.yaxis, *cost.get_ylim())
-    for panel, letter in zip(panels, "abc", strict=True):
-        style.letter(panel, letter)
+    style.letters(panels)

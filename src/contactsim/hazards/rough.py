@@ -89,7 +89,7 @@ def soft_wall(severity: float) -> PathCase:
     return _case(_pressed(NormalCohesiveZone(WORK * 1e-6 ** (severity / 100)), _steps(-5.0, -1.5)), -4.75, 2)
 
 
-def steep_slopes(severity: float) -> PathCase:
+def steep_ridges(severity: float) -> PathCase:
     """A rough line gets higher, its rms gradient from 0.2 to 10, far beyond small slopes: still an equilibrium."""
     surface = Ridges(HEIGHT * 50 ** (severity / 100))
     return _case(_pressed(NormalCohesiveZone(WORK), [-3.0, 0.0], surface=surface), -3.0, 0)
@@ -120,5 +120,5 @@ def frictionless_flow(severity: float) -> PathCase:
     return _case(_pressed(CohesiveZone(WORK), [-4.0, depth], 0.1), -4.0, 0)
 
 
-ROUGH = (soft_wall, steep_slopes, jagged_line, rough_process_zone, one_large_step, frictionless_flow)
+ROUGH = (soft_wall, steep_ridges, jagged_line, rough_process_zone, one_large_step, frictionless_flow)
 """In the order of the map."""

@@ -1,0 +1,29 @@
+"""Put gallery, verdicts and pictures of the standard tier into docs/ and README.md; `make gallery` before."""
+
+import re
+import shutil
+from pathlib import Path
+
+from contactsim import gallery
+
+DOCS = Path(__file__).parent
+RESULTS = DOCS.parent / "results/standard"
+PICTURES = ("overview", "trials", "effect_maps", "fig_3_2", "maps")
+
+
+def between(text: str, name: str, new: str) -> str:
+    """A text with what stands between two marks replaced."""
+    marks = rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->)"
+    return re.sub(marks, lambda found: found[1] + new + found[2], text, flags=re.DOTALL)
+
+
+shutil.rmtree(DOCS / "gallery", ignore_errors=True)
+shutil.copytree(RESULTS / "gallery", DOCS / "gallery")
+for name in PICTURES:
+    gallery.small(RESULTS / f"figures/{name}.png", DOCS / f"{name}.png", width=1600)
+shutil.copyfile(RESULTS / "figures/trials.csv", DOCS / "trials.csv")
+readme = DOCS.parent / "README.md"
+text = readme.read_text(encoding="utf-8")
+text = between(text, "gallery", (DOCS / "gallery/gallery.md").read_text(encoding="utf-8"))
+text = between(text, "verdicts", (DOCS / "gallery/counts.md").read_text(encoding="utf-8"))
+readme.write_text(text, encoding="utf-8")
