@@ -67,6 +67,15 @@ def test_every_row_says_what_claims_datasets_and_costs_say(shown, made, plan):
 
 
 @pytest.mark.slow
+def test_every_variable_of_every_dataset_is_known(made, plan):
+    files = sorted((made / plan.results / "datasets").glob("*.nc"))
+    assert len(files) >= len(plan.studies)
+    for file in files:
+        for name, item in dataset.read(file).variables.items():
+            assert not item.attrs["long_name"].startswith("option "), (file.name, name)
+
+
+@pytest.mark.slow
 def test_pictures_are_small_and_verdicts_whole(shown, made, plan):
     every = pd.read_csv(shown / "verdicts.csv")
     counts = sum(len(pd.read_csv(made / plan.results / f"claims/{chapter}.csv")) for chapter in plan.claims)
