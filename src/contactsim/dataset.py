@@ -49,7 +49,6 @@ SETTINGS = {
     "work_ratio": ("1", "tangential over normal work of separation"),
     "normal_length": ("nm", "normal characteristic length"),
     "tangential_length": ("nm", "tangential characteristic length"),
-    "damping": ("1", "damping over that of critically damped waves"),
     "lattice_constant": ("nm", "lattice constant of the sites that springs join"),
     "window": ("1", "window of the springs, over the tangential characteristic length"),
     "depth": ("1", "largest gap that springs bridge, over the normal characteristic length"),
