@@ -31,6 +31,7 @@ import yaml
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[1]
+REPORT = "report: "  # it shows all, so it follows every edit, as one test says
 PATIENCE = 60  # seconds until a test gives up; what it waits for takes a second or two
 
 CYLINDER = {
@@ -284,12 +285,13 @@ class Pause:
 
 
 def jobs_in(text: str) -> list[str]:
-    """The jobs that snakemake names, sorted: their messages, of a figure its name alone."""
+    """The jobs that snakemake names, sorted: their messages, of a figure its name alone; without the report of all."""
     messages = re.findall(r"^Job \d+: (.*)$", text, re.MULTILINE)
     counts = dict(re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE))
     assert counts or "Nothing to be done" in text
     silent = {"total", "all", "rough", "baseline", "smooth"}  # rules that only gather files
     assert len(messages) == sum(int(count) for name, count in counts.items() if name not in silent)
+    messages = [message for message in messages if not message.startswith(REPORT)]
     return sorted(re.sub(r"^(fig_\w+): .*", r"\1", message) for message in messages)
 
 
@@ -370,6 +372,13 @@ def project(made: Project, tmp_path: Path) -> Project:
 def fresh(unmade: Project, tmp_path: Path) -> Project:
     """A project in which nothing is made."""
     return unmade.copied(tmp_path / "project")
+
+
+def test_the_report_is_made_with_all_else_and_follows_every_edit(project: Project) -> None:
+    assert REPORT not in project.snakemake("-n", "all").stdout
+    project.change("ch9", "figures.fig_9_1.title", "Another title")
+    assert f"{REPORT}results/standard/report.html" in project.snakemake("-n", "all").stdout
+    assert REPORT not in project.snakemake("-n", "fig_9_1").stdout
 
 
 def test_a_study_is_one_job_for_each_variant_and_member(fresh: Project) -> None:
