@@ -59,12 +59,21 @@ RESERVED = (
 )
 """Names that the workflow's own rules and the Makefile's targets have."""
 
+
+def yes_or_no(value: object) -> bool:
+    """True or false."""
+    if not isinstance(value, bool):
+        raise ValueError
+    return value
+
+
 TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),
     "stability": Key(mapping, "a mapping of keys to override", {}),
     "effects": Key(mapping, "a mapping of keys to override", {}),
     "trials": Key(mapping, "a mapping of keys to override", {}),
     "effect_maps": Key(mapping, "a mapping of keys to override", {}),
+    "timed_alone": Key(yes_or_no, "true or false", True),
 }
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies", {}),
@@ -118,7 +127,8 @@ class Plan:
     """All that can be made at one tier: studies, figures, claims by chapter, and the map of stability if there is one.
 
     results: the folder for it; seed: root of all random numbers; effects, trials, effect_maps: what the tier changes in
-    the ladder of effects, the scenes drawn at random and the maps of what effects change.
+    the ladder of effects, the scenes drawn at random and the maps of what effects change; timed_alone: whether what is
+    timed has the machine for itself.
     """
 
     tier: str
@@ -127,6 +137,7 @@ class Plan:
     effects: dict
     trials: dict
     effect_maps: dict
+    timed_alone: bool
     studies: dict[str, Study]
     chapters: dict[str, str]
     figures: dict[str, Figure]
@@ -184,6 +195,7 @@ class Plan:
             overrides["effects"],
             overrides["trials"],
             overrides["effect_maps"],
+            overrides["timed_alone"],
         )
         return cls(tier, *paths, studies, chapters, figures, claims, hazards)
 

@@ -30,7 +30,7 @@ rule price:
         costs=RESULTS / "costs/accuracy/{case}/{job}.json",
     log: RESULTS / "logs/accuracy/{case}/{job}.log"
     params: plan=case_params, config=os.path.relpath(CONFIG), tier=PLAN.tier
-    threads: workflow.cores
+    threads: timed_threads()
     group: together("timed")
     message: "accuracy of {wildcards.case}: {wildcards.job}"
     script: "../scripts/price.py"

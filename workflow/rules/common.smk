@@ -59,6 +59,11 @@ def stand_by():
     sys.executable = shlex.join(command)
 
 
+def timed_threads():
+    """Cores that a timed job keeps from others: it computes on one."""
+    return workflow.cores if PLAN.timed_alone else 1
+
+
 def together(name):
     """A group of jobs that share a job of a cluster; none in local and dry runs."""
     def group(wildcards):

@@ -7,7 +7,7 @@ if LADDER:
             costs=RESULTS / "costs/effects.json",
         log: RESULTS / "logs/datasets/effects.log"
         params: plan=canonical(ladder.plan(LADDER))
-        threads: workflow.cores
+        threads: timed_threads()
         group: together("timed")
         message: "effects: every rung measured"
         script: "../scripts/effects.py"

@@ -16,7 +16,7 @@ if DRAWS:
         wildcard_constraints: kind="|".join(DRAWS["kinds"]), number=r"\d+"
         log: RESULTS / "logs/trials/{kind}_{number}.log"
         params: plan=trial_params
-        threads: workflow.cores
+        threads: timed_threads()
         group: together("timed")
         message: "trial: {wildcards.kind} {wildcards.number}, solved to an accuracy, and judged"
         script: "../scripts/trial.py"
@@ -43,7 +43,7 @@ if DRAWS:
         wildcard_constraints: kind="|".join(DRAWS["kinds"])
         log: RESULTS / "logs/relations/{kind}.log"
         params: plan=relation_params
-        threads: workflow.cores
+        threads: timed_threads()
         group: together("timed")
         message: "relations of {wildcards.kind}: scenes on a ladder of every knob"
         script: "../scripts/measure_relations.py"
