@@ -145,7 +145,7 @@ def test_one_changed_value_turns_the_verdict_and_the_exit_code(tiers, capsys):
     assert said.count("beyond") == 1
     line, *_ = (line for line in said.splitlines() if line.startswith("  kappa_mean "))
     assert line.split()[1:6] == ["12", "20", "%", "0", "%"]
-    assert line.endswith("hurst 0.5, reduced_pressure 0.00534")
+    assert line.endswith("hurst 0.5, reduced_pressure 0.00351")
     assert exit_code("--within", "0.21") == 0
     assert "fig_3_2: within 21 %" in capsys.readouterr().out
 

@@ -199,7 +199,7 @@ def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
 def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         (tmp_path / file.name).write_bytes(file.read_bytes())
-    assert Plan.read(tmp_path, "quick").stability["severities"] == [0, 25, 50, 75, 100]
+    assert Plan.read(tmp_path, "quick").stability["severities"] == [0, 50, 100]
     assert Plan.read(tmp_path, "standard").stability["severities"] == list(range(0, 101, 5))
     (tmp_path / "stability.yaml").unlink()
     assert Plan.read(tmp_path, "standard").stability is None
