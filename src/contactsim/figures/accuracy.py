@@ -138,7 +138,7 @@ def _unit(plan: Mapping, knob: str) -> str:
 
 def own_solver(table: pd.DataFrame) -> str:
     """Name of the study's own solver."""
-    return style.SOLVERS[table.solver[table.own].iloc[0]]
+    return style.solver(table.solver[table.own].iloc[0])
 
 
 def draw(table: pd.DataFrame, equal: pd.DataFrame, values: xr.Dataset, axes: np.ndarray, plan: Mapping) -> None:
@@ -205,10 +205,11 @@ def _words(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> None:
     text = f"{orders}\n\nCost at equal error over that of {own_solver(table)},"
     axes.text(0, 1, f"{text}\nin transforms × points (in seconds)", fontsize=7, va="top", linespacing=1.3)
     own = set(table.solver[table.own])
-    others = [kind for kind in style.SOLVERS if kind in set(equal.solver) - own]
+    known = [*style.SOLVERS, *sorted(set(equal.solver) - set(style.SOLVERS))]
+    others = [kind for kind in known if kind in set(equal.solver) - own]
     lines = list(_lines(equal[~equal.solver.isin(own)], others))
     if lines:
-        header = ["", "error", *(style.SOLVERS[kind].replace("–", "–\n").replace(" ", "\n") for kind in others)]
+        header = ["", "error", *(style.solver(kind).replace("–", "–\n").replace(" ", "\n") for kind in others)]
         widths = [0.24, 0.13, *[0.63 / len(others)] * len(others)]
         shown = axes.table(lines, colLabels=header, bbox=(0, 0, 1, 0.74), colWidths=widths, edges="horizontal")
         shown.auto_set_font_size(False)

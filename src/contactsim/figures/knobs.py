@@ -82,7 +82,7 @@ def _curve(axes: Axes, curve: pd.DataFrame, quantity: str, measure: str, kind: s
     good = curve.index.isin(precision.met(curve, quantity).index)
     shown = good & (curve[quantity] > ROUNDING)
     look = {"marker": marker, "color": color, "markersize": 4, "linewidth": 1.0, "markerfacecolor": "white"}
-    axes.plot(curve["at"][shown], curve[measure][shown], label=style.SOLVERS.get(kind, kind), **look)
+    axes.plot(curve["at"][shown], curve[measure][shown], label=style.solver(kind), **look)
     axes.plot(curve["at"][good & ~shown], curve[measure][good & ~shown], **look | {"linewidth": 0.0})
     axes.plot(curve["at"][~good], curve[measure][~good], "x", color=color, markersize=7)
 

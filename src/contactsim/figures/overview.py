@@ -57,7 +57,7 @@ def draw(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
         for knob, line in LINES.items():
             curve = rows[rows.knob == knob].sort_values(quantity)
             look = {"color": color, "ls": line, "lw": 1.8 if rows.own.any() else 1.0, "marker": marker, "ms": 3}
-            label = style.SOLVERS.get(kind, kind) if knob == "points" else None
+            label = style.solver(kind) if knob == "points" else None
             axes.plot(np.maximum(curve[quantity], LEAST), curve.seconds, label=label, **look)
     axes.set(xscale="log", yscale="log", xlabel="relative error", ylabel="CPU seconds")
     axes.legend(fontsize=6, loc="best")

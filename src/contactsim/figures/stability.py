@@ -87,7 +87,7 @@ def _blocks(parts: list[xr.Dataset], axes: Axes, room: float) -> None:
             for (start, stop), reason in refused.items():
                 under = {"facecolor": COLOURS[Outcome.REFUSED], "linewidth": 0, "pad": 0.5}
                 axes.text((start + stop) / 2, top + row + 0.53, reason, bbox=under, **look)
-        ticks += [(top + row + 0.5, style.SOLVERS.get(name, name)) for row, name in enumerate(one.solver.values)]
+        ticks += [(top + row + 0.5, style.solver(name)) for row, name in enumerate(one.solver.values)]
     axes.set(xlim=(0, columns), ylim=(room, 0), xlabel="severity")
     axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=6)
     shown = np.unique(np.linspace(0, columns - 1, min(columns, 11)).round().astype(int))

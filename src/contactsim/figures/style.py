@@ -209,6 +209,11 @@ def _number(value: float, plain: bool) -> str:
     return (rf"${digit}\times" if digit != "1" else "$") + f"10^{{{int(power)}}}$"
 
 
+def solver(kind: str) -> str:
+    """A solver's name as in the literature; one that has none there, as in the config."""
+    return SOLVERS.get(kind, kind.replace("_", " "))
+
+
 def letter(axes: Axes, name: str) -> None:
     """The panel's letter, above its left corner."""
     axes.set_title(f"({name})", loc="left", fontsize=9)
