@@ -17,7 +17,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.figures.claims import rounded, symbol
+from contactsim.figures.claims import compared, rounded
 from contactsim.figures.render import errors_told
 from contactsim.plan import Plan
 from contactsim.provenance import digest, source_digest
@@ -66,6 +66,16 @@ def verdicts(folder: Path, chapters: Sequence[str]) -> pd.DataFrame:
     return every[["chapter", *every.columns.drop("chapter")]]
 
 
+def of_figure(every: pd.DataFrame, name: str) -> pd.DataFrame:
+    """The statements whose source names a figure or table."""
+    return every[every["source"].map(lambda source: name in named_in(source)).astype(bool)]
+
+
+def counted(own: pd.DataFrame) -> dict[str, int]:
+    """How many of these statements came to which verdict."""
+    return {verdict: int((own.verdict == verdict).sum()) for verdict in VERDICTS}
+
+
 def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
     """One row a figure: its place, how many statements came to which verdict, its data's errors, CPU seconds, digest.
 
@@ -73,15 +83,13 @@ def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, st
     others: by name the titles of figures that belong to no chapter, of which nothing more is told.
     """
     rows = []
-    sources = every["source"].map(named_in)
     for chapter, own in entries(plan).items():
         for entry in own:
-            counts = every.verdict[sources.map(lambda names, name=entry.name: name in names)].value_counts()
             paths = [plan.dataset_name(study) for study in entry.studies]
             told = errors_told(dataset.read(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
             seconds = sum(pd.read_csv(folder / "costs" / f"{path}.csv").seconds.sum() for path in paths)
             place = {"chapter": chapter, "figure": entry.name, "title": entry.title}
-            found = {verdict: int(counts.get(verdict, 0)) for verdict in VERDICTS}
+            found = counted(of_figure(every, entry.name))
             rows.append(place | found | {"errors": "; ".join(told), "seconds": round(seconds, 1), "data": entry.data})
     rows += [{"chapter": "", "figure": name, "title": title} for name, title in others.items()]
     return pd.DataFrame(rows)
@@ -101,7 +109,7 @@ def counts(every: pd.DataFrame) -> str:
     """How many statements of each chapter came to which verdict, as a table in Markdown; every: from `verdicts`."""
     lines = [f"| chapter | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 1) + "|"]
     for chapter, own in [*every.groupby("chapter"), ("all", every)]:
-        cells = [str(int((own.verdict == verdict).sum())) for verdict in VERDICTS]
+        cells = map(str, counted(own).values())
         lines.append(f"| {str(chapter).removeprefix('ch')} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
@@ -127,8 +135,14 @@ def _statement(row: Mapping) -> str:
     if texts["condition"]:
         numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
         found += f"; {texts['condition']}: {' ± '.join(rounded(*numbers))}"
-    compared = " ".join(symbol(word).replace("_", " ") for word in texts["measure"].split())
-    cells = (texts["source"], texts["statement"], compared, texts["expected"], found, texts["because"])
+    cells = (
+        texts["source"],
+        texts["statement"],
+        compared(texts["measure"]),
+        texts["expected"],
+        found,
+        texts["because"],
+    )
     return f"| {' | '.join(cells)} |"
 
 

@@ -23,7 +23,7 @@ from PIL import Image
 
 from contactsim import dataset, gallery
 from contactsim.build import points_of, scene_of
-from contactsim.figures.claims import rounded, symbol
+from contactsim.figures.claims import compared, rounded
 from contactsim.figures.render import footer_text
 from contactsim.figures.sketch import sketch
 from contactsim.gallery import VERDICTS, Entry, duration, named_in
@@ -131,10 +131,8 @@ def _counts(every: pd.DataFrame) -> dict[str, dict[str, int]]:
     """By chapter, and over all, how many statements came to which verdict."""
     if every.empty:
         return {}
-    found = {chapter: own.verdict.value_counts() for chapter, own in every.groupby("chapter")}
-    found = {_chapter(chapter): counts for chapter, counts in found.items()}
-    found["all"] = every.verdict.value_counts()
-    return {name: {verdict: int(own.get(verdict, 0)) for verdict in VERDICTS} for name, own in found.items()}
+    parts = {_chapter(chapter): own for chapter, own in every.groupby("chapter")} | {"all": every}
+    return {name: gallery.counted(own) for name, own in parts.items()}
 
 
 def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
@@ -144,7 +142,7 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
         numbers = ("value", "ensemble_error", "grid_error")
         texts = {key: "" if isinstance(value, float) else value for key, value in row.items()}
         texts |= dict(zip(("found", "ensemble", "grid"), rounded(*(row[name] for name in numbers)), strict=True))
-        texts["measure"] = " ".join(symbol(word).replace("_", " ") for word in str(texts["measure"]).split())
+        texts["measure"] = compared(texts["measure"])
         if texts["condition"]:
             texts["there"] = " ± ".join(rounded(*(row[f"condition_{name}"] for name in numbers)))
         texts["figures"] = sorted(named_in(row["source"]) & set(plan.figures))
@@ -156,13 +154,11 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
 
 def _chapters(plan: Plan, folder: Path, every: pd.DataFrame) -> dict[str, list[Shown]]:
     """By chapter, its figures."""
-    sources = every["source"].map(named_in)
     found = {}
     for chapter, entries in gallery.entries(plan).items():
         shown = []
         for entry in entries:
-            counts = every.verdict[[entry.name in names for names in sources]].value_counts()
-            verdicts = {verdict: int(counts[verdict]) for verdict in VERDICTS if verdict in counts}
+            verdicts = gallery.counted(gallery.of_figure(every, entry.name))
             shown.append(Shown(entry, _picture(folder, entry.name), verdicts))
         found[_chapter(chapter)] = shown
     return found

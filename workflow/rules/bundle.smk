@@ -5,9 +5,7 @@ PROJECT = ["CITATION.cff", "LICENSE", "environment.txt", "examples/reanalyse.py"
 def bundle_titles():
     titled = {name: figure.settings["title"] for name, figure in PLAN.figures.items()}
     titled |= {PLAN.dataset_name(name): study.settings["title"] for name, study in PLAN.studies.items()}
-    titled |= {f"accuracy_{name}": case.settings["title"] for name, case in CASES.items()}
-    others = {"stability": PLAN.stability, "effects": LADDER, "trials": DRAWS, "effect_maps": MAPS, "overview": OVERVIEW}
-    return titled | {name: settings["title"] for name, settings in others.items() if settings}
+    return titled | OTHER_TITLES
 
 
 def bundle_data():

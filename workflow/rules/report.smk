@@ -5,6 +5,7 @@ OTHER_FIGURES = {
     "stability": {"stability": PLAN.stability} if PLAN.stability else {},
     "effects": ({"effects": LADDER} if LADDER else {}) | ({"effect_maps": MAPS} if MAPS else {}),
 }
+OTHER_TITLES = {name: one["title"] for group in OTHER_FIGURES.values() for name, one in group.items()}
 
 
 def report_inputs():
@@ -19,8 +20,7 @@ def report_params(wildcards):
 
 
 def gallery_params(wildcards):
-    shown = {name: one["title"] for group in OTHER_FIGURES.values() for name, one in group.items()}
-    return canonical(gallery.settings(PLAN, shown))
+    return canonical(gallery.settings(PLAN, OTHER_TITLES))
 
 
 rule report:

@@ -162,7 +162,7 @@ def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
 def _cells(row: dict) -> dict[str, str]:
     """The text of each cell; under a condition, what was found there follows the verdict."""
     texts = {name: row[name] for name in ("source", "statement", "expected", "because", "verdict")}
-    texts["measure"] = " ".join(symbol(word).replace("_", " ") for word in row["measure"].split())
+    texts["measure"] = compared(row["measure"])
     numbers = ("value", "ensemble_error", "grid_error")
     texts |= dict(zip(numbers, rounded(*(row[name] for name in numbers)), strict=True))
     if row["condition"]:
@@ -170,6 +170,11 @@ def _cells(row: dict) -> dict[str, str]:
         texts["verdict"] += f": {row['condition']}; there " + "\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}".join(found)
     cells = {name: text.replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*") for name, text in texts.items()}
     return {name: textwrap.fill(cells[name], int(width * CHARACTERS)) for name, (_, width) in COLUMNS.items()}
+
+
+def compared(measure: str) -> str:
+    """What a statement is compared by, with symbols for the names of quantities."""
+    return " ".join(symbol(word).replace("_", " ") for word in measure.split())
 
 
 def symbol(name: str) -> str:
