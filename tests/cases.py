@@ -22,10 +22,10 @@ FAST = ("active_set", "polonsky_keer")
 
 
 @contextmanager
-def refused(key: str, allowed: str) -> Iterator[None]:
+def refused(key: str, allowed: str) -> Iterator[pytest.ExceptionInfo[SceneError]]:
     """Expect a SceneError whose key ends so, and whose allowed values say so."""
     with pytest.raises(SceneError) as caught:
-        yield
+        yield caught
     assert caught.value.key.endswith(key)
     assert allowed in caught.value.allowed
 

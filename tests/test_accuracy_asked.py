@@ -22,7 +22,7 @@ from contactsim.outlook import told
 from contactsim.relations import KINDS, LINE, MEASURES, PATH, ROUGH_PATH, SLIDE, SURFACE, Relation, features, kind_of
 from contactsim.study import Study
 
-DRAWS = read_draws(ROOT / "config", {})
+DRAWS = read_draws(ROOT / "config", {}, "standard")
 LINE_SCENE = {
     "surface": {
         "kind": "self_affine",

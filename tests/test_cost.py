@@ -8,7 +8,7 @@ import xarray as xr
 import yaml
 
 from conftest import ROOT
-from contactsim import cost, precision
+from contactsim import accuracy_case, cost, precision
 from contactsim import solvers as solver_registry
 from contactsim.build import scene_of
 from contactsim.errors import SceneError
@@ -102,7 +102,7 @@ def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_pat
         (1024, 1e-4),
     ]
     assert [(at.points, at.tolerance) for at in turned if at.knob == "tolerance"] == [(512, 10.0), (512, 1e-2)]
-    assert not set(one.turned(cost.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
+    assert not set(one.turned(accuracy_case.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
 
 
 def test_errors_are_those_by_hand_and_fall_with_the_grid(measured, made):
@@ -136,7 +136,7 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
     settings = {"settled": {"points": 32, "tolerance": 1e-4}, "reference": {"points": 64, "tolerance": 1e-6}}
     one = case(tmp_path, **changes, **settings)
     jobs = {job: one.measure(job)[0] for job in one.jobs()}
-    assert one.job_settings(cost.REFERENCE)["runs"][0]["solver"]["kind"] == "conjugate_gradients"
+    assert one.job_settings(accuracy_case.REFERENCE)["runs"][0]["solver"]["kind"] == "conjugate_gradients"
     assert jobs["polonsky_keer"].points_y.values.tolist() == [16, 32]
     data = jobs["polonsky_keer"].isel(setting=0)
     alone = xr.Dataset({"status": (("member", "contact_ratio"), data.status.values)}).assign_coords(
@@ -151,7 +151,7 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
 def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
     settings = {"study": "rough_line", "load": [1e-3], "quantities": ["kappa_r"], "vary": {"surface.hurst": [0.8]}}
     one = case(tmp_path, **settings)
-    (run,) = one._study(one.turned("active_set")[0], "active_set").runs()
+    (run,) = one.study_at(one.turned("active_set")[0], "active_set").runs()
     whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst": 0.8})
     assert run.coordinates == {"hurst": 0.8}
     assert run.settings["surface"] == whole.settings["surface"]
@@ -169,7 +169,7 @@ def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_
         ("increment", 64, 1e-4, 1.0),
         ("increment", 64, 1e-4, 0.2),
     ]
-    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(cost.REFERENCE)]
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(accuracy_case.REFERENCE)]
     assert numbers == [
         ("points", 256, 1e-7, 0.5),
         ("tolerance", 64, 1e-7, 0.5),
@@ -192,7 +192,7 @@ def test_a_path_is_measured_whole(followed):
     assert dict(data.sizes) == {"setting": 5, "member": 1}
     assert len(seconds) == 5
     last = one.turned("newton")[-1]
-    (run,) = one._study(last, "newton").runs()
+    (run,) = one.study_at(last, "newton").runs()
     alone = simulate(scene_of(run.settings), points=64, tolerance=1e-4, method="newton")
     assert alone.step.size == 45  # 4 nm there and 5 nm back, in increments of 0.2
     assert data.increment.values[-1] == 0.2
@@ -220,11 +220,11 @@ def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_t
 @pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])
 def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, monkeypatch, place, share):
     one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
-    data = cost.simulated(one._study(one.turned("newton")[0], "newton").runs()[0].settings)
+    data = accuracy_case.simulated(one.study_at(one.turned("newton")[0], "newton").runs()[0].settings)
     if place is not None:
         data["status"][place] = Status.BUDGET.value[0]
         data["status"][place:][1:] = Status.BROKEN_OFF.value[0]
-    monkeypatch.setattr(cost, "simulated", lambda settings: data)
+    monkeypatch.setattr(accuracy_case, "simulated", lambda settings: data)
     found, _ = one.measure("newton")
     assert float(precision._unconverged(found)) == share
     assert found.status.item() == (0 if place is None else Status.BUDGET.value[0])
@@ -241,14 +241,15 @@ def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
 @pytest.mark.parametrize(("spent", "best"), [([3.0, 1.0, 2.0], 1.0), ([1.0, 2.0, 3.0], 1.0), ([9.0, 1.0, 1.0], 9.0)])
 def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path, monkeypatch, spent, best):
     one = case(tmp_path, repeats=3, solvers={"active_set": {"points": [256]}})
-    solved, left = cost.simulated(one._study(one.turned("active_set")[0], "active_set").runs()[0].settings), [*spent]
+    settings = one.study_at(one.turned("active_set")[0], "active_set").runs()[0].settings
+    solved, left = accuracy_case.simulated(settings), [*spent]
 
     def timed(settings):
         return solved.assign(seconds=solved.seconds * 0 + left.pop(0) / solved.seconds.size)
 
-    monkeypatch.setattr(cost, "simulated", timed)
+    monkeypatch.setattr(accuracy_case, "simulated", timed)
     assert one.measure("active_set")[1] == pytest.approx([best])
-    assert len(left) == (2 if best > cost.LONG else 0)
+    assert len(left) == (2 if best > accuracy_case.LONG else 0)
 
 
 def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):

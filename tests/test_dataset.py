@@ -56,7 +56,7 @@ WRITERS = (
     "ladder.py",
     "tabulate.py",
     "confirm.py",
-    "effect_maps.py",
+    "effect_survey.py",
     "negligible.py",
     "trials.py",
 )

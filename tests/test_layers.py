@@ -18,10 +18,10 @@ solvers.energy_minimisation solvers.predictor walk adaptive nested follow leavin
 observables adhesion sliding analytic provenance validity dataset extrapolation ensemble
 hysteresis area_load onset config schema build relations choice forecast study
 tabulate branch loads march fits aggregate confirm effect_maps
-negligible costs joblog outlook takes findings claims api
+negligible costs joblog outlook takes effect_survey findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
-verdicts wall_verdicts path_verdicts stability plan ladder compare crate bundle explain priced cost precision draws
-calibration trials budget
+verdicts wall_verdicts path_verdicts stability figure_config plan ladder compare crate bundle explain
+priced accuracy_case cost precision draws calibration trials budget
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
 figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render
 figures.claims figures.knobs

@@ -12,7 +12,8 @@ from cases import refused
 from conftest import ROOT
 from contactsim import dataset, effect_maps, negligible
 from contactsim.build import scene_of
-from contactsim.effect_maps import as_text, change, expected, measure, read_maps, reduced
+from contactsim.effect_maps import change, expected, reduced
+from contactsim.effect_survey import as_text, measure, read_maps
 from contactsim.leaving_out import LEFT_OUT, left_out
 from contactsim.negligible import decide, effects_of, foreseen, run
 from contactsim.plan import Plan
@@ -63,7 +64,7 @@ def test_between_places_of_a_map_the_largest_change_around_counts_and_beyond_it_
 
 
 def test_a_map_is_the_change_that_two_solutions_show():
-    settings = read_maps(ROOT / "config", {})["maps"]["coupling"]
+    settings = read_maps(ROOT / "config", {}, "standard")["maps"]["coupling"]
     settings["axes"] = {
         "poisson_ratio": settings["axes"]["poisson_ratio"] | {"values": [0.1, 0.49]},
         "work_ratio": settings["axes"]["work_ratio"] | {"values": [0.0]},
@@ -77,7 +78,7 @@ def test_a_map_is_the_change_that_two_solutions_show():
 
 
 def test_the_frozen_maps_are_those_of_the_config():
-    settings = read_maps(ROOT / "config", {})
+    settings = read_maps(ROOT / "config", {}, "standard")
     assert set(effect_maps.maps()) == set(settings["maps"])
     for name, one in effect_maps.maps().items():
         assert one["axes"] == settings["maps"][name]["axes"], name
@@ -90,6 +91,20 @@ def test_the_frozen_maps_are_those_of_the_config():
     [
         ({"maps": {"coupling": {"leave_out": ["gravity"]}}}, "leave_out", "coupling"),
         ({"maps": {"coupling": {"axes": {"spacing": {"values": "all"}}}}}, "values", "a list"),
+        ({"maps": {"coupling": None, "new": []}}, "maps.new", "a mapping"),
+        ({"maps": {"coupling": {"of": ["colour"]}}}, "coupling.of", "pull_off_load_loading"),
+        ({"maps": {"height": {"scene": {"members": 2}}}}, "height.scene", "one: nothing varied"),
+        ({"maps": {"height": {"axes": {"thickness": {"key": "table.thickness"}}}}}, "thickness.key", "scene"),
+        ({"maps": {"height": {"axes": {"thickness": {"key": "accuracy.thickness"}}}}}, "thickness.key", "scene"),
+        ({"maps": {"height": {"axes": {"thickness": {"per": ["surface.kind"]}}}}}, "thickness.per", "numbers"),
+        ({"maps": {"height": {"axes": {"thickness": {"per": ["body.width"]}}}}}, "thickness.per", "numbers"),
+        ({"maps": {"height": {"axes": {"thickness": {"key": "body.width"}}}}}, "body.width", "known keys"),
+        ({"maps": {"height": {"axes": {"thickness": None, "poisson_ratio": None}}}}, "height.axes", "at least one"),
+        (
+            {"panels": [{"map": "height", "across": "thickness", "up": "poisson_ratio", "conditions": {"here": 1}}]},
+            "conditions.here",
+            "two parts",
+        ),
         ({"panels": [{"map": "none", "across": "a", "up": "b"}]}, "panels.0.map", "coupling"),
         ({"panels": [{"map": "height", "across": "thickness", "up": "thickness"}]}, "panels.0", "poisson_ratio"),
         (
@@ -101,7 +116,7 @@ def test_the_frozen_maps_are_those_of_the_config():
 )
 def test_what_a_map_cannot_be_is_refused(over, key, allowed):
     with refused(key, allowed):
-        read_maps(ROOT / "config", over)
+        read_maps(ROOT / "config", over, "quick")
 
 
 def test_only_effects_that_a_run_has_can_be_left_out_of_it():

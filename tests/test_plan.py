@@ -41,12 +41,13 @@ ROUGH = SMOOTH | {
     "solver": {"kind": "polonsky_keer"},
 }
 FIGURE = {"study": "smooth", "title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
+TWICE = FIGURE | {"beside": ["smooth"]}
 FILES = {
     "config.yaml": {"seed": 1, "tier": "plain", "results": "made"},
     "tiers.yaml": {"plain": {}, "small": {"studies": {"smooth": {"points": 32}}}},
     "ch3.yaml": {
         "studies": {"smooth": SMOOTH, "rough": ROUGH},
-        "figures": {"fig_3_1": FIGURE, "fig_3_3": FIGURE | {"study": "rough", "select": {"hurst": [0.1, 0.5]}}},
+        "figures": {"fig_3_1": TWICE, "fig_3_3": FIGURE | {"study": "rough", "select": {"hurst": [0.1, 0.5]}}},
     },
 }
 
@@ -182,7 +183,7 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
     unsaid = {"panels": 1, "select": {}, "reference": {}, "beside": [], "law": None, "film": None}
-    assert plan.figures["fig_3_1"].settings == FIGURE | unsaid
+    assert plan.figures["fig_3_1"].settings == unsaid | TWICE
     assert plan.dataset_name("smooth") == "ch3_smooth"
 
 
@@ -315,6 +316,20 @@ BAD = {
         "figures.fig_3_1.colour",
         "red",
         "select",
+    ),
+    "figure of too few datasets": (
+        {"ch3.yaml": {"figures/fig_3_1": FIGURE}},
+        "ch3.yaml",
+        "figures.fig_3_1.study and beside",
+        ["smooth"],
+        "which are line, surface",
+    ),
+    "figure of too many datasets": (
+        {"ch3.yaml": {"figures/fig_3_3/beside": ["smooth"]}},
+        "ch3.yaml",
+        "figures.fig_3_3.study and beside",
+        ["rough", "smooth"],
+        "which are data",
     ),
     "figure that is no mapping": ({"ch3.yaml": {"figures/fig_3_1": 3}}, "ch3.yaml", "figures.fig_3_1", 3, "a mapping"),
     "compare no list": (

@@ -15,12 +15,13 @@ import yaml
 
 import contactsim
 from conftest import ROOT
-from contactsim import draws, effect_maps
+from contactsim import draws, effect_survey
 from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.config import REQUIRED, keys_of
 from contactsim.cost import CASE_KEYS
+from contactsim.figure_config import FIGURE_KEYS
 from contactsim.laws import EFFECTS
-from contactsim.plan import CONFIG_KEYS, FIGURE_KEYS, TIER_KEYS, Plan
+from contactsim.plan import CONFIG_KEYS, TIER_KEYS, Plan
 from contactsim.priced import SETTING_KEYS
 from contactsim.schema import (
     ACCURACY_KEYS,
@@ -199,7 +200,7 @@ def test_every_link_leads_somewhere():
             dict.fromkeys(LOADS),
         ),
         *(ACCURACY_KEYS, AUTO_KEYS, draws.KEYS, draws.DRAW_KEYS, *draws.RANGES.values()),
-        *(effect_maps.KEYS, effect_maps.MAP_KEYS, effect_maps.AXIS_KEYS, effect_maps.PANEL_KEYS),
+        *(effect_survey.KEYS, effect_survey.MAP_KEYS, effect_survey.AXIS_KEYS, effect_survey.PANEL_KEYS),
         *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     ],
 )
@@ -255,7 +256,7 @@ def test_the_settings_reference_explains_no_key_that_is_gone():
         *ACCURACY_KEYS,
         *AUTO_KEYS,
         *draws.KEYS,
-        *effect_maps.KEYS,
+        *effect_survey.KEYS,
     }
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in KINDS.values():

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import shutil
 
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 
 from cases import refused
 from conftest import ROOT
-from contactsim import calibration, cost, dataset, draws, effect_maps, trials
+from contactsim import calibration, cost, dataset, draws, effect_survey, ladder, trials
 from contactsim.draws import read_draws
 from contactsim.figures import effect_maps as map_figure
 from contactsim.figures import overview
@@ -19,7 +21,7 @@ from contactsim.plan import Plan
 from contactsim.relations import LINE, PATH, as_relations
 
 QUICK = {"trial": {"scenes": 2}, "errors": [0.05], "kinds": {"surface": None, "slide": None, "rough_path": None}}
-SETTINGS = read_draws(ROOT / "config", QUICK)
+SETTINGS = read_draws(ROOT / "config", QUICK, "quick")
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +46,7 @@ def test_a_trial_is_the_same_each_time_but_for_its_seconds(tried):
 
 
 def test_errors_are_asked_for_by_turns():
-    settings = read_draws(ROOT / "config", {})
+    settings = read_draws(ROOT / "config", {}, "standard")
     for kind in settings["kinds"]:
         asked = [trials.error_asked(settings, kind, count) for count in range(3)]
         assert sorted(asked) == settings["errors"]
@@ -54,7 +56,7 @@ def test_errors_are_asked_for_by_turns():
 
 
 def test_calibration_and_trial_have_different_scenes_of_the_same_ranges():
-    settings = read_draws(ROOT / "config", {})
+    settings = read_draws(ROOT / "config", {}, "standard")
     assert settings["calibration"]["seed"] != settings["trial"]["seed"]
 
 
@@ -108,27 +110,49 @@ def test_a_straight_line_through_logarithms_is_found_again():
 )
 def test_wrong_settings_of_trials_are_refused(over, key, allowed):
     with refused(key, allowed):
-        read_draws(ROOT / "config", over)
+        read_draws(ROOT / "config", over, "quick")
 
 
 def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overview(tmp_path):
-    assert draws.read_draws(tmp_path, {}) is None
-    assert effect_maps.read_maps(tmp_path, {}) is None
+    assert draws.read_draws(tmp_path, {}, "quick") is None
+    assert effect_survey.read_maps(tmp_path, {}, "quick") is None
+    assert ladder.read_ladder(tmp_path, 0, {}, "quick") is None
     assert cost.read_overview(tmp_path) is None
 
 
+@pytest.mark.parametrize("part", ["stability", "effects", "trials", "effect_maps"])
+def test_a_tier_cannot_change_what_has_no_file_and_is_named_where_it_is_wrong(tmp_path, part):
+    folder = shutil.copytree(ROOT / "config", tmp_path / "config")
+    tiers = yaml.safe_load((folder / "tiers.yaml").read_text())
+    tiers["quick"][part] = {"title": []}
+    (folder / "tiers.yaml").write_text(yaml.safe_dump(tiers))
+    with refused("title", "a line of text") as caught:
+        _all_read(folder)
+    assert f"{part}.yaml with tier quick of" in str(caught.value.file)
+    (folder / f"{part}.yaml").unlink()
+    with refused(f"quick.{part}", "left out, as there is no"):
+        _all_read(folder)
+
+
+def _all_read(folder):
+    plan = Plan.read(folder, "quick")
+    ladder.read_ladder(folder, plan.seed, plan.effects, plan.tier)
+    draws.read_draws(folder, plan.trials, plan.tier)
+    effect_survey.read_maps(folder, plan.effect_maps, plan.tier)
+
+
 def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_path):
-    settings = effect_maps.read_maps(ROOT / "config", {})
+    settings = effect_survey.read_maps(ROOT / "config", {}, "standard")
     files = []
     for name, one in sorted(settings["maps"].items()):
         shape = [len(axis["values"]) for axis in one["axes"].values()]
         data = dataset.described(
-            effect_maps.as_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape))
+            effect_survey.as_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape))
         )
         files.append(str(tmp_path / f"{name}.nc"))
         dataset.write(dataset.stamped(data, name, {}, "source"), files[-1])
     targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
-    map_figure.render(effect_maps.figure(settings, "quick"), files, targets)
+    map_figure.render(effect_survey.figure(settings, "quick"), files, targets)
     assert set(pd.read_csv(targets["csv"])["map"]) == set(settings["maps"])
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from contactsim import trials
 from contactsim.cost import read_cases
 from contactsim.draws import read_draws
-from contactsim.effect_maps import read_maps
+from contactsim.effect_survey import read_maps
 from contactsim.ladder import read_ladder
 from contactsim.outlook import START, megabytes_of, seconds_of
 from contactsim.plan import Plan
@@ -62,9 +62,9 @@ def others(folder: str | Path, plan: Plan) -> dict[str, int]:
     """From what is solved besides to the number of its jobs, of which nothing is predicted."""
     found = {"decisions": len({plan.decision(run) for run in _runs(plan, plan.studies)} - {None})}
     found |= {f"accuracy_{name}": len(case.jobs()) for name, case in read_cases(folder, plan).items()}
-    maps, drawn = read_maps(folder, plan.effect_maps), read_draws(folder, plan.trials)
+    drawn, maps = read_draws(folder, plan.trials, plan.tier), read_maps(folder, plan.effect_maps, plan.tier)
     found |= {"stability": len(plan.stability["hazards"]) if plan.stability else 0}
-    found |= {"effects": int(read_ladder(folder, plan.seed, plan.effects) is not None)}
+    found |= {"effects": int(read_ladder(folder, plan.seed, plan.effects, plan.tier) is not None)}
     found |= {"trials": len(trials.names(drawn)) if drawn else 0, "effect_maps": len(maps["maps"]) if maps else 0}
     return {name: jobs for name, jobs in found.items() if jobs}
 

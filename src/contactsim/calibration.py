@@ -20,7 +20,7 @@ from contactsim.choice import by_increment, chosen, coarser, on_grid, on_points,
 from contactsim.confirm import Outcome, difference, outcome
 from contactsim.draws import draw
 from contactsim.forecast import transform_seconds, walk_features
-from contactsim.provenance import source_digest
+from contactsim.provenance import computing_digest
 from contactsim.relations import (
     COUNTED,
     LINE,
@@ -271,7 +271,7 @@ def _short(value: float) -> float:
 def plan(settings: dict, kind: str) -> dict:
     """What the measurements of one kind depend on."""
     drawn = {"ranges": settings["kinds"][kind], **settings["calibration"]}
-    source = source_digest("contactsim.calibration", *(module_of(usual) for usual in USUAL.values()))
+    source = computing_digest("contactsim.calibration", *(module_of(usual) for usual in USUAL.values()))
     return {"kind": kind, "drawn": drawn, "source": source}
 
 

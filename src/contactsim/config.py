@@ -63,6 +63,19 @@ def load_yaml(path: str | Path) -> dict:
     return content
 
 
+def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
+    """The mapping in a file beside tiers.yaml, with what a tier changes in it, and what to name where it is wrong.
+
+    None without that file; SceneError where a tier changes what is not there.
+    """
+    tiers = file.with_name("tiers.yaml")
+    if not file.exists():
+        if over:
+            raise SceneError(f"{tier}.{file.stem}", over, f"left out, as there is no {file}", tiers)
+        return None
+    return overlaid(load_yaml(file), over), f"{file} with tier {tier} of {tiers}" if over else str(file)
+
+
 def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:
     """The section with every value checked and every default filled in."""
     if not isinstance(section, dict):

@@ -1,33 +1,24 @@
-"""What accuracy costs: the cases, the settings at which each is solved, and the jobs that solve them.
+"""What accuracy costs: cases and the page of all of them as their files give them, and what their figures depend on.
 
-A case is a scene of a study, of all or some of its varied values. Its knobs, those of `contactsim.priced`, are turned
-one at a time, with each solver that may take it; the study's own is the measure of the others, and solves the
-references. The reference of the points is a finer grid, that of the tolerance the same grid solved far more tightly,
-that of the increment the same path in far smaller ones; none is on a curve. Seconds are kept apart from what is
-reproducible. `contactsim.precision` makes errors and costs of it.
+`contactsim.accuracy_case` solves them; `contactsim.precision` makes errors and costs of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
-import xarray as xr
-
-from contactsim import dataset
-from contactsim.aggregate import combined
+from contactsim.accuracy_case import Case, job_plan
 from contactsim.build import scene_of
 from contactsim.choice import size_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast
-from contactsim.march import labelled, simulate
 from contactsim.plan import Plan
-from contactsim.priced import Setting, SingleLoads, Slide, WholePath, kind_of, read_turned, solutions
+from contactsim.priced import SingleLoads, Slide, WholePath, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
-from contactsim.schema import COMPANIONS
-from contactsim.solvers import SOLVERS, installed, module_of, solver, solver_class
+from contactsim.solvers import SOLVERS, solver_class
 from contactsim.solvers.base import require
 from contactsim.study import Study
 from contactsim.takes import quantities
@@ -52,110 +43,6 @@ CASE_KEYS = {
     "thesis_increment": Key(positive, "the thesis's own increment, a positive number", None),
 }
 OVERVIEW_KEYS = {name: CASE_KEYS[name] for name in ("title", "caption", "size")}
-REFERENCE = "reference"
-LONG = 5.0
-"""Seconds above which a setting is not timed again."""
-
-
-@dataclass(frozen=True)
-class Case:
-    """A scene to price: its name, settings as read, the study that it belongs to, of the values to price alone."""
-
-    name: str
-    settings: dict
-    study: Study
-
-    @property
-    def kind(self) -> SingleLoads | WholePath:
-        """What is priced of the study."""
-        return kind_of(self.study)
-
-    @property
-    def default(self) -> str:
-        """The study's own solver, the measure of others."""
-        return self.study.settings["solver"]["kind"]
-
-    @property
-    def selection(self) -> dict[str, list]:
-        """What is priced of the study's dataset: values by dimension, those left out whole."""
-        return {dataset.dimension(name): values for name, values in self.settings["vary"].items()}
-
-    def jobs(self) -> list[str]:
-        """The jobs of a case: its reference and its solvers, as far as they are installed."""
-        return [REFERENCE, *filter(installed, self.settings["solvers"])]
-
-    def turned(self, job: str) -> list[Setting]:
-        """The settings that a job measures."""
-        settled, reference = self.settings["settled"], self.settings["reference"]
-        if job == REFERENCE:
-            tight = {"points": {"tolerance": reference["tolerance"]}}  # a finer grid has smaller steps
-            return [Setting(knob, **settled | tight.get(knob, {}) | {knob: reference[knob]}) for knob in settled]
-        knobs = self.settings["solvers"][job]
-        return [Setting(knob, **settled | {knob: value}) for knob in settled for value in knobs[knob]]
-
-    def solved_by(self, job: str) -> str:
-        """The solver of a job."""
-        return self.default if job == REFERENCE else job
-
-    def job_settings(self, job: str) -> dict:
-        """Everything that a job's result depends on but the code."""
-        kept = ("load", "members", "quantities", "settled", "reference", "repeats")
-        turned = [{"knob": one.knob} | one.numbers for one in self.turned(job)]
-        own = {name: self.settings[name] for name in kept} | {"turned": turned}
-        runs = [run.settings for run in self._study(self.turned(job)[0], job).runs()]
-        return {"case": self.name, "job": job, "settings": own, "runs": runs}
-
-    def _study(self, setting: Setting, job: str) -> Study:
-        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solved_by(job)}}
-        changed |= self.kind.changed(self.study, self.settings["load"], setting)
-        apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(COMPANIONS)
-        return replace(self.study, settings=self.study.settings | changed | apart)
-
-    def expected(self) -> list[list[float]]:
-        """Of every setting of the study's own solver, work and units of time that it is forecast to take.
-
-        NaN of what was not measured.
-        """
-        found = []
-        for setting in self.turned(self.default):
-            try:
-                settings = [run.settings for run in self._study(setting, self.default).runs()]
-                runs = [forecast(one) for one in settings]
-            except SceneError:
-                found.append([float("nan")] * 2)
-            else:
-                size = size_of(scene_of(settings[0]), setting.points)
-                found.append([sum(one.transforms for one in runs) * size, sum(one.units for one in runs)])
-        return found
-
-    def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:
-        """Quantities and transforms of every setting of a job, and seconds.
-
-        Dims (setting, varied keys, member, load), of paths without the last.
-        """
-        found, seconds = [], []
-        for setting in self.turned(job):
-            runs, times = self._study(setting, job).runs(), []
-            while len(times) < self.settings["repeats"] and not (times and times[-1] > LONG):
-                parts = [(simulated(run.settings), run) for run in runs]
-                times.append(float(sum(data.seconds.sum() for data, _ in parts)))
-            data = combined(
-                [
-                    (labelled(data, run.settings, [""] * data.step.size), run.coordinates | {"member": run.member})
-                    for data, run in parts
-                ]
-            )
-            solved = solutions(data)
-            kept = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
-            found.append(kept.assign(setting.numbers | {"knob": setting.knob}))
-            seconds.append(min(times))
-        return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
-
-
-def simulated(settings: dict) -> xr.Dataset:
-    """The simulation of a run's settings."""
-    method = solver(**settings["solver"])
-    return simulate(scene_of(settings), points=settings["points"], tolerance=settings["tolerance"], method=method)
 
 
 def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
@@ -263,7 +150,7 @@ def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
         "tier": plan.tier,
         "default": case.default,
         "selection": case.selection,
-        "expected": [[f"{value:.6g}" for value in one] for one in case.expected()],
+        "expected": [[f"{value:.6g}" for value in one] for one in expected(case)],
         "loads": case.kind.loads(case.study, case.settings["load"]),
         "units": case.kind.units(case.study),
         "surface": Trait.SURFACE in scene_of(case.study.runs()[0].settings).traits,
@@ -272,7 +159,19 @@ def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
     }
 
 
-def job_plan(case: Case, job: str) -> dict:
-    """What a job depends on: its settings and its code."""
-    source = source_digest("contactsim.cost", module_of(case.solved_by(job)))
-    return {"job": case.job_settings(job), "source": source}
+def expected(case: Case) -> list[list[float]]:
+    """Of every setting of the study's own solver, work and units of time that it is forecast to take.
+
+    NaN of what was not measured.
+    """
+    found = []
+    for setting in case.turned(case.default):
+        try:
+            settings = [run.settings for run in case.study_at(setting, case.default).runs()]
+            runs = [forecast(one) for one in settings]
+        except SceneError:
+            found.append([float("nan")] * 2)
+        else:
+            total = size_of(scene_of(settings[0]), setting.points)
+            found.append([sum(one.transforms for one in runs) * total, sum(one.units for one in runs)])
+    return found

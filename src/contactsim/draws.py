@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from contactsim.config import Key, listed, load_yaml, mapping, overlaid, pair, positive, read, size, text, whole
+from contactsim.config import Key, listed, mapping, pair, positive, read, size, text, tiered, whole
 from contactsim.errors import SceneError
 from contactsim.relations import KINDS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.study import Run, Study
@@ -44,12 +44,13 @@ FINE = 2**14
 """Points of a scene's grid as long as none is chosen: enough for all waves of any."""
 
 
-def read_draws(folder: str | Path, over: dict) -> dict | None:
+def read_draws(folder: str | Path, over: dict, tier: str) -> dict | None:
     """Settings of trials.yaml, with what a tier changes; None without that file."""
-    file = Path(folder) / "trials.yaml"
-    if not file.exists():
+    given = tiered(Path(folder) / "trials.yaml", over, tier)
+    if given is None:
         return None
-    settings = read(overlaid(load_yaml(file), over), KEYS, file)
+    section, file = given
+    settings = read(section, KEYS, file)
     for part in ("calibration", "trial"):
         settings[part] = read(settings[part], DRAW_KEYS, file, part)
     for kind, section in settings["kinds"].items():

@@ -13,10 +13,10 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.build import points_of, scene_of
-from contactsim.config import Key, load_yaml, mapping, overlaid, read, size, text, whole
+from contactsim.config import Key, mapping, overlaid, read, size, text, tiered, whole
 from contactsim.errors import SceneError
 from contactsim.march import chosen, simulate
-from contactsim.provenance import digest, source_digest
+from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.scene import Scene
 from contactsim.solvers import module_of, solver
 from contactsim.solvers.base import solved
@@ -32,12 +32,13 @@ KEYS = {
 }
 
 
-def read_ladder(folder: str | Path, seed: int, over: dict) -> dict | None:
+def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
     """Settings of the ladder: how it is shown; name, title and run of each rung; None without effects.yaml."""
-    file = Path(folder) / "effects.yaml"
-    if not file.exists():
+    given = tiered(Path(folder) / "effects.yaml", over, tier)
+    if given is None:
         return None
-    settings = read(overlaid(load_yaml(file), over), KEYS, file)
+    section, file = given
+    settings = read(section, KEYS, file)
     rungs = []
     for name, rung in settings["rungs"].items():
         if not isinstance(rung, dict):
@@ -54,7 +55,7 @@ def plan(settings: dict) -> dict:
     """What the measurement depends on."""
     modules = sorted({module_of(rung["run"]["solver"]["kind"]) for rung in settings["rungs"]})
     shown = {key: settings[key] for key in ("repeats", "rungs")}
-    return {"settings": shown, "source": source_digest("contactsim.ladder", *modules)}
+    return {"settings": shown, "source": computing_digest("contactsim.ladder", *modules)}
 
 
 def figure(settings: dict, tier: str) -> dict:

@@ -25,7 +25,7 @@ from contactsim.effect_maps import FILE, change, expected, reduced
 from contactsim.errors import SceneError
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.march import Files, keep, names_of
-from contactsim.provenance import digest, source_digest
+from contactsim.provenance import computing_digest, digest
 from contactsim.relations import reach_of, strength_of
 from contactsim.scene import Scene
 from contactsim.schema import is_smooth
@@ -66,7 +66,7 @@ class Decision:
 
 def source() -> str:
     """Digest of what decides: the code, and the maps."""
-    return digest(source_digest("contactsim.negligible"), FILE.read_text(encoding="utf-8"))
+    return digest(computing_digest("contactsim.negligible"), FILE.read_text(encoding="utf-8"))
 
 
 def effects_of(run: dict) -> list[str]:

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 from contactsim import negligible, stability
-from contactsim.build import scene_of
-from contactsim.claims import Claim, selection
-from contactsim.config import Key, listed, load_yaml, mapping, number, overlaid, positive, read, size, text, whole
+from contactsim.claims import Claim
+from contactsim.config import Key, load_yaml, mapping, overlaid, read, text, tiered, whole
 from contactsim.effect_maps import reduced
-from contactsim.ensemble import widened
 from contactsim.errors import SceneError
-from contactsim.provenance import digest, module_path, source_digest
+from contactsim.figure_config import Figure, read_figure
+from contactsim.provenance import digest, source_digest
 from contactsim.study import Run, Study
-from contactsim.tabulate import read_law
-from contactsim.traits import Trait
 
 CONFIG_KEYS = {
     "seed": Key(whole(0), "a whole number, 0 or more"),
@@ -82,46 +78,6 @@ CHAPTER_KEYS = {
 }
 
 
-LEAST_WIDTH = 2.8
-"""Inches that a panel needs for its labels and legend."""
-FIELDS = "fields"
-"""First argument of a figure's function that draws the fields of one load of a surface."""
-
-FIGURE_KEYS = {
-    "study": Key(text, "the name of a study of this chapter, or left out with a `law`", None),
-    "law": Key(mapping, "a mapping with `effect`, its options and the gaps drawn, instead of a study", None),
-    "beside": Key(listed(text), "names of further studies of this chapter", []),
-    "title": Key(text, "a line of text"),
-    "caption": Key(text, "text"),
-    "size": Key(size, "width and height in inches"),
-    "panels": Key(whole(1), "number of axes side by side", 1),
-    "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
-    "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
-    "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
-    "film": Key(positive, "frames a second, for a film through the snapshots of the study beside the figure", None),
-}
-
-
-@dataclass(frozen=True)
-class Figure:
-    """One figure: name, chapter, its settings as read, and apart from them the columns to compare, not drawn."""
-
-    name: str
-    chapter: str
-    settings: dict
-    compare: list[str]
-
-    @property
-    def endings(self) -> tuple[str, ...]:
-        """Endings of its files."""
-        return ("png", "pdf", "csv") if self.settings["film"] is None else ("png", "pdf", "csv", "gif")
-
-    @property
-    def studies(self) -> list[str]:
-        """The studies whose data it shows; none where it shows a law by itself."""
-        return [study for study in (self.settings["study"], *self.settings["beside"]) if study is not None]
-
-
 @dataclass(frozen=True)
 class Plan:
     """All that can be made at one tier: studies, figures, claims by chapter, and the map of stability if there is one.
@@ -179,7 +135,7 @@ class Plan:
             for name, section in sections["figures"].items():
                 if name in figures:
                     raise SceneError(f"figures.{name}", name, "a name that no other chapter has taken", file)
-                figures[name] = _figure(name, section, file, own)
+                figures[name] = read_figure(name, section, file, own)
             if sections["claims"]:
                 claims[file.stem] = {
                     name: Claim.read(name, section, file, own) for name, section in sections["claims"].items()
@@ -188,7 +144,7 @@ class Plan:
             raise SceneError(
                 f"{tier}.studies.{name}", "overrides", f"one of {', '.join(studies)}", folder / "tiers.yaml"
             )
-        hazards = _stability(folder, overrides["stability"], tier)
+        hazards = tiered(folder / "stability.yaml", overrides["stability"], tier)
         paths = (
             Path(main["results"]) / tier,
             main["seed"],
@@ -197,7 +153,7 @@ class Plan:
             overrides["effect_maps"],
             overrides["timed_alone"],
         )
-        return cls(tier, *paths, studies, chapters, figures, claims, hazards)
+        return cls(tier, *paths, studies, chapters, figures, claims, hazards and stability.read_settings(*hazards))
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """The run that a file name stands for."""
@@ -295,17 +251,6 @@ class Plan:
         return {"chapter": chapter, "claims": claims, "source": code, "data": data}
 
 
-def _stability(folder: Path, over: dict, tier: str) -> dict | None:
-    """Settings of the map of stability; None where the folder has none."""
-    file = folder / "stability.yaml"
-    if not file.exists():
-        if over:
-            raise SceneError(f"{tier}.stability", over, f"none, as there is no {file}", folder / "tiers.yaml")
-        return None
-    source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
-    return stability.read_settings(overlaid(load_yaml(file), over), source)
-
-
 RESCALED = ("hurst", "rms_height", "rms_gradient", "shortest_wavelength")
 """What leaves the random waves of a self-affine surface the same, but for their size and how many there are."""
 
@@ -324,58 +269,3 @@ def _check_surfaces(studies: dict[str, Study]) -> None:
         if one != two or one["kind"] != "self_affine":
             allowed = f"a study with the same `surface`, self_affine, but for {', '.join(RESCALED)}"
             raise SceneError(key, name, allowed, study.file)
-
-
-def _figure(name: str, section: object, file: Path, studies: dict) -> Figure:
-    prefix = f"figures.{name}"
-    settings = read(section, FIGURE_KEYS, file, prefix)
-    if settings["size"][0] < LEAST_WIDTH * settings["panels"]:
-        raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
-    if (settings["study"] is None) == (settings["law"] is None):
-        both = {key: settings[key] for key in ("study", "law")}
-        raise SceneError(prefix, both, "exactly one of study and law", file)
-    if settings["law"] is not None:
-        settings["law"] = read_law(settings["law"], file, f"{prefix}.law")
-    for key, named in (("study", [settings["study"]]), ("beside", settings["beside"])):
-        for study in set(named) - {*studies, None}:
-            raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
-    dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
-    settings["select"] = selection(settings["select"], dims, file, f"{prefix}.select")
-    if settings["film"] is not None:
-        shown = studies[settings["study"]].settings if dims else {}
-        if not (shown.get("slide") and shown["snapshots"]) or shown["vary"]:
-            allowed = "left out, but for one slide, nothing of it varied, with snapshots"
-            raise SceneError(f"{prefix}.film", settings["film"], allowed, file)
-    known = _functions(f"contactsim.figures.{file.stem}")
-    if name not in known:
-        raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
-    if known[name].args[0].arg == FIELDS:
-        _check_map(settings, studies[settings["study"]], file, prefix)
-    keywords = [argument.arg for argument in known[name].kwonlyargs]
-    numbers = dict.fromkeys(keywords, Key(number, "a value of the thesis, a number"))
-    read(settings["reference"], numbers, file, f"{prefix}.reference")
-    compare = settings.pop("compare")
-    return Figure(name, file.stem, settings, compare)
-
-
-def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
-    """Refuse a map of what has no fields, of a line, and of more than one load of one member."""
-    first, load = study.runs()[0], study.settings["load"]
-    if FIELDS not in study.settings["keep"] or Trait.SURFACE not in scene_of(first.settings).traits:
-        raise SceneError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
-    places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
-    places = [place | {load["name"]: value} for place in places for value in load["values"]]
-    for dim, (least, largest) in settings["select"].items():
-        low, high = widened(least, largest)
-        places = [place for place in places if low <= place[dim] <= high]
-    if len(places) != 1:
-        allowed = f"what leaves one load of one member to draw; this leaves {len(places)}"
-        raise SceneError(f"{prefix}.select", settings["select"], allowed, file)
-
-
-def _functions(module: str) -> dict[str, ast.arguments]:
-    """The public functions of a module, with their arguments; read, not imported, since matplotlib takes a second."""
-    path = module_path(module)
-    tree = ast.parse(path.read_text(encoding="utf-8")) if path else ast.Module([], [])
-    public = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
-    return {node.name: node.args for node in public}

@@ -14,8 +14,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from contactsim.accuracy_case import REFERENCE
 from contactsim.aggregate import load_name
-from contactsim.cost import REFERENCE
 from contactsim.priced import KNOBS, solutions
 from contactsim.solvers.base import solved
 

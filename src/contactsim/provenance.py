@@ -66,6 +66,11 @@ def source_digest(*names: str) -> str:
     return text.hexdigest()[:16]
 
 
+def computing_digest(*names: str) -> str:
+    """Digest of what computes a result: these modules, all that they import, and the libraries that it depends on."""
+    return digest(source_digest(*names), versions())
+
+
 def canonical(settings: object) -> str:
     """JSON with sorted keys and no spaces: the same text for the same settings, whatever their order."""
     return json.dumps(settings, sort_keys=True, separators=(",", ":"), ensure_ascii=False)

@@ -177,7 +177,7 @@ def acting(settings: dict, file: object, prefix: str) -> dict:
         allowed = "left out, for what is negligible is left out anyway"
         raise SceneError(f"{prefix}.leave_out", settings["leave_out"], allowed, file)
     effects = auto.pop("auto")
-    known = OF_PATHS if is_smooth({"effects": effects}) else OF_WALLS
+    known = comparable(effects)
     for name in auto["of"]:
         if name not in known:
             raise SceneError(f"{prefix}.effects.of", name, f"some of {', '.join(known)}", file)
@@ -187,9 +187,13 @@ def acting(settings: dict, file: object, prefix: str) -> dict:
     return {"effects": effects, "auto": auto}
 
 
-OF_WALLS = ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
-OF_PATHS = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
-"""Quantities whose change can say whether an effect is negligible."""
+def comparable(effects: list[str]) -> tuple[str, ...]:
+    """Quantities whose change can say whether one of a scene's effects is negligible."""
+    if is_smooth({"effects": effects}):
+        return (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
+    return ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
+
+
 FOLLOWS = "left out, for it follows from the accuracy"
 
 

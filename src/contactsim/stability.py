@@ -19,7 +19,7 @@ from contactsim.hazards import HAZARDS, first_line
 from contactsim.hazards.cases import Case
 from contactsim.hazards.paths import SLOWLY, PathCase
 from contactsim.path_verdicts import judge_path
-from contactsim.provenance import digest, source_digest, versions
+from contactsim.provenance import computing_digest
 from contactsim.solvers import SOLVERS, module_of, solver, solver_class
 from contactsim.solvers.base import Solver
 from contactsim.solvers.equilibrium import PathSolver
@@ -84,7 +84,7 @@ def job_settings(settings: Mapping, hazard: str) -> dict:
         "hazard": hazard,
         "severities": settings["severities"],
         "solvers": settings["solvers"],
-        "source": digest(source_digest("contactsim.stability", *modules), versions()),
+        "source": computing_digest("contactsim.stability", *modules),
     }
 
 

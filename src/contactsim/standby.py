@@ -115,7 +115,7 @@ def _work(link: socket.socket) -> None:
     try:
         link.sendall(READY)
         length, files, _, _ = socket.recv_fds(link, WORD, 3)
-        told = b""
+        told = b"" if len(length) == WORD else _leave()
         while len(told) < int.from_bytes(length, "big"):
             told += link.recv(2**20) or _leave()
         for number, file in enumerate(files):

@@ -21,7 +21,7 @@ from contactsim.errors import SceneError
 from contactsim.interface import check_tolerance
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import LEFT_OUT
-from contactsim.provenance import digest, source_digest, versions
+from contactsim.provenance import computing_digest, digest
 from contactsim.relations import FILE
 from contactsim.schema import (
     BODIES,
@@ -69,9 +69,9 @@ class Run:
         """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
         follows = ["march"] + [module for key, module in FOLLOWED.items() if key in self.settings]
         follows = [f"contactsim.{module}" for module in follows]
-        code = source_digest(*follows, module_of(self.settings["solver"]["kind"]))
+        code = computing_digest(*follows, module_of(self.settings["solver"]["kind"]))
         measured = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
-        return digest(code, versions(), *measured)
+        return digest(code, *measured)
 
     @cached_property
     def digest(self) -> str:

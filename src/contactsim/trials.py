@@ -20,7 +20,7 @@ from contactsim.confirm import Outcome, Reached, difference, outcome, reach
 from contactsim.draws import draw
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast_to
-from contactsim.provenance import digest, source_digest
+from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.relations import FILE, KINDS, LINE, MEASURES, SURFACE
 from contactsim.schema import is_smooth
 from contactsim.solvers import USUAL, module_of
@@ -45,7 +45,7 @@ def names(settings: dict) -> list[str]:
 def plan(settings: dict, kind: str, count: int) -> dict:
     """What one trial depends on."""
     solvers = [module_of(usual) for usual in USUAL.values()]
-    source = digest(source_digest("contactsim.trials", *solvers), FILE.read_text(encoding="utf-8"))
+    source = digest(computing_digest("contactsim.trials", *solvers), FILE.read_text(encoding="utf-8"))
     drawn = {"kinds": settings["kinds"], "trial": {"seed": settings["trial"]["seed"]}, "errors": settings["errors"]}
     return {"settings": drawn, "kind": kind, "count": count, "source": source}
 

@@ -1,6 +1,6 @@
 # What accuracy costs: one job a case and solver, alone on the machine, since it is timed.
 def case_params(wildcards):
-    return canonical(cost.job_plan(CASES[wildcards.case], wildcards.job))
+    return canonical(accuracy_case.job_plan(CASES[wildcards.case], wildcards.job))
 
 
 def case_files(ending, folder):

@@ -6,7 +6,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from contactsim import calibration, cost, draws, effect_maps, gallery, ladder, outlook, report, standby, trials
+from contactsim import accuracy_case, calibration, cost, draws, effect_survey, gallery, ladder, outlook, report, standby, trials
 from contactsim.errors import SceneError
 from contactsim.plan import Plan
 from contactsim.provenance import canonical, digest, source_digest
@@ -17,10 +17,10 @@ try:
     CONFIG = Path(workflow.basedir) / "config"
     PLAN = Plan.read(CONFIG, config.get("tier"))
     CASES = cost.read_cases(CONFIG, PLAN)
-    LADDER = ladder.read_ladder(CONFIG, PLAN.seed, PLAN.effects)
-    DRAWS = draws.read_draws(CONFIG, PLAN.trials)
+    LADDER = ladder.read_ladder(CONFIG, PLAN.seed, PLAN.effects, PLAN.tier)
+    DRAWS = draws.read_draws(CONFIG, PLAN.trials, PLAN.tier)
     OVERVIEW = cost.read_overview(CONFIG) if CASES else None
-    MAPS = effect_maps.read_maps(CONFIG, PLAN.effect_maps)
+    MAPS = effect_survey.read_maps(CONFIG, PLAN.effect_maps, PLAN.tier)
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results

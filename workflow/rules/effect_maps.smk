@@ -2,7 +2,7 @@
 if MAPS:
 
     def map_params(wildcards):
-        return canonical(effect_maps.plan(MAPS, wildcards.map))
+        return canonical(effect_survey.plan(MAPS, wildcards.map))
 
 
     rule measure_map:
@@ -22,7 +22,7 @@ if MAPS:
             pdf=RESULTS / "figures/effect_maps.pdf",
             csv=RESULTS / "figures/effect_maps.csv",
         log: RESULTS / "logs/figures/effect_maps.log"
-        params: plan=canonical(effect_maps.figure(MAPS, PLAN.tier))
+        params: plan=canonical(effect_survey.figure(MAPS, PLAN.tier))
         group: together("figures")
         message: f"effect_maps: {RESULTS}/figures/effect_maps.png"
         script: "../scripts/effect_maps.py"

@@ -3,7 +3,7 @@
 import json
 
 from contactsim import dataset
-from contactsim.effect_maps import as_text
+from contactsim.effect_survey import as_text
 from contactsim.joblog import logged
 from contactsim.march import write_text
 

@@ -13,7 +13,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import cost, dataset, precision
+from contactsim import dataset, precision
+from contactsim.accuracy_case import REFERENCE
 from contactsim.ensemble import converged
 from contactsim.figures import knobs, style
 from contactsim.figures.render import framed, move, save
@@ -79,7 +80,7 @@ def among(column: pd.Series, values: list) -> np.ndarray:
 def seconds(table: pd.DataFrame, times: Mapping[str, list[float]], member: float) -> pd.Series:
     """Seconds of every row: those of each solver's settings in their order, of an ensemble those of its members."""
     found = table.members * member
-    for kind in set(times) - {cost.REFERENCE}:
+    for kind in set(times) - {REFERENCE}:
         found[table.members.isna() & (table.solver == kind)] = times[kind]
     return found
 

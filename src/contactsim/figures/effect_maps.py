@@ -31,7 +31,7 @@ NAMES = {
 
 
 def render(plan: Mapping, data: Sequence[str], targets: Mapping[str, str]) -> None:
-    """Draw all panels into their files; plan: of `contactsim.effect_maps.figure`; data: the maps, by name."""
+    """Draw all panels into their files; plan: of `contactsim.effect_survey.figure`; data: the maps, by name."""
     maps = dict(zip(sorted(plan["titles"]), map(dataset.read, data), strict=True))
     panels = plan["settings"]["panels"]
     rows = -(-len(panels) // COLUMNS)
@@ -63,16 +63,21 @@ def draw(axes: Axes, data: xr.Dataset, panel: Mapping, title: str):
     for row in y:
         for column in x:
             axes.text(column, row, _per_cent(cut.values[row, column]), ha="center", va="center", **NUMBER)
-    axes.set(xticks=x, yticks=y, xlabel=NAMES[panel["across"]], ylabel=NAMES[panel["up"]])
+    axes.set(xticks=x, yticks=y, xlabel=_words(panel["across"]), ylabel=_words(panel["up"]))
     axes.set_xticklabels([_short(value) for value in cut[panel["across"]].values], fontsize=6)
     axes.set_yticklabels([_short(value) for value in cut[panel["up"]].values], fontsize=6)
     axes.tick_params(length=0)
-    others = ", ".join(f"{NAMES[name]} {_short(value)}" for name, value in panel["at"].items())
+    others = ", ".join(f"{_words(name)} {_short(value)}" for name, value in panel["at"].items())
     axes.set_title(title + f"\n{others}" * bool(others), fontsize=7)
     for words, place in panel["conditions"].items():
         box = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": "#1f4e9c", "lw": 0.6}
         axes.text(*place, words, transform=axes.transAxes, fontsize=6.5, color="#1f4e9c", ha="center", bbox=box)
     return shown
+
+
+def _words(axis: str) -> str:
+    """What an axis is called."""
+    return NAMES.get(axis, axis.replace("_", " "))
 
 
 def _per_cent(change: float) -> str:
