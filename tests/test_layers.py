@@ -15,7 +15,7 @@ superposition pairing loading scene wall interface solvers.base solvers solvers.
 solvers.verlet solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
-observables adhesion sliding analytic provenance validity dataset extrapolation ensemble
+observables adhesion sliding analytic provenance validity variables dataset extrapolation ensemble
 hysteresis area_load onset config schema build relations choice forecast study
 tabulate branch loads march fits aggregate confirm effect_maps
 negligible costs joblog outlook takes findings claims api
