@@ -16,8 +16,8 @@ from contactsim.effect_maps import as_text, change, expected, measure, read_maps
 from contactsim.leaving_out import LEFT_OUT, left_out
 from contactsim.negligible import decide, effects_of, foreseen, run
 from contactsim.plan import Plan
+from contactsim.self_affine import SelfAffine, generator
 from contactsim.study import Study
-from contactsim.surface import SelfAffine, generator
 
 ASPERITY = {
     "title": "Asperity",

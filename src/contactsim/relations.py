@@ -20,7 +20,8 @@ from contactsim import analytic
 from contactsim.config import load_yaml
 from contactsim.errors import SceneError
 from contactsim.scene import Scene
-from contactsim.surface import Cylinder, SelfAffine, Sphere
+from contactsim.self_affine import SelfAffine
+from contactsim.surface import Cylinder, Sphere
 from contactsim.traits import Trait
 from contactsim.validity import process_zone
 

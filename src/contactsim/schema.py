@@ -23,7 +23,8 @@ from contactsim.observables import KEPT
 from contactsim.onset import ONSET
 from contactsim.pairing import PAIRINGS
 from contactsim.solvers import SOLVERS, solver_class, usual_kind
-from contactsim.surface import SURFACES, Flat
+from contactsim.surface import Flat
+from contactsim.surfaces import SURFACES
 from contactsim.traits import Trait
 
 
