@@ -53,6 +53,7 @@ WRITERS = (
     "hysteresis.py",
     "sliding.py",
     "onset.py",
+    "peeling.py",
     "branch.py",
     "ladder.py",
     "tabulate.py",

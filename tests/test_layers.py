@@ -17,7 +17,7 @@ solvers.verlet solvers.tamaas solvers.kernels solvers.refinement solvers.precond
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
 observables adhesion sliding analytic provenance validity variables dataset extrapolation ensemble
-hysteresis area_load onset config schema build relations choice forecast study
+hysteresis area_load peeling onset config schema build relations choice forecast study
 tabulate branch loads march fits aggregate confirm effect_maps
 negligible costs joblog outlook takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards

@@ -20,8 +20,8 @@ from contactsim.area_load import AREA_LOAD
 from contactsim.config import Key, listed, positive, read, whole
 from contactsim.errors import SceneError
 from contactsim.hysteresis import CYCLE
-from contactsim.onset import ONSET
 from contactsim.pairing import Windowed
+from contactsim.peeling import ONSET
 from contactsim.schema import is_smooth
 from contactsim.solvers.base import solved
 from contactsim.study import Study
