@@ -11,8 +11,8 @@ from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
 standby errors traits grid roughness surface self_affine scans measured topography surfaces
-plane_strain symbols elasticity fields laws
-superposition pairing loading scene wall interface solvers.base solvers solvers.active_set solvers.polonsky_keer
+plane_strain symbols elasticity fields laws superposition pairing loading scene wall interface
+solvers.base solvers solvers.continuation solvers.active_set solvers.polonsky_keer
 solvers.verlet solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
