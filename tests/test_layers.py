@@ -24,8 +24,9 @@ hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive haza
 verdicts wall_verdicts path_verdicts stability plan ladder compare crate bundle explain priced cost precision draws
 calibration regression trials budget
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
-figures.factors figures.asperities figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6
-figures.stability figures.render figures.claims figures.knobs figures.accuracy figures.sketch
+figures.interfaces figures.thicknesses figures.factors figures.asperities figures.ch2 figures.ch3 figures.ch4
+figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render figures.claims figures.knobs
+figures.accuracy figures.sketch
 figures.effects figures.trials figures.effect_maps figures.overview gallery rulegraph report cli
 """.split()
 """Modules in import order: each may import those before it."""
