@@ -13,10 +13,11 @@ from contactsim.elasticity import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.laws import HardWall
 from contactsim.scene import Body, Scene
+from contactsim.self_affine import SelfAffine, generator
 from contactsim.solvers import solver
 from contactsim.solvers.base import Status, require, solve
 from contactsim.solvers.conjugate_gradients import NestedConjugateGradients
-from contactsim.surface import Flat, SelfAffine, Sinusoid, Sphere, generator
+from contactsim.surface import Flat, Sinusoid, Sphere
 from contactsim.wall import pose
 
 UNIT = (1.0, 1.0)

@@ -11,11 +11,12 @@ import xarray as xr
 import contactsim
 from contactsim import dataset, provenance
 from contactsim.config import keys_of
-from contactsim.dataset import SETTINGS, SUFFIXES, VARIABLES, described, settings_of, stamped
+from contactsim.dataset import SETTINGS, described, settings_of, stamped
 from contactsim.errors import SceneError
 from contactsim.schema import KINDS
 from contactsim.solvers import SOLVERS, solver_class
 from contactsim.solvers.base import Status
+from contactsim.variables import SUFFIXES, VARIABLES
 
 SOURCE = Path(contactsim.__file__).parent
 
@@ -52,6 +53,7 @@ WRITERS = (
     "hysteresis.py",
     "sliding.py",
     "onset.py",
+    "peeling.py",
     "branch.py",
     "ladder.py",
     "tabulate.py",

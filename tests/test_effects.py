@@ -105,7 +105,8 @@ from contactsim.elasticity import HalfSpace
 from contactsim.laws import HardWall
 from contactsim.march import simulate
 from contactsim.scene import Body, Scene
-from contactsim.surface import Flat, SelfAffine, generator
+from contactsim.self_affine import SelfAffine, generator
+from contactsim.surface import Flat
 
 def peak():  # of this program alone: what getrusage tells begins with its parent's
     return float(open("/proc/self/status").read().partition("VmHWM:")[2].split()[0])

@@ -23,8 +23,9 @@ from contactsim.hazards.cases import Case, layer_response
 from contactsim.laws import HardWall
 from contactsim.scene import Body, Scene
 from contactsim.solvers import solver, solver_class
-from contactsim.solvers.active_set import ActiveSet, BlockStiffness, Continuation
+from contactsim.solvers.active_set import ActiveSet
 from contactsim.solvers.base import Status, require, solve
+from contactsim.solvers.continuation import BlockStiffness, Continuation
 from contactsim.stability import judge
 from contactsim.surface import Flat, Sinusoid
 from contactsim.traits import Trait

@@ -10,21 +10,22 @@ import pytest
 from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
-standby errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws
-superposition pairing loading scene wall interface solvers.base solvers solvers.active_set solvers.polonsky_keer
+standby errors traits grid roughness surface self_affine scans measured topography surfaces
+plane_strain symbols elasticity fields laws superposition pairing loading scene wall interface
+solvers.base solvers solvers.continuation solvers.active_set solvers.polonsky_keer
 solvers.verlet solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet
 solvers.energy_minimisation solvers.predictor walk adaptive nested follow leaving_out
-observables adhesion sliding analytic provenance validity dataset extrapolation ensemble
-hysteresis area_load onset config schema build relations choice forecast study
+observables adhesion sliding analytic provenance validity variables dataset extrapolation ensemble
+hysteresis area_load peeling onset config schema build relations choice forecast study
 tabulate branch loads march fits aggregate confirm effect_maps
 negligible costs joblog outlook takes effect_survey findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
 verdicts wall_verdicts path_verdicts stability figure_config plan ladder compare crate bundle explain
-priced accuracy_case cost precision draws calibration trials budget
+priced accuracy_case cost precision draws calibration regression trials budget
 figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
-figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render
-figures.claims figures.knobs
+figures.interfaces figures.thicknesses figures.factors figures.asperities figures.ch2 figures.ch3 figures.ch4
+figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render figures.claims figures.knobs
 figures.accuracy figures.sketch
 figures.effects figures.trials figures.effect_maps figures.overview gallery rulegraph report cli
 """.split()

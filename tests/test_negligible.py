@@ -17,8 +17,8 @@ from contactsim.effect_survey import as_text, measure, read_maps
 from contactsim.leaving_out import LEFT_OUT, left_out
 from contactsim.negligible import decide, effects_of, foreseen, run
 from contactsim.plan import Plan
+from contactsim.self_affine import SelfAffine, generator
 from contactsim.study import Study
-from contactsim.surface import SelfAffine, generator
 
 ASPERITY = {
     "title": "Asperity",

@@ -16,8 +16,9 @@ from contactsim.loading import LoadPath, LoadStep
 from contactsim.march import simulate
 from contactsim.plan import Plan
 from contactsim.scene import Body, Scene
+from contactsim.self_affine import SelfAffine, generator
 from contactsim.solvers import solver
-from contactsim.surface import Flat, SelfAffine, generator
+from contactsim.surface import Flat
 from contactsim.traits import Trait
 from contactsim.walk import PathState, Walk
 from smooth import LAWS, Walked, along, scene_of, walk

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim import analytic, onset, sliding
+from contactsim import analytic, onset, peeling, sliding
 from contactsim.aggregate import combined
 from contactsim.branch import simulate_path
 from contactsim.elasticity import HalfSpace, Layer
@@ -310,21 +310,21 @@ def test_what_may_be_missed_beside_a_slip_is_what_its_width_allows():
 
 def test_laws_are_found_where_they_hold():
     force = np.linspace(0, 3, 20)
-    coefficient, agreement = onset.quadratic_law(force, 100 - 2.5 * force**2)
+    coefficient, agreement = peeling.quadratic_law(force, 100 - 2.5 * force**2)
     assert coefficient == pytest.approx(2.5)
     assert agreement == pytest.approx(1.0)
-    assert np.isnan(onset.quadratic_law(force[:2], force[:2])).all()
-    slope, offset, agreement = onset.threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
+    assert np.isnan(peeling.quadratic_law(force[:2], force[:2])).all()
+    slope, offset, agreement = peeling.threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
     assert (slope, offset, agreement) == pytest.approx((2.0, 5.0, 1.0))
-    assert np.isnan(onset.threshold_law(np.ones(3), np.ones(3))).all()
+    assert np.isnan(peeling.threshold_law(np.ones(3), np.ones(3))).all()
 
 
 def test_peeling_at_one_edge_is_asymmetric():
     trailing, leading = np.array([-5.0, -4.0, -2.0, np.nan]), np.array([5.0, 4.0, 4.0, np.nan])
-    assert onset.asymmetry(trailing, leading, 1) == 0.0
-    assert onset.asymmetry(trailing, leading, 2) == pytest.approx(0.5)
-    assert np.isnan(onset.asymmetry(trailing, leading, 0))
-    assert np.isnan(onset.asymmetry(trailing, leading, 3))
+    assert peeling.asymmetry(trailing, leading, 1) == 0.0
+    assert peeling.asymmetry(trailing, leading, 2) == pytest.approx(0.5)
+    assert np.isnan(peeling.asymmetry(trailing, leading, 0))
+    assert np.isnan(peeling.asymmetry(trailing, leading, 3))
 
 
 def test_a_force_is_averaged_over_whole_lattice_constants():

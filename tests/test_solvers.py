@@ -18,10 +18,12 @@ from contactsim.laws import HardWall
 from contactsim.measured import Profile, prepare
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
+from contactsim.self_affine import SelfAffine, generator
 from contactsim.solvers import SOLVERS, solver
-from contactsim.solvers.active_set import ActiveSet, BlockStiffness, Continuation
+from contactsim.solvers.active_set import ActiveSet
 from contactsim.solvers.base import Status, require, solve
-from contactsim.surface import Flat, SelfAffine, generator
+from contactsim.solvers.continuation import BlockStiffness, Continuation
+from contactsim.surface import Flat
 from contactsim.traits import Trait
 from contactsim.wall import pose
 

@@ -25,6 +25,7 @@ from contactsim.plan import Plan
 from contactsim.solvers import solver
 from contactsim.solvers.base import State
 from contactsim.stability import gather, judge, read_settings, survey
+from contactsim.variables import VARIABLES
 from contactsim.verdicts import Outcome
 from contactsim.wall_verdicts import faults
 
@@ -265,7 +266,7 @@ def test_everything_in_the_dataset_is_described(drawn):
     data = dataset.read(drawn / "stability.nc")
     for name in data.variables:
         assert data[name].attrs["units"] == "1", name
-        assert dataset.VARIABLES[name][1] == data[name].attrs["long_name"], name
+        assert VARIABLES[name][1] == data[name].attrs["long_name"], name
     meanings = data.outcome.attrs["flag_meanings"].split()
     assert dict(zip(meanings, data.outcome.attrs["flag_values"], strict=True)) == {
         outcome.name.lower(): outcome.value[0] for outcome in Outcome

@@ -6,7 +6,9 @@ import pytest
 from contactsim.errors import SceneError
 from contactsim.measured import Profile
 from contactsim.roughness import rms_gradient, rms_height, spectrum
-from contactsim.surface import Cylinder, Flat, Measured, Sampled, SelfAffine, Sinusoid, generator
+from contactsim.self_affine import SelfAffine, generator
+from contactsim.surface import Cylinder, Flat, Sinusoid
+from contactsim.surfaces import Measured, Sampled
 
 THESIS = {"length": 160000.0, "rolloff_wavelength": 20000.0, "shortest_wavelength": 39.0625, "rms_gradient": 1e-3}
 

@@ -26,7 +26,7 @@ from contactsim.errors import SceneError
 from contactsim.scans import UNITS
 from contactsim.solvers.base import Status
 from contactsim.study import Study
-from contactsim.surface import SURFACES, MeasuredSurface
+from contactsim.surfaces import SURFACES, MeasuredSurface
 from contactsim.topography import DETREND, PERIODIC, Topography, prepare, read_topography
 
 DY, DX = SPACING = (2.5, 0.5)

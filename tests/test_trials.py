@@ -12,7 +12,7 @@ import yaml
 
 from cases import refused
 from conftest import ROOT
-from contactsim import calibration, cost, dataset, draws, effect_survey, ladder, trials
+from contactsim import calibration, cost, dataset, draws, effect_survey, ladder, regression, trials
 from contactsim.draws import read_draws
 from contactsim.figures import effect_maps as map_figure
 from contactsim.figures import overview
@@ -81,11 +81,11 @@ def test_relations_measured_anew_have_the_form_of_the_packages():
     plan = {"kind": LINE, "drawn": {"ranges": SETTINGS["kinds"][LINE], "seed": 5, "scenes": 2}}
     table = calibration.measured(plan)
     assert set(table.knob) == {"points", "tolerance", "begun"}
-    found = as_relations(calibration.fit(table))
+    found = as_relations(regression.fit(table))
     law = found.kinds[LINE].errors["points"]["relative_contact_area_subgrid"]
     assert law.coefficients["grid"] == 2.0
     assert 0 < found.kinds[LINE].begun < 1.2
-    assert "kinds:" in calibration.as_text(table)
+    assert "kinds:" in regression.as_text(table)
 
 
 def test_a_straight_line_through_logarithms_is_found_again():
@@ -93,10 +93,10 @@ def test_a_straight_line_through_logarithms_is_found_again():
     grid = rng.uniform(-4, -1, 60)
     rows = pd.DataFrame({"kind": PATH, "knob": "increment", "one": 1.0, "grid": grid})
     rows["error_a"] = np.exp(-1.0 + 1.5 * grid)
-    found = calibration._line(rows, "error_a", ("one", "grid"), {})
+    found = regression._line(rows, "error_a", ("one", "grid"), {})
     assert found["coefficients"]["grid"] == pytest.approx(1.5, rel=0.02)
     assert found["spread"] < 0.05
-    assert calibration._line(rows[:3], "error_a", ("one", "grid"), {}) is None
+    assert regression._line(rows[:3], "error_a", ("one", "grid"), {}) is None
 
 
 @pytest.mark.parametrize(

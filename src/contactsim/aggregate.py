@@ -19,7 +19,8 @@ from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fits
 from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
-from contactsim.onset import ONSET, THRESHOLD, slid
+from contactsim.onset import slid
+from contactsim.peeling import ONSET, THRESHOLD
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""

@@ -14,7 +14,8 @@ from contactsim.scene import Body, Scene
 from contactsim.solvers import solver as named
 from contactsim.solvers import usual
 from contactsim.solvers.base import Result, Solver, require, solve
-from contactsim.surface import Flat, Sampled
+from contactsim.surface import Flat
+from contactsim.surfaces import Sampled
 from contactsim.topography import Topography
 from contactsim.wall import pose
 

@@ -19,7 +19,9 @@ from contactsim.pairing import PAIRINGS, Aligned, Pairing
 from contactsim.roughness import rms_gradient
 from contactsim.scene import Body, Scene
 from contactsim.schema import RIGID
-from contactsim.surface import SURFACES, Flat, SelfAffine, Surface, generator
+from contactsim.self_affine import SelfAffine, generator
+from contactsim.surface import Flat, Surface
+from contactsim.surfaces import SURFACES
 from contactsim.traits import Trait
 
 

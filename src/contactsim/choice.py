@@ -31,7 +31,7 @@ from contactsim.relations import (
 )
 from contactsim.scene import Scene
 from contactsim.schema import is_smooth
-from contactsim.surface import SelfAffine
+from contactsim.self_affine import SelfAffine
 from contactsim.traits import Trait
 
 SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}

@@ -11,7 +11,7 @@ from functools import reduce
 
 from contactsim.elasticity import Elasticity, HalfSpace
 from contactsim.scene import Scene
-from contactsim.surface import SelfAffine
+from contactsim.self_affine import SelfAffine
 
 OCTAVE = 2.0
 

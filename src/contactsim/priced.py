@@ -14,18 +14,18 @@ from pathlib import Path
 
 import xarray as xr
 
-from contactsim import dataset
 from contactsim.adhesion import SUMMARY
 from contactsim.aggregate import AVERAGED, of_states
 from contactsim.area_load import AREA_LOAD
 from contactsim.config import Key, listed, positive, read, whole
 from contactsim.errors import SceneError
 from contactsim.hysteresis import CYCLE
-from contactsim.onset import ONSET
 from contactsim.pairing import Windowed
+from contactsim.peeling import ONSET
 from contactsim.schema import is_smooth
 from contactsim.solvers.base import solved
 from contactsim.study import Study
+from contactsim.variables import VARIABLES
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ class WholePath:
 
     def units(self, study: Study) -> dict[str, str]:
         """The increment's is that of what the path prescribes; a tolerance is in parts of the strength."""
-        return {"increment": dataset.VARIABLES[study.settings["load"]["control"]][0]}
+        return {"increment": VARIABLES[study.settings["load"]["control"]][0]}
 
 
 class Slide(WholePath):

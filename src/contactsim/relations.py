@@ -3,7 +3,7 @@
 Errors of the grid follow the size of what it has to show: at a hard wall the contacts, under smooth laws the process
 zone and the contact; errors of a path follow its increments. Work and time follow grid,
 steps and what acts. Each relation is a power law in a few numbers that say what kind of scene it is, `features`, with
-its scatter over the scenes that it was fitted to, none of which it is judged on. `contactsim.calibration` fits them.
+its scatter over the scenes that it was fitted to, none of which it is judged on. `contactsim.regression` fits them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from contactsim import analytic
 from contactsim.config import load_yaml
 from contactsim.errors import SceneError
 from contactsim.scene import Scene
-from contactsim.surface import Cylinder, SelfAffine, Sphere
+from contactsim.self_affine import SelfAffine
+from contactsim.surface import Cylinder, Sphere
 from contactsim.traits import Trait
 from contactsim.validity import process_zone
 

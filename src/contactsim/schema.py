@@ -20,10 +20,11 @@ from contactsim.hysteresis import CYCLE
 from contactsim.laws import EFFECTS
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.observables import KEPT
-from contactsim.onset import ONSET
 from contactsim.pairing import PAIRINGS
+from contactsim.peeling import ONSET
 from contactsim.solvers import SOLVERS, solver_class, usual_kind
-from contactsim.surface import SURFACES, Flat
+from contactsim.surface import Flat
+from contactsim.surfaces import SURFACES
 from contactsim.traits import Trait
 
 

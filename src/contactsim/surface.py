@@ -1,30 +1,18 @@
-"""Heights to press with, along a line or over a surface: smooth, self-affine and measured.
+"""Heights to press with, along a line or over a surface: what any surface does, and the smooth ones.
 
 A surface is a small frozen description; `heights(points)` samples it on a periodic grid. The largest height touches
-first. A finer grid samples the same surface: the random numbers of mode k do not depend on the number of points.
-
-The power spectrum of Eq. 3.10 fixes the mean power of each mode. The text leaves open whether amplitudes are that
-value with random phases ("fixed") or Gaussian with that variance ("gaussian", the default, which is what "a Gaussian
-height distribution" means); the result is then scaled so that the rms gradient or the rms height of this very profile
-is the one asked for, the gradient being that of the band-limited profile itself, not of its differences on a grid.
+first. A finer grid samples the same surface.
 """
 
 from __future__ import annotations
 
-import copy
-import hashlib
-import json
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from contactsim import measured, topography
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid
-
-AMPLITUDES = ("gaussian", "fixed")
 
 
 class Surface(Protocol):
@@ -51,30 +39,19 @@ class Surface(Protocol):
         ...
 
 
-def generator(seed: int, *labels: object) -> np.random.Generator:
-    """Random numbers for one realisation, the same on every machine: SeedSequence([seed, *labels]).
-
-    Labels that are not whole numbers enter through a digest of their JSON form.
-    """
-    words = [label if isinstance(label, int) else _word(label) for label in labels]
-    return np.random.default_rng(np.random.SeedSequence([seed, *words]))
-
-
-def _word(label: object) -> int:
-    return int.from_bytes(hashlib.sha256(json.dumps(label).encode()).digest()[:8], "big")
-
-
-def _check_length(length: float) -> None:
+def check_length(length: float) -> None:
+    """Refuse a period that is not positive and finite."""
     if not (np.isfinite(length) and length > 0):
         raise SceneError("length", length, "a positive, finite period in nm")
 
 
-def _check_dimensions(dimensions: int) -> None:
+def check_dimensions(dimensions: int) -> None:
+    """Refuse anything but lines and surfaces."""
     if dimensions not in (1, 2):
         raise SceneError("dimensions", dimensions, "1, a line, or 2, a surface")
 
 
-class _Smooth:
+class Smooth:
     """A surface of one period that any number of points samples."""
 
     length: float
@@ -99,7 +76,7 @@ class _Smooth:
 
 
 @dataclass(frozen=True)
-class Flat(_Smooth):
+class Flat(Smooth):
     """A plane at `height` (nm); width: its period along y, None for a line."""
 
     length: float
@@ -108,7 +85,7 @@ class Flat(_Smooth):
 
     def __post_init__(self) -> None:
         for period in self.lengths:
-            _check_length(period)
+            check_length(period)
 
     @classmethod
     def facing(cls, surface: Surface) -> Flat:
@@ -127,14 +104,14 @@ class Flat(_Smooth):
 
 
 @dataclass(frozen=True)
-class _Round(_Smooth):
+class _Round(Smooth):
     """Paraboloid -ρ²/2R in the middle of the period; radius, length in nm."""
 
     length: float
     radius: float
 
     def __post_init__(self) -> None:
-        _check_length(self.length)
+        check_length(self.length)
         if not (np.isfinite(self.radius) and self.radius > 0):
             raise SceneError("radius", self.radius, "a positive, finite number in nm")
 
@@ -158,7 +135,7 @@ class Sphere(_Round):
 
 
 @dataclass(frozen=True)
-class Sinusoid(_Smooth):
+class Sinusoid(Smooth):
     """Westergaard's wave, amplitude × cos(2π periods x / length); in two dimensions times the same wave along y."""
 
     length: float
@@ -167,8 +144,8 @@ class Sinusoid(_Smooth):
     dimensions: int = 1
 
     def __post_init__(self) -> None:
-        _check_length(self.length)
-        _check_dimensions(self.dimensions)
+        check_length(self.length)
+        check_dimensions(self.dimensions)
         if not (np.isfinite(self.amplitude) and self.amplitude > 0):
             raise SceneError("amplitude", self.amplitude, "a positive, finite number in nm")
         if not (is_number(self.periods) and self.periods >= 1 and self.periods == int(self.periods)):
@@ -178,214 +155,3 @@ class Sinusoid(_Smooth):
         """Heights of the wave, a crest at the origin, shape (points,) or (points, points), nm."""
         wave = np.cos(2 * np.pi * (np.arange(points) * self.periods % points / points))
         return self.amplitude * (wave if self.dimensions == 1 else wave[:, None] * wave)
-
-
-@dataclass(frozen=True)
-class SelfAffine(_Smooth):
-    """Random heights with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
-
-    The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
-    rolloff_wavelength, shortest_wavelength: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
-    over a surface being the root of the mean of both squared slopes added; rng: draws the modes, two numbers each,
-    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); smoothed: waves shorter than this are
-    then left out, nm.
-    """
-
-    length: float
-    hurst: float
-    rolloff_wavelength: float
-    shortest_wavelength: float
-    rms_gradient: float | None = None
-    rms_height: float | None = None
-    amplitudes: str = "gaussian"
-    dimensions: int = 1
-    smoothed: float | None = None
-    rng: np.random.Generator = field(kw_only=True)
-
-    def __post_init__(self) -> None:
-        _check_length(self.length)
-        _check_dimensions(self.dimensions)
-        if not 0 <= self.hurst <= 1:
-            raise SceneError("hurst", self.hurst, "a number from 0 to 1")
-        if not 0 < self.rolloff_wavelength <= self.length:
-            raise SceneError("rolloff_wavelength", self.rolloff_wavelength, f"above 0 nm, at most {self.length} nm")
-        if not 0 < self.shortest_wavelength < self.rolloff_wavelength:
-            allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm"
-            raise SceneError("shortest_wavelength", self.shortest_wavelength, allowed)
-        if (self.rms_gradient is None) == (self.rms_height is None):
-            given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
-            raise SceneError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
-        for name, unit in (("rms_gradient", ""), ("rms_height", " in nm")):
-            value = getattr(self, name)
-            if value is not None and not (np.isfinite(value) and value > 0):
-                raise SceneError(name, value, f"a positive, finite number{unit}")
-        if self.smoothed is not None and not self.shortest_wavelength < self.smoothed < self.rolloff_wavelength:
-            ends = f"above the shortest wavelength {self.shortest_wavelength} nm, below the roll-off wavelength"
-            allowed = f"{ends} {self.rolloff_wavelength} nm, or left out"
-            raise SceneError("smoothed", self.smoothed, allowed)
-        if self.amplitudes not in AMPLITUDES:
-            raise SceneError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
-
-    @property
-    def modes(self) -> int:
-        """Most waves in the period along any direction: their wavelength is strictly above the shortest (Eq. 3.10).
-
-        In two dimensions the waves with |k| up to `modes` are kept, all others are zero. That is the disc of the
-        highest mode along the axes, so oblique waves between its wavelength and the shortest are left out.
-        """
-        return _waves(self.length, self.finest)
-
-    @property
-    def finest(self) -> float:
-        """Wavelength above which there are waves, nm."""
-        return max(self.shortest_wavelength, self.smoothed or 0.0)
-
-    @cached_property
-    def coefficients(self) -> Array:
-        """Complex Fourier coefficients of the modes with |k| up to `modes`, half of them along x, nm.
-
-        Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
-        """
-        if self.smoothed is None:
-            return self._drawn(self.modes)
-        modes = self.modes
-        half = self._drawn(_waves(self.length, self.shortest_wavelength))[..., : modes + 1]
-        if self.dimensions == 2:
-            half = np.concatenate((half[: modes + 1], half[half.shape[0] - modes :]))
-        *y, x = self._mode_numbers(modes)
-        return half * (self._wavenumber(*y, x) <= 2 * np.pi / self.length * modes * (1 + 1e-12))
-
-    def _drawn(self, modes: int) -> Array:
-        """Coefficients of all waves up to `modes`, of the size that is asked for; the same each time."""
-        *y, x = self._mode_numbers(modes)
-        q = self._wavenumber(*y, x)
-        drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
-        drawn &= q <= 2 * np.pi / self.length * modes * (1 + 1e-12)
-        order = np.lexsort([*(k[drawn] for k in y), x[drawn], np.max(np.abs([x, *y]), axis=0)[drawn]])
-        normal = copy.deepcopy(self.rng).standard_normal((order.size, 2)) @ np.array([1, 1j])
-        if self.amplitudes == "fixed":
-            normal /= np.abs(normal)
-        half = np.zeros(x.shape, complex)
-        places = tuple(index[order] for index in np.nonzero(drawn))
-        rolloff = 2 * np.pi / self.rolloff_wavelength
-        half[places] = np.maximum(q[places] / rolloff, 1.0) ** (-(self.dimensions + 2 * self.hurst) / 2) * normal
-        if y:  # along x = 0 waves of both signs of y are kept
-            half[:, 0] += np.conj(np.roll(half[::-1, 0], 1))
-        if self.rms_height is None:
-            return half * (self.rms_gradient / _rms(half, q))
-        return half * (self.rms_height / _rms(half))
-
-    def _mode_numbers(self, modes: int) -> list[Array]:
-        """Whole numbers of waves in the period for each coefficient, along y first."""
-        along = np.arange(modes + 1)
-        across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
-        return list(np.meshgrid(*across, along, indexing="ij"))
-
-    def _wavenumber(self, *numbers: Array) -> Array:
-        """|q| (rad/nm) of modes."""
-        return 2 * np.pi / self.length * np.sqrt(sum(k**2.0 for k in reversed(numbers)))
-
-    @property
-    def gradient(self) -> float:
-        """Rms gradient of this very profile: the one asked for, or what follows from its rms height."""
-        if self.rms_gradient is not None and self.smoothed is None:
-            return self.rms_gradient
-        return _rms(self.coefficients, self._wavenumber(*self._mode_numbers(self.modes)))
-
-    def heights(self, points: int) -> Array:
-        """Heights with zero mean, shape (points,) or (points, points), nm."""
-        self.check(points)
-        grid = Grid((points,) * self.dimensions, self.lengths)
-        half = np.zeros(grid.half_shape, complex)
-        half[grid.low_modes(self.modes)] = self.coefficients
-        return grid.backward(half)
-
-
-def _waves(length: float, finest: float) -> int:
-    """Most waves in a period whose wavelength is strictly above the finest."""
-    return int(np.ceil(length / finest * (1 - 1e-12))) - 1
-
-
-def _rms(half: Array, factor: Array | float = 1.0) -> float:
-    """Root of the mean square of a real field, each wave times a factor, from its half-complex coefficients."""
-    twice = np.full(half.shape[-1], 2.0)
-    twice[0] = 1.0
-    return float(np.sqrt(np.sum(twice * factor**2 * np.abs(half) ** 2)))
-
-
-@dataclass(frozen=True)
-class Sampled:
-    """Heights given as numbers: a checked profile (n,) or topography (ny, nx), at equal spacing, nm."""
-
-    profile: measured.Profile | topography.Topography
-    modes = None
-
-    @property
-    def points(self) -> int:
-        """Number of heights along x."""
-        return self.profile.heights.shape[-1]
-
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """Period: number of points times spacing, nm."""
-        return tuple(np.atleast_1d(self.profile.spacing) * self.profile.heights.shape)
-
-    def shape(self, points: int) -> tuple[int, ...]:
-        """Shape of the heights, whatever `points` says."""
-        return self.profile.heights.shape
-
-    def check(self, points: int) -> None:
-        """Refuse another number of points than there are: a measurement is not resampled."""
-        if points != self.points:
-            raise SceneError("points", points, f"{self.points}, the number of points of the measurement")
-
-    def heights(self, points: int) -> Array:
-        """The heights as given; `points` must be their number along x."""
-        self.check(points)
-        return self.profile.heights
-
-
-@dataclass(frozen=True)
-class Measured(Sampled):
-    """A profile read from a file, detrended and made periodic (options as in `contactsim.measured`)."""
-
-    profile: measured.Profile = field(init=False, repr=False)
-    file: str
-    detrend: str = "linear"
-    periodic: str = "mirror"
-    spacing: float | None = None
-    unit: str | None = None
-    variable: str | None = None
-
-    def __post_init__(self) -> None:
-        raw = measured.read_profile(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "profile", measured.prepare(raw, self.detrend, self.periodic))
-
-
-@dataclass(frozen=True)
-class MeasuredSurface(Sampled):
-    """A topography read from a file, detrended and made periodic (options as in `contactsim.topography`)."""
-
-    profile: topography.Topography = field(init=False, repr=False)
-    file: str
-    detrend: str = "plane"
-    periodic: str = "mirror"
-    spacing: float | list[float] | None = None
-    unit: str | None = None
-    variable: str | None = None
-    dimensions = 2
-
-    def __post_init__(self) -> None:
-        raw = topography.read_topography(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "profile", topography.prepare(raw, self.detrend, self.periodic))
-
-
-SURFACES = {
-    "flat": Flat,
-    "cylinder": Cylinder,
-    "sphere": Sphere,
-    "sinusoid": Sinusoid,
-    "self_affine": SelfAffine,
-    "measured": Measured,
-    "measured_surface": MeasuredSurface,
-}

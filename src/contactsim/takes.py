@@ -20,7 +20,7 @@ from contactsim.build import scene_of
 from contactsim.ensemble import converged, on_all_grids
 from contactsim.fits import fit_line_area
 from contactsim.hysteresis import CYCLE
-from contactsim.onset import ALONG, ONSET, THRESHOLD
+from contactsim.peeling import ALONG, ONSET, THRESHOLD
 from contactsim.schema import COMPANIONS, is_smooth
 from contactsim.study import Study
 

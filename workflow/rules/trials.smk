@@ -53,5 +53,6 @@ if DRAWS:
         input: of_the_standard_tier, [RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
+        params: source=source_digest("contactsim.regression")
         message: "relations, to be put in the place of src/contactsim/relations.yaml: {output}"
         script: "../scripts/relations.py"

@@ -20,6 +20,7 @@ from contactsim.figures import knobs, style
 from contactsim.figures.render import framed, move, save
 from contactsim.forecast import transform_seconds
 from contactsim.precision import ROUNDING
+from contactsim.variables import VARIABLES
 
 KNOBS = {
     "points": "grid points",
@@ -189,7 +190,7 @@ def _grid_dependence(axes: Axes, values: xr.Dataset, quantity: str, across: str)
             look = style.hurst(0.2 if value is None else value)
             axes.plot(part.points, mean if value is None else mean.sel(hurst=value), color=color, **look)
     first = next(iter(definitions), quantity)
-    unit = dataset.VARIABLES[first][0]
+    unit = VARIABLES[first][0]
     axes.set(xlabel=across, ylabel=style.SYMBOLS[first] + (f" ({unit})" if unit != "1" else ""))
     axes.set_xscale("log", base=2)
     axes.yaxis.get_major_formatter().set_useOffset(False)

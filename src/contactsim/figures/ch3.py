@@ -12,29 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from contactsim import analytic, ensemble
-from contactsim.figures import resolution, style
+from contactsim.figures import factors, resolution, style
 from contactsim.figures.maps import of_dataset, panels
-from contactsim.grid import Array
 
 FREE_OF_NEIGHBOURS = 0.25
 """Largest c/R at which a cylinder or sphere at L/R = 4 does not feel its neighbours."""
-
-
-def _round(data: xr.Dataset, exact: float) -> xr.Dataset:
-    """The one member of a cylinder or sphere, with area and load without units, and the exact values."""
-    one = data.isel(member=0)
-    size = "contact_radius" if "contact_radius" in one else "half_width"
-    radius = float(one[f"{size}_exact"][0] / one.contact_ratio[0])
-    nominal = one.length / radius * (one.length_y / radius if "length_y" in one else 1.0)
-    ratio = one.contact_ratio
-    return one.assign(
-        area=one.relative_contact_area * nominal,
-        area_exact=2 * ratio if size == "half_width" else np.pi * ratio**2,
-        load=one.mean_pressure * nominal / one.contact_modulus,
-        kappa_r_exact=exact,
-    )
-
-
 TABLE = {
     "contact_ratio": r"$c/R$",
     "area_exact": "$a_{act}$\nexact",
@@ -46,18 +28,14 @@ TABLE = {
     "kappa_r": r"$\kappa_r$" + "\ncomputed",
     "kappa_r_bond": r"$\kappa_r$" + "\nof pairs",
 }
-ROUND = {
-    "cylinder": (analytic.CYLINDER_KAPPA_R, r"cylinder, exact $8/(\pi\sqrt{3})$ = 1.470"),
-    "sphere": (analytic.SPHERE_KAPPA_R, r"sphere, exact $3\pi/(4\sqrt{2})$ = 1.666"),
-}
 
 
 def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """κ_r of a cylinder and of a sphere do not depend on the load (thesis Fig. 3.1)."""
     shown, rows = [], []
     for data, name, mark in ((line, "cylinder", "o"), (surface, "sphere", "s")):
-        exact, words = ROUND[name]
-        one = _round(data, exact)
+        exact, words = factors.ROUND[name]
+        one = factors.round_body(data, exact)
         pressure, look = one.reduced_pressure_contact, {"fmt": mark, "ms": 4, "mfc": "white", "elinewidth": 0.7}
         for part, fade in (
             (one.contact_ratio <= FREE_OF_NEIGHBOURS, 1.0),
@@ -81,7 +59,8 @@ def table_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame
     """Cylinder and sphere: area, load, gradient in contact and κ_r, exact and computed (thesis Table 3.1)."""
     parts = []
     for data, name in ((line, "cylinder"), (surface, "sphere")):
-        parts.append(_round(data, ROUND[name][0]).to_dataframe().reset_index()[list(TABLE)].assign(body=name))
+        one = factors.round_body(data, factors.ROUND[name][0])
+        parts.append(one.to_dataframe().reset_index()[list(TABLE)].assign(body=name))
     rows = pd.concat(parts)[["body", *TABLE]]
     text = [[row[0], *(f"{value:#.4g}" for value in row[1:])] for row in rows.to_numpy()]
     style.table(axes, ["", *TABLE.values()], text)
@@ -130,7 +109,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
         handles=style.key(colours | {r"$\bar g_r$ over pairs in contact": style.PAIRS}, lines), loc="upper right"
     )
     middle.set_ylim(top=middle.get_ylim()[1] * 1.25)
-    right.text(0.03, 0.03, _constancy(data), transform=right.transAxes, fontsize=6, va="bottom")
+    right.text(0.03, 0.03, factors.constancy(data), transform=right.transAxes, fontsize=6, va="bottom")
     return style.averages(data, AVERAGES)
 
 
@@ -174,37 +153,14 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
 
 def fig_3_2_grid(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
     """Proportionality factors of lines on finer and finer grids; kappa_r: the thesis's constant."""
-    return _grids(data, finer, axes, {"kappa_r": kappa_r})
+    return resolution.grids(data, finer, axes, {"kappa_r": kappa_r})
 
 
 def fig_3_4_grid(
     data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float
 ) -> pd.DataFrame:
     """Proportionality factors of surfaces on finer and finer grids; kappa, kappa_r: the thesis's values."""
-    return _grids(data, finer, axes, {"kappa": kappa, "kappa_r": kappa_r})
-
-
-def _grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[str, float]) -> pd.DataFrame:
-    """One panel a quantity, with the value of the thesis if any, and in words what a grid costs against finer ones."""
-    shown = resolution.table(data, finer)
-    middle = f"{float(resolution.per_wavelength(data).points[-2:][0]):g} points"
-    for panel, name, letter in zip(axes, resolution.QUANTITIES, "abc", strict=True):
-        resolution.draw(shown, name, panel)
-        if name in thesis:
-            panel.axhline(thesis[name], color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
-        low, high = panel.get_ylim()
-        below = 0.35 if panel is axes[-1] else 0.0  # room for the legend
-        panel.set_ylim(low - below * (high - low), high + 0.4 * (high - low))
-        panel.text(0.97, 0.97, resolution.in_words(shown, name, middle), **CORNER, transform=panel.transAxes)
-        style.letter(panel, letter)
-    values = " and ".join(f"{value:.2f}" for value in thesis.values())
-    keys = style.key({}, {f"thesis, {values}": (0, (6, 3))})
-    loads = resolution.load_key(list(data.reduced_pressure.values))
-    axes[-1].legend(handles=style.hurst_key(data.hurst.values) + loads + keys, loc="lower right", ncols=2)
-    return shown
-
-
-CORNER = {"fontsize": 6.5, "ha": "right", "va": "top"}
+    return resolution.grids(data, finer, axes, {"kappa": kappa, "kappa_r": kappa_r})
 
 
 def fig_3_5(
@@ -254,24 +210,6 @@ def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     return panels(one, axes).assign(**places)
 
 
-def _constancy(data: xr.Dataset) -> str:
-    """The most significant changes of κ_r with pressure and with the Hurst exponent, in words."""
-    if data.member.size < 2:
-        return ""
-    lines = []
-    for along, text, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst", "$H$", "$p^*$")):
-        found = ensemble.departure(data, "kappa_r", along)
-        first, second = (place[along] for place in found.places)
-        (at,) = (value for name, value in found.places[0].items() if name != along)
-        lines.append(rf"{text} from {first:g} to {second:g} at {other} = {at:g}: $\kappa_r$ changes")
-        lines.append(f"    by {found.difference:.3f}, {found.in_errors:.1f} standard errors")
-    return "\n".join(lines)
-
-
-FIT_LOOKS = {"area": {"lw": 1.6, "alpha": 1.0}, "logarithm": {"lw": 0.8, "alpha": 0.6}}
-"""Lines of a fit by how it weighs."""
-
-
 def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Eq. 3.11 fitted to each Hurst exponent and to all (thesis Fig. 3.3).
 
@@ -279,10 +217,11 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 200)
     lowest = data.sel(fit_limit=float(data.fit_limit.min()))
-    for weighting in FIT_LOOKS:
+    for weighting in factors.FIT_LOOKS:
         for name in data.fitted.values:
             fit = lowest.sel(weighting=weighting, fitted=name)
-            axes.plot(dense, _kappa_fit(dense, fit.fit_b1.item(), fit.fit_b2.item()), **_fit_look(name, weighting))
+            fitted = factors.kappa_fit(dense, fit.fit_b1.item(), fit.fit_b2.item())
+            axes.plot(dense, fitted, **factors.fit_look(name, weighting))
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value) | {"linestyle": "none"}
         style.with_errors(axes, one.reduced_pressure, one, "kappa", color="#888888", **look)
@@ -291,24 +230,10 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     axes.set_ylim(top=axes.get_ylim()[1] * 1.22)
     lines = {"fit to all $H$, of the area": ("all", "area"), "of its logarithm": ("all", "logarithm")}
     lines |= {"fit to one $H$, of the area": ("one", "area"), "of its logarithm ": ("one", "logarithm")}
-    keys = [Line2D([], [], label=label, **_fit_look(*fit)) for label, fit in lines.items()]
+    keys = [Line2D([], [], label=label, **factors.fit_look(*fit)) for label, fit in lines.items()]
     last = style.key({}, {"Persson (2D)": "-."})
     axes.legend(handles=style.hurst_key(data.hurst.values) + last + keys, ncols=2, loc="upper right")
     names = [name for name in data.data_vars if str(name).startswith("fit_")]
-    fitted = data[names].assign(kappa_fit=xr.apply_ufunc(_kappa_fit, data.reduced_pressure, data.fit_b1, data.fit_b2))
+    factor = xr.apply_ufunc(factors.kappa_fit, data.reduced_pressure, data.fit_b1, data.fit_b2)
     order = [*data.fit_b1.dims, "reduced_pressure"]
-    return fitted.to_dataframe(dim_order=order).reset_index()
-
-
-def _fit_look(name: str, weighting: str) -> dict[str, object]:
-    """The fit to all is broad and lies below those to one Hurst exponent, so that both are seen where they meet."""
-    look = FIT_LOOKS[weighting]
-    if name == "all":
-        return {"color": style.PAIRS, "lw": 2.5 * look["lw"], "alpha": 0.5 * look["alpha"], "zorder": 1.5}
-    line = "-" if name == "one" else style.hurst(float(name))["linestyle"]
-    return look | {"color": style.WHOLE, "ls": line}
-
-
-def _kappa_fit(pressure: Array, b1: Array, b2: Array) -> Array:
-    """κ = a_rel/p* by Eq. 3.11; the arrays broadcast."""
-    return analytic.line_area(pressure, b1, b2) / pressure
+    return data[names].assign(kappa_fit=factor).to_dataframe(dim_order=order).reset_index()

@@ -18,27 +18,14 @@ from contactsim import analytic
 from contactsim.adhesion import LEGS
 from contactsim.build import elastic
 from contactsim.fields import inside
+from contactsim.figures import asperities, stress, style
 from contactsim.figures import load_curves as curves
-from contactsim.figures import stress, style
 from contactsim.grid import Array, Grid
 
-INDENTED, APPROACHING = 10.0, -5.0
-"""Approaches (nm) at which fields are kept."""
+APPROACHING = -5.0
+"""Approach (nm), before the contact is closed, at which fields are kept."""
 REFERENCE_WORK = 2.0
 """Work of separation, N/m, of the figures for which the thesis names one."""
-FRICTION = {0.0: "--", 0.1: "-.", 0.5: ":", 1.0: "-"}
-"""Line of a ratio of works."""
-FELT = 0.01
-"""Part of the largest load below which a curve is not worth showing."""
-COUPLING = {"coupled": "-", "uncoupled": "--"}
-
-
-def _friction(ratio: float) -> object:
-    return FRICTION.get(round(float(ratio), 6), (0, (1, 3)))
-
-
-def _ratio_words(ratio: float) -> str:
-    return rf"$\varphi_t/\varphi_n={float(ratio):g}$"
 
 
 def fig_4_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -46,7 +33,7 @@ def fig_4_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     rows = []
     for panel, work in zip(axes, (REFERENCE_WORK, 0.8), strict=True):
         parts = [data.sel(work_of_separation=work, work_ratio=ratio) for ratio in (0.0, 1.0)]
-        rows.append(_profiles(panel, parts, work).assign(work_of_separation=work))
+        rows.append(asperities.profiles(panel, parts, work).assign(work_of_separation=work))
         panel.set_title(rf"$\varphi_n={work:g}$ N/m", fontsize=9)
     style.letters(axes)
     return pd.concat(rows)
@@ -61,39 +48,10 @@ def fig_4_3(pulled: xr.Dataset, more: xr.Dataset, close: xr.Dataset, axes: list[
     }
     rows = []
     for panel, (words, parts) in zip(axes, cases.items(), strict=True):
-        rows.append(_profiles(panel, parts, REFERENCE_WORK).assign(case=words.replace("$", "")))
+        rows.append(asperities.profiles(panel, parts, REFERENCE_WORK).assign(case=words.replace("$", "")))
         panel.set_title(words, fontsize=9)
     style.letters(axes)
     return pd.concat(rows)
-
-
-def _profiles(panel: Axes, parts: list[xr.Dataset], work: float) -> pd.DataFrame:
-    """Normal traction over the strength across the contact, one curve a ratio of works."""
-    rows, widest = [], 0.0
-    for one in parts:
-        radius, ratio = curves.radius(one), float(one.work_ratio)
-        place, order = curves.centred(one)
-        here = one.isel(member=0).sel(snapshot=INDENTED, method="nearest", tolerance=style.SAME)
-        strength = float(one.strength.isel(member=0)) if "member" in one.strength.dims else float(one.strength)
-        traction = here.normal_traction.values[order] / strength
-        size = float(one.final_repulsive_length.isel(member=0))
-        words = rf"{_ratio_words(ratio)}, $l_{{\mathrm{{rep}}}}/R$ = {size / radius:.4f}"
-        color = style.CONTACT if ratio else style.WHOLE
-        panel.plot(place / radius, traction, color=color, ls=_friction(ratio), lw=1.1, label=words)
-        widest = max(widest, float(np.abs(place[np.abs(traction) > 0.01]).max()))
-        rows.append(
-            pd.DataFrame({"position": place, "normal_traction": traction * strength}).assign(
-                work_ratio=ratio, repulsive_length=size
-            )
-        )
-    panel.axhline(0.0, color=style.EXACT, lw=0.5)
-    panel.set(xlim=(-1.1 * widest / radius, 1.1 * widest / radius), xlabel=r"$x/R$")
-    panel.set_ylabel(r"$T_n/\sigma_{\max}$ (pull positive)")
-    low, high = panel.get_ylim()
-    panel.set_ylim(low, high + 0.28 * (high - low))
-    panel.legend(loc="upper center")
-    shown = pd.concat(rows)
-    return shown[np.abs(shown.position) <= 1.1 * widest].assign(strength=work / np.e)
 
 
 def fig_4_4(
@@ -114,7 +72,7 @@ def fig_4_4(
     ]
     rows = []
     for panel, words, parts, color, line in [*cases, reference, *others]:
-        sizes = _sizes(parts)
+        sizes = asperities.sizes(parts)
         look = {"color": color, "ls": line, "marker": "o", "ms": 3, "mfc": "white", "lw": 1.0, "elinewidth": 0.8}
         panel.errorbar(sizes.work_ratio, sizes.size_ratio, sizes.error, label=words, **look)
         if words != "reference":
@@ -135,19 +93,6 @@ def fig_4_4(
     return pd.concat(rows)
 
 
-def _sizes(parts: list[xr.Dataset]) -> pd.DataFrame:
-    """Contact size over the radius at each ratio of works, with its grid error, sorted."""
-    rows = []
-    for one in parts:
-        radius = curves.radius(one)
-        found = {"work_ratio": one.work_ratio.values}
-        found["size_ratio"] = one.final_repulsive_length.isel(member=0).values / radius
-        error = one.get("final_repulsive_length_grid_error")
-        found["error"] = np.full(one.work_ratio.size, np.nan) if error is None else error.values / radius
-        rows.append(pd.DataFrame(found))
-    return pd.concat(rows).sort_values("work_ratio", ignore_index=True)
-
-
 def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Load against approach by the coupled and the uncoupled law, frictionless (thesis Fig. 4.5)."""
     smooth = data.sel(work_ratio=0.0)
@@ -156,44 +101,25 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
     rows = []
     for work, color in works.items():
         pair = smooth.sel(work_of_separation=work), uncoupled.sel(work_of_separation=work, poisson_ratio=0.3)
-        rows += [_both_legs(axes[::2], pair, color, "a", work_of_separation=work, poisson_ratio=0.3)]
+        rows += [asperities.both_legs(axes[::2], pair, color, "a", work_of_separation=work, poisson_ratio=0.3)]
     for ratio, color in ratios.items():
         bodies = [one for one in (pulled, smooth.expand_dims(poisson_ratio=[0.3])) if ratio in one.poisson_ratio]
         with_friction = bodies[0].sel(poisson_ratio=ratio, work_of_separation=REFERENCE_WORK)
         if "work_ratio" in with_friction.dims:
             with_friction = with_friction.sel(work_ratio=0.0)
         pair = with_friction, uncoupled.sel(work_of_separation=REFERENCE_WORK, poisson_ratio=ratio)
-        rows += [_both_legs(axes[1::2], pair, color, "b", work_of_separation=REFERENCE_WORK, poisson_ratio=ratio)]
+        rows += [
+            asperities.both_legs(axes[1::2], pair, color, "b", work_of_separation=REFERENCE_WORK, poisson_ratio=ratio)
+        ]
     colours = {rf"$\varphi_n={work:g}$ N/m": color for work, color in works.items()}
-    axes[0].legend(handles=style.key(colours, COUPLING), loc="upper left")
+    axes[0].legend(handles=style.key(colours, asperities.COUPLING), loc="upper left")
     axes[1].legend(
-        handles=style.key({rf"$\nu={r:g}$": color for r, color in ratios.items()}, COUPLING), loc="upper left"
+        handles=style.key({rf"$\nu={r:g}$": color for r, color in ratios.items()}, asperities.COUPLING),
+        loc="upper left",
     )
     fixed = r"$\nu=0.3$", rf"$\varphi_n={REFERENCE_WORK:g}$ N/m"
-    _load_axes(axes, tuple(f"{leg}, {words}" for leg in LEGS for words in fixed))
+    asperities.load_axes(axes, tuple(f"{leg}, {words}" for leg in LEGS for words in fixed))
     return pd.concat(rows)
-
-
-def _both_legs(panels: list[Axes], pair: tuple, color: str, panel: str, **place: float) -> pd.DataFrame:
-    """Loading and unloading of the coupled and the uncoupled law."""
-    rows = []
-    for (name, line), one in zip(COUPLING.items(), pair, strict=True):
-        for leg, axes in zip(LEGS, panels, strict=True):
-            shown = curves.branch(axes, one.isel(member=0), leg, color=color, ls=line, lw=1.0)
-            rows.append(shown.assign(panel=panel, law=name, leg=leg, **place))
-    return pd.concat(rows)
-
-
-def _load_axes(axes: list[Axes], titles: tuple[str, ...]) -> None:
-    """Labels and titles of panels of load against approach, from where the surfaces first or last pull."""
-    for panel, title in zip(axes, titles, strict=True):
-        points = np.concatenate([line.get_xydata() for line in panel.lines])
-        felt = points[np.abs(points[:, 1]) > FELT * np.nanmax(np.abs(points[:, 1])), 0]
-        panel.set_xlim(felt.min() - 2.0, felt.max() + 1.0)
-        panel.axhline(0.0, color=style.EXACT, lw=0.5)
-        panel.set(xlabel=r"approach $\delta/\delta_n$", ylabel=curves.LOAD_LABEL)
-        panel.set_title(title, fontsize=9)
-    style.letters(axes)
 
 
 def fig_4_6(pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -228,12 +154,12 @@ def fig_4_7(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         one = data.sel(work_of_separation=REFERENCE_WORK, work_ratio=ratio).isel(member=0)
         for leg, panel in zip(LEGS, axes, strict=True):
             pull, at = (float(one[f"pull_off_{what}_{leg}"]) for what in ("load", "approach"))
-            words = f"{_ratio_words(ratio)}: pull-off {pull:.1f} N/m at {at:.2f} nm"
-            shown = curves.branch(panel, one, leg, color=color, ls=_friction(ratio), lw=1.1, label=words)
+            words = f"{asperities.ratio_words(ratio)}: pull-off {pull:.1f} N/m at {at:.2f} nm"
+            shown = curves.branch(panel, one, leg, color=color, ls=asperities.friction(ratio), lw=1.1, label=words)
             rows.append(shown.assign(work_ratio=ratio, leg=leg))
     for panel in axes:
         panel.legend(loc="upper left")
-    _load_axes(axes, LEGS)
+    asperities.load_axes(axes, LEGS)
     return pd.concat(rows)
 
 
@@ -251,7 +177,7 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
         body = pulled.sel(poisson_ratio=ratio).isel(member=0)
         for share, color in colours.items():
             one = body.sel(work_ratio=share)
-            rows.append(_pull_offs(panel, one, color).assign(poisson_ratio=ratio, work_ratio=share))
+            rows.append(asperities.pull_offs(panel, one, color).assign(poisson_ratio=ratio, work_ratio=share))
         modulus = curves.settings(pulled)["body"]["youngs_modulus"] / (1 - ratio**2)
         first = float(
             curves.normalised(body.pull_off_load_loading.isel(work_of_separation=0).sel(work_ratio=0.0), body)
@@ -279,30 +205,16 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
         for leg, fill in zip(LEGS, ("#777777", "white"), strict=True)
     ]
     lines = {words: line for words, (_, line) in limits.items()}
-    keys = style.key({_ratio_words(share): color for share, color in colours.items()}, lines)
+    keys = style.key({asperities.ratio_words(share): color for share, color in colours.items()}, lines)
     axes[0].legend(handles=[*keys, *marks], loc="upper left")
     style.letters(axes)
     return pd.concat(rows)
 
 
-def _pull_offs(panel: Axes, one: xr.Dataset, color: str) -> pd.DataFrame:
-    """Pull-off on loading and on unloading against work, with grid errors as bars."""
-    shown = pd.DataFrame({"work_of_separation": one.work_of_separation.values})
-    for leg, fill in zip(LEGS, (color, "white"), strict=True):
-        name = f"pull_off_load_{leg}"
-        shown[name] = one[name].values
-        error = one.get(f"{name}_grid_error")
-        shown[f"{name}_grid_error"] = np.nan if error is None else error.values
-        bars = curves.normalised(shown[f"{name}_grid_error"], one) if error is not None else None
-        look = {"color": color, "marker": "o", "ms": 4, "mfc": fill, "lw": 0.7 if fill == color else 0.0}
-        panel.errorbar(shown.work_of_separation, curves.normalised(shown[name], one), bars, elinewidth=0.8, **look)
-    return shown
-
-
 def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Stress in the layer under the contact at the largest approach, with friction (Section 2.2)."""
     one = data.sel(work_of_separation=REFERENCE_WORK, work_ratio=1.0).isel(member=0)
-    here = one.sel(snapshot=INDENTED, method="nearest", tolerance=style.SAME)
+    here = one.sel(snapshot=asperities.INDENTED, method="nearest", tolerance=style.SAME)
     body = elastic(curves.settings(one)["body"])
     grid = Grid((one.x.size,), (float(one.length),))
     shift = one.x.size // 2 - int(np.argmax(here.heights.values))

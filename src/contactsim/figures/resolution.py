@@ -15,6 +15,7 @@ from contactsim.figures import style
 QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
 FAINTEST = 0.35
 """Opacity of the smallest load."""
+CORNER = {"fontsize": 6.5, "ha": "right", "va": "top"}
 
 
 def per_wavelength(data: xr.Dataset) -> xr.Dataset:
@@ -125,6 +126,26 @@ def in_words(shown: pd.DataFrame, quantity: str, grid: str) -> str:
     if mine.order.notna().any():
         lines.append(f"order observed: {mine.order.min():.1f} to {mine.order.max():.1f}")
     return "\n".join(lines)
+
+
+def grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: dict[str, float]) -> pd.DataFrame:
+    """One panel a quantity, with the value of the thesis if any, and in words what a grid costs against finer ones."""
+    shown = table(data, finer)
+    middle = f"{float(per_wavelength(data).points[-2:][0]):g} points"
+    for panel, name, letter in zip(axes, QUANTITIES, "abc", strict=True):
+        draw(shown, name, panel)
+        if name in thesis:
+            panel.axhline(thesis[name], color=style.EXACT, lw=0.8, ls=(0, (6, 3)))
+        low, high = panel.get_ylim()
+        below = 0.35 if panel is axes[-1] else 0.0  # room for the legend
+        panel.set_ylim(low - below * (high - low), high + 0.4 * (high - low))
+        panel.text(0.97, 0.97, in_words(shown, name, middle), **CORNER, transform=panel.transAxes)
+        style.letter(panel, letter)
+    values = " and ".join(f"{value:.2f}" for value in thesis.values())
+    keys = style.key({}, {f"thesis, {values}": (0, (6, 3))})
+    loads = load_key(list(data.reduced_pressure.values))
+    axes[-1].legend(handles=style.hurst_key(data.hurst.values) + loads + keys, loc="lower right", ncols=2)
+    return shown
 
 
 def ratios(lines: xr.Dataset, surfaces: xr.Dataset) -> pd.DataFrame:

@@ -1,6 +1,8 @@
-"""Rough adhesive contacts: curves of means through every state of a path, and pictures of the interface."""
+"""Rough adhesive contacts: curves of means through every state of a path, and what cycles of it amount to."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -8,6 +10,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim import dataset
+from contactsim.adhesion import LEGS, legs
+from contactsim.ensemble import converged
 from contactsim.figures import style
 
 MEANS = (
@@ -25,6 +29,7 @@ LABELS = {
 }
 WALL = {"relative_interacting_area": "relative_contact_area", "normalised_pressure": "normalised_pressure"}
 """What a hard wall has in the place of a law's quantities."""
+WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
 
 
 def prepared(data: xr.Dataset) -> xr.Dataset:
@@ -73,26 +78,6 @@ def curve(axes: Axes, one: xr.Dataset, x: xr.DataArray, name: str, words: str, *
     return pd.DataFrame(shown | ({grid: one[grid]} if grid in one else {}))
 
 
-def interface(
-    axes: Axes, one: xr.Dataset, place: float, looks: dict[str, str], part: slice, filled: bool = True
-) -> pd.DataFrame:
-    """The rigid profile and the deformed surface of one member at a snapshot, over a part of the period.
-
-    filled: the profile grey; else a line in the colour of the surface alone, beside another that is grey.
-    """
-    here = one.isel(member=0).sel(snapshot=place, method="nearest", tolerance=style.SAME)
-    x = here.x.values[part]
-    down = float(here.approach_first_touch) + place
-    rigid = -here.heights.values[part] - down
-    surface = rigid - here.normal_gap.values[part]
-    if filled:
-        axes.fill_between(x, rigid, rigid.max() + 5.0, color="#cccccc", lw=0, zorder=0)
-    axes.margins(x=0)
-    axes.plot(x, rigid, color="#777777" if filled else looks["color"], lw=0.6, alpha=1.0 if filled else 0.5)
-    axes.plot(x, surface, lw=0.9, **looks)
-    return pd.DataFrame({"x": x, "rigid": rigid, "surface": surface})
-
-
 def work_words(data: xr.Dataset, work: float) -> str:
     """φn* = φn/(δn E) of a work of separation."""
     settings = dataset.settings_of(data)
@@ -109,3 +94,66 @@ def work(data: xr.Dataset) -> float:
 def works(data: xr.Dataset) -> dict[float, str]:
     """A colour for each work of separation."""
     return style.shades(np.atleast_1d(data.work_of_separation.values))
+
+
+def of_works(
+    panel: Axes, data: xr.Dataset, wall: xr.Dataset, across: Callable[[xr.Dataset], xr.DataArray], name: str
+) -> list[pd.DataFrame]:
+    """One curve a work of separation, and that of the hard wall; across: what is along x, of a part of the data."""
+    rows = []
+    for work, color in works(data).items():
+        one = data.sel(work_of_separation=work)
+        rows.append(curve(panel, one, across(one), name, work_words(data, work), color=color, lw=1.0))
+    return [*rows, curve(panel, wall, across(wall), name, "hard wall", **WALL_LOOK)]
+
+
+def cycles(data: xr.Dataset, names: dict[str, Axes]) -> list[pd.DataFrame]:
+    """Both legs of each rms height against the approach beyond first touch, of quantities in their panels."""
+    rows = []
+    for height, color in style.shades(data.surface_rms_height.values).items():
+        one = data.sel(surface_rms_height=height).isel(member=0)
+        indentation = (one.approach - one.approach_first_touch).values
+        shown = {"rms_height": height, "indentation": indentation}
+        for name, panel in names.items():
+            shown[name] = converged(one[name], one).values
+            for leg, part in zip(LEGS, legs(indentation), strict=True):
+                part = slice(max(part.start - 1, 0), part.stop)
+                words = rf"$h_{{\mathrm{{rms}}}}={height:g}$ nm" if leg == LEGS[0] else None
+                look = {"color": color, "lw": 1.0, "ls": "-" if leg == LEGS[0] else "--", "label": words}
+                panel.plot(indentation[part], shown[name][part], **look)
+            panel.set(xlabel=LABELS["indentation"], ylabel=LABELS[name])
+        rows.append(pd.DataFrame(shown))
+    return rows
+
+
+def against_height(
+    panel: Axes, data: xr.Dataset, name: str, scale: float, words: str, color: str, fill: str
+) -> dict[str, np.ndarray]:
+    """Mean over members against the rms height; bars: standard error and what the increments leave open, together."""
+    values, count = data[name], data[name].count("member")
+    spread = values.std("member", ddof=1) / np.sqrt(count)
+    error = np.hypot(spread, data[f"{name}_increment_error"].mean("member"))
+    look = {"fmt": "o-", "ms": 4, "mfc": fill, "color": color, "lw": 0.8, "elinewidth": 0.8, "capsize": 1.5}
+    mean = values.mean("member")
+    panel.errorbar(data.surface_rms_height.values, scale * mean.values, scale * error.values, label=words, **look)
+    return {f"{name}_mean": mean.values, f"{name}_error": error.values, f"{name}_members": count.values}
+
+
+def against_pressure(panel: Axes, one: xr.Dataset, words: str, **look: object) -> pd.DataFrame:
+    """Relative area against pressure."""
+    return curve(panel, one, one.normalised_pressure_mean, "relative_interacting_area", words, lw=1.0, **look)
+
+
+def pressures(panel: Axes) -> None:
+    """Area against pressure, as far as the contact is not yet whole."""
+    panel.set(xlabel=LABELS["normalised_pressure"], ylabel=LABELS["relative_interacting_area"])
+    panel.set(xlim=reached(panel, -0.006, 0.03), ylim=(0, 1.02))
+    panel.legend(loc="best", fontsize=6.5)
+
+
+def reached(panel: Axes, least: float, most: float) -> tuple[float, float]:
+    """The part of a range of pressures that curves reach, with a margin."""
+    drawn = np.concatenate([np.asarray(line.get_xdata(), float) for line in panel.lines])
+    drawn = drawn[np.isfinite(drawn) & (drawn > least) & (drawn < most)]
+    margin = 0.06 * np.ptp(drawn)
+    return max(drawn.min() - margin, least), min(drawn.max() + margin, most)

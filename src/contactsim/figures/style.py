@@ -13,7 +13,7 @@ from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
-from contactsim.dataset import SUFFIXES
+from contactsim.variables import SUFFIXES
 
 HURST = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
 WHOLE, CONTACT, PAIRS = "#c1272d", "#1f4e9c", "#2a9d6f"

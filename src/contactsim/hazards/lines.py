@@ -9,7 +9,7 @@ import numpy as np
 from contactsim import analytic
 from contactsim.grid import Array
 from contactsim.hazards.cases import Case, alone, level, made
-from contactsim.surface import SelfAffine, generator
+from contactsim.self_affine import SelfAffine, generator
 
 POINTS = 1024
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from contactsim.grid import Array
 from contactsim.hazards.cases import Case, alone, complete, level, made, on_top
-from contactsim.surface import SelfAffine, generator
+from contactsim.self_affine import SelfAffine, generator
 
 SIDE = 64
 
