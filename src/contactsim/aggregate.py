@@ -20,6 +20,7 @@ from contactsim.fits import fits
 from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
 from contactsim.onset import ONSET, THRESHOLD, slid
+from contactsim.schema import LOADS
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""
@@ -50,7 +51,6 @@ ROUND = {
     True: ("contact_radius_exact", analytic.sphere_rms_gradient),
 }
 """Size of the contact of a cylinder, or of a sphere, and the exact gradient in it."""
-LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 
 
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
