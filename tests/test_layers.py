@@ -10,7 +10,7 @@ import pytest
 from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
-standby errors traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws
+standby errors files traits grid roughness scans measured topography surface plane_strain symbols elasticity fields laws
 superposition pairing loading scene wall interface solvers.base solvers solvers.active_set solvers.polonsky_keer
 solvers.verlet solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
 solvers.equilibrium solvers.krylov solvers.zone solvers.newton solvers.damped_verlet

@@ -3,8 +3,8 @@
 import pandas as pd
 
 from contactsim.calibration import as_text
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 
 logged(snakemake.log[0])
 write_text(as_text(pd.concat(map(pd.read_csv, snakemake.input.tables))), snakemake.output[0])

@@ -16,7 +16,8 @@ from matplotlib.lines import Line2D
 from contactsim import cost, dataset, precision
 from contactsim.ensemble import converged
 from contactsim.figures import knobs, style
-from contactsim.figures.render import framed, move, save
+from contactsim.figures.render import framed, save
+from contactsim.files import write_atomically
 from contactsim.forecast import transform_seconds
 from contactsim.precision import ROUNDING
 
@@ -55,7 +56,7 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     equal = precision.compared(table, quantity, settings["levels"], COSTS)
     draw(table, equal, data[plan["default"]], np.reshape(panels, (2, columns)), plan)
     save(figure, table, targets)
-    move(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
+    write_atomically(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
 
 
 def foreseen(table: pd.DataFrame, expected: list) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from contactsim import dataset, ensemble
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, verdicts
 from contactsim.figures import style
-from contactsim.figures.render import LINE_INCHES, move
+from contactsim.figures.render import LINE_INCHES, save
 from contactsim.takes import LIMIT
 
 COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
@@ -130,9 +130,7 @@ def render_claims(plan: Mapping, paths: Mapping[str, str], targets: Mapping[str,
     rows = verdicts(dict(plan["claims"]), data)
     number = plan["chapter"].removeprefix("ch")
     figure = drawn(rows, f"Chapter {number}: what it states, and what was found", made_text(data))
-    move(targets["csv"], lambda path: rows.to_csv(path, index=False))
-    move(targets["png"], figure.savefig)
-    move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    save(figure, rows, targets)
 
 
 def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:

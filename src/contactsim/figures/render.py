@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
@@ -18,6 +17,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset, ensemble, validity
 from contactsim.figures import style
+from contactsim.files import write_atomically
 from contactsim.tabulate import tabulated
 
 LINE_INCHES = 0.125
@@ -57,7 +57,7 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     shown = draw(*shown_data, panels, **settings["reference"])
     save(figure, shown, targets)
     if settings["film"] is not None:
-        move(targets["gif"], lambda path: film(figure, panels, draw, shown_data[0], settings["film"], path))
+        write_atomically(targets["gif"], lambda path: film(figure, panels, draw, shown_data[0], settings["film"], path))
 
 
 def film(
@@ -138,13 +138,6 @@ def _unit(values: xr.DataArray) -> str:
 
 def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:
     """Save a figure as PNG and PDF, and the numbers that it shows as CSV."""
-    move(targets["png"], figure.savefig)
-    move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
-    move(targets["csv"], lambda path: shown.to_csv(path, index=False))
-
-
-def move(path: str, save: Callable[[Path], object]) -> None:
-    """Save under a temporary name, with the same ending, and move it into place."""
-    temporary = Path(path).with_name(f".{os.getpid()}.{Path(path).name}")
-    save(temporary)
-    os.replace(temporary, path)
+    write_atomically(targets["png"], figure.savefig)
+    write_atomically(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    write_atomically(targets["csv"], lambda path: shown.to_csv(path, index=False))
