@@ -20,7 +20,7 @@ from contactsim.fits import fits
 from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
 from contactsim.onset import ONSET, THRESHOLD, slid
-from contactsim.schema import LOADS
+from contactsim.schema import COMPANIONS, LOADS
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""
@@ -132,7 +132,7 @@ def of_states(data: xr.Dataset) -> xr.Dataset:
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
     """What errors are measured by, as far as there is such: suffix and dataset."""
-    for error in ("grid", "tolerance", "left_out"):
+    for _, error, _ in COMPANIONS.values():
         others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
         if others:
             yield f"_{error}_error", _read(others)

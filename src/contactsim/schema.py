@@ -165,7 +165,8 @@ COMPANIONS = {
     ),
     "whole": ("leave_out", "left_out", FEWER),
 }
-"""Sections that ask for runs that measure an error: the key in which they differ, what they measure, and their keys."""
+"""Sections that ask for runs that measure an error: the key in which they differ, the kind of error, of
+`dataset.ERRORS`, and their keys."""
 
 
 def acting(settings: dict, file: object, prefix: str) -> dict:

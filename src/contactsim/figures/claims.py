@@ -177,7 +177,8 @@ def compared(measure: str) -> str:
 
 def symbol(name: str) -> str:
     """A name of the config in symbols; other words as they are."""
-    for suffix, words in (("_grid_error", "grid error of "), (LIMIT, "limit of ")):
+    errors = {f"_{kind}_error": f"{kind.replace('_', ' ')} error of " for kind in dataset.ERRORS}
+    for suffix, words in (errors | {LIMIT: "limit of "}).items():
         if name.endswith(suffix):
             return words + symbol(name.removesuffix(suffix))
     return SYMBOLS.get(name, name)

@@ -120,7 +120,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
 def errors_told(data: xr.Dataset) -> list[str]:
     """The largest errors of the quantities that are told, a line a kind of error."""
     priced, told = PRICED_SLIDES if "static_friction" in data else PRICED, []
-    for error in ("grid", "increment", "tolerance", "left_out", "estimated"):
+    for error in dataset.ERRORS:
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
             for name, words in priced.items()
