@@ -36,7 +36,7 @@ AVERAGED = (
     "reduced_pressure_contact",
     "mean_gap",
 )
-ALONG_PATHS = (
+AVERAGED_STATES = (
     "mean_pressure",
     "normalised_pressure",
     "relative_repulsive_area",
@@ -45,7 +45,7 @@ ALONG_PATHS = (
     "gradient_ratio_interacting",
     "mean_gap",
 )
-"""What is averaged over members state by state."""
+"""What is averaged over members state by state, of paths with smooth laws."""
 ROUND = {
     False: ("half_width_exact", analytic.cylinder_rms_gradient),
     True: ("contact_radius_exact", analytic.sphere_rms_gradient),
@@ -101,7 +101,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
     smooth = "line_load" in fine  # else a hard wall pressed through given approaches
-    made, names = (of_states, ALONG_PATHS) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
+    made, names = (of_states, AVERAGED_STATES) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
     data = made(fine)
     if data.member.size > 1:
         data = data.merge(_ensemble(data, names))

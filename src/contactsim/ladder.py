@@ -15,7 +15,8 @@ from contactsim import dataset
 from contactsim.build import points_of, scene_of
 from contactsim.config import Key, load_yaml, mapping, overlaid, read, size, text, whole
 from contactsim.errors import SceneError
-from contactsim.march import chosen, simulate
+from contactsim.march import asked_of as chosen
+from contactsim.march import simulate
 from contactsim.provenance import digest, source_digest
 from contactsim.scene import Scene
 from contactsim.solvers import module_of, solver

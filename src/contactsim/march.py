@@ -102,7 +102,7 @@ def run(
         method=solver(**settings["solver"]),
         threads=threads,
         known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
-        **chosen(settings),
+        **asked_of(settings),
     )
     keep(data.assign(told or {}), settings, names, source, (target, costs), begin)
 
@@ -137,7 +137,7 @@ def _alone(settings: dict) -> dict:
     return settings | {"load": settings["load"]["name"]} if "values" in settings["load"] else settings
 
 
-def chosen(settings: dict) -> dict:
+def asked_of(settings: dict) -> dict:
     """What a run's simulation is asked for, beside its grid and tolerance: fields to keep, or how a path is walked."""
     return options(settings) if "increments" in settings else {"keep": settings["keep"]}
 

@@ -208,7 +208,7 @@ def made_text(data: Mapping[str, xr.Dataset]) -> str:
     settings = {study: dataset.settings_of(one) for study, one in data.items()}
     parts = [f"{tier} tier" for tier in sorted({one["tier"] for one in settings.values()})]
     for study, one in data.items():
-        lost, total = ensemble.left_out(one)
+        lost, total = ensemble.unconverged(one)
         members = f"{one.member.size} members" if one.member.size > 1 else "1 member"
         points = style.points_text(settings[study], *one.points.values.ravel())
         parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")

@@ -103,7 +103,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     """Tier, grid, members, and of the loads shown unconverged solutions and largest errors; the study's time."""
     settings = dataset.settings_of(data)
-    lost, total = ensemble.left_out(data)
+    lost, total = ensemble.unconverged(data)
     members = data.member.size
     parts = [
         f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",
