@@ -22,7 +22,8 @@ negligible costs joblog outlook takes findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
 verdicts wall_verdicts path_verdicts stability plan ladder compare crate bundle explain priced cost precision draws
 calibration trials budget
-figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
+figures figures.notation figures.style figures.maps figures.resolution figures.stress figures.load_curves
+figures.rough_curves
 figures.ch2 figures.ch3 figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render
 figures.claims figures.knobs
 figures.accuracy figures.sketch

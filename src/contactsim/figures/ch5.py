@@ -17,8 +17,8 @@ from matplotlib.ticker import MaxNLocator
 
 from contactsim.adhesion import CRITERION, INTERACTING, LEGS, legs
 from contactsim.ensemble import converged, relative_change
+from contactsim.figures import notation, style
 from contactsim.figures import rough_curves as rough
-from contactsim.figures import style
 
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_bond", "reduced_pressure_contact")
 LINES = ("-", ":", "-.", "--")
@@ -387,7 +387,7 @@ def _frame(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     bodies = {f"$h={_power(value)}$ nm": _line(data, value) for value in data.thickness.values}
     keys = style.key(colours, bodies | {f"thesis, {kappa_r:g}": (0, (6, 3))})
     area.legend(handles=keys + style.poisson_key(data.poisson_ratio.values), loc="upper left")
-    change.legend(handles=_shades({style.SYMBOLS[name]: alpha for name, alpha in SHADES.items()}), loc="lower right")
+    change.legend(handles=_shades({notation.SYMBOLS[name]: alpha for name, alpha in SHADES.items()}), loc="lower right")
     factor.legend(handles=_shades({"Eq. 3.8": 1.0, "pairs in contact": FAINT}), loc="upper right")
     last.legend(handles=_shades({"Eq. 3.8": 1.0, "pairs in contact": FAINT}), loc="lower left")
 

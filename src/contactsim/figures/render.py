@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset, ensemble, validity
 from contactsim.figures import style
+from contactsim.figures.notation import READ, SYMBOLS
 from contactsim.files import write_atomically
 from contactsim.tabulate import tabulated
 
@@ -24,16 +25,13 @@ LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
 FILM_DPI, CLOSE = 110, 1e-6
 """Of a film's frames; of a slide, nm: what is nearer counts as the same."""
-PRICED = {
-    "kappa": "κ",
-    "kappa_r": "κᵣ",
-    "kappa_r_bond": "κᵣ of pairs",
+PRICED = {name: READ[name] for name in ("kappa", "kappa_r", "kappa_r_bond")} | {
     "final_repulsive_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
     "pull_off_load_unloading": "on unloading",
 }
 """Quantities whose errors a footer tells, and how."""
-PRICED_SLIDES = {"static_friction": "static friction", "first_drop": "first drop", "reattached": "reattached part"}
+PRICED_SLIDES = {name: SYMBOLS[name] for name in ("static_friction", "first_drop", "reattached")}
 """The same of slides."""
 
 
