@@ -64,12 +64,12 @@ READ = {
     SLIDE: (*MEASURES[SLIDE], "onset_repulsive_length"),
 }
 """Quantities whose errors relations are known of."""
-ROUGH = ("hurst", "octaves", "rough")
+ROUGH = ("hurst", "bandwidth", "rough")
 ERROR_FEATURES = {
     LINE: ("one", "grid", "pressure", *ROUGH),
     SURFACE: ("one", "grid", "pressure", *ROUGH),
     PATH: ("one", "grid", "zone", "friction"),
-    ROUGH_PATH: ("one", "grid", "hurst", "octaves", "strength"),
+    ROUGH_PATH: ("one", "grid", "hurst", "bandwidth", "strength"),
     SLIDE: ("one", "grid", "zone"),
 }
 WORK_FEATURES = {
@@ -83,7 +83,7 @@ WORK_FEATURES = {
         "grid",
         "deep",
         "hurst",
-        "octaves",
+        "bandwidth",
         "coupled",
         "friction",
         "tight",
