@@ -17,7 +17,7 @@ from contactsim import aggregate, costs, dataset
 from contactsim.build import scene_of
 from contactsim.figures.claims import render_claims
 from contactsim.figures.render import render
-from contactsim.march import write_text
+from contactsim.files import write_text
 from contactsim.negligible import decide, run
 from contactsim.plan import Plan
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from contactsim import dataset, precision
 from contactsim.adhesion import SUMMARY
 from contactsim.aggregate import AVERAGED
-from contactsim.figures import accuracy, knobs, style
+from contactsim.figures import accuracy, knobs, notation, style
 from contactsim.figures.render import framed
 from prices import LOADS, PATH_REFERENCE, REFERENCE, job, path_job, path_study, study
 
@@ -347,7 +347,7 @@ def test_entries_are_put_on_as_many_lines_as_they_need():
 
 
 def test_everything_that_can_be_priced_has_a_symbol():
-    assert {*AVERAGED, *SUMMARY} <= {*style.SYMBOLS}
+    assert {*AVERAGED, *SUMMARY} <= {*notation.SYMBOLS}
 
 
 def test_proportionality_is_shown_by_the_definitions_that_were_measured():
@@ -356,7 +356,7 @@ def test_proportionality_is_shown_by_the_definitions_that_were_measured():
         panel = drawn(jobs)[0][0, -1]
         assert [text.get_text() for text in panel.get_legend().get_texts()] == names
         assert panel.lines[0].get_ydata().tolist() == pytest.approx([2.2, 2.1, 2.05])
-        assert panel.get_ylabel() == style.SYMBOLS["kappa_r"]
+        assert panel.get_ylabel() == notation.SYMBOLS["kappa_r"]
 
 
 def test_solvers_have_the_names_of_the_literature():

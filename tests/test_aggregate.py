@@ -9,7 +9,7 @@ from scipy.stats import t as student
 
 from contactsim import aggregate, analytic, dataset
 from contactsim.aggregate import AVERAGED, load_name
-from contactsim.ensemble import departure, left_out, relative_change
+from contactsim.ensemble import departure, relative_change, unconverged
 from contactsim.errors import SceneError
 from contactsim.fits import WEIGHTINGS, fit_line_area, fits
 from contactsim.solvers.base import Status
@@ -168,7 +168,7 @@ def test_every_averaged_quantity_has_mean_error_and_grid_error(runs):
 
 def test_unconverged_solutions_are_left_out_of_means_and_errors_and_counted(runs):
     data = made(runs(bad={(0.2, 1, False, 0): BUDGET, (0.8, 2, False, 2): NON_FINITE}))
-    assert left_out(data) == (2, 24)
+    assert unconverged(data) == (2, 24)
     for hurst, row, members in ((0.2, 0, [0, 2, 3]), (0.8, 2, [0, 1, 3]), (0.2, 1, range(4))):
         values = by_hand("mean_gap", hurst, row, members)
         here = data.sel(hurst=hurst).isel(reduced_pressure=row)
@@ -222,7 +222,7 @@ def test_a_member_unconverged_on_either_grid_is_left_out_of_the_grid_error(runs)
     expected = abs(by_hand("mean_gap", 0.2, 0, [1]) - by_hand("mean_gap", 0.2, 0, [1], True)).item()
     found = data.mean_gap_grid_error.sel(hurst=0.2).isel(reduced_pressure=0).item()
     assert found == pytest.approx(expected, rel=1e-12)
-    assert left_out(data) == (1, 24)  # of the study's own solutions
+    assert unconverged(data) == (1, 24)  # of the study's own solutions
 
 
 def test_without_a_companion_there_is_no_grid_error(runs):

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import re
 import time
 from pathlib import Path
@@ -177,7 +178,7 @@ def test_a_failure_leaves_the_old_file_and_no_other(data, tmp_path, monkeypatch,
         Path(target_or_path if failing == "to_netcdf" else self_or_source).write_bytes(b"half a file")
         raise OSError("disk full")
 
-    monkeypatch.setattr(*((xr.Dataset, "to_netcdf") if failing == "to_netcdf" else (dataset.os, "replace")), fail)
+    monkeypatch.setattr(*((xr.Dataset, "to_netcdf") if failing == "to_netcdf" else (os, "replace")), fail)
     with pytest.raises(OSError, match="disk full"):
         dataset.write(data.assign(length=1.0), path)
     assert [file.name for file in tmp_path.iterdir()] == ["data.nc"]

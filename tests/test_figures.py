@@ -9,7 +9,7 @@ from conftest import ROOT
 from contactsim import dataset
 from contactsim.cost import PRICED
 from contactsim.elasticity import HalfSpace
-from contactsim.figures import ch3, ch5, claims, render, sketch, style
+from contactsim.figures import ch3, ch5, claims, notation, render, sketch, style
 from contactsim.laws import HardWall
 from contactsim.loading import press
 from contactsim.plan import Plan
@@ -254,7 +254,7 @@ def test_every_quantity_dimension_and_take_of_a_claim_has_words_to_read():
 
 
 def test_every_quantity_that_can_be_priced_has_a_symbol():
-    assert [name for name in PRICED if name not in style.SYMBOLS] == []
+    assert [name for name in PRICED if name not in notation.SYMBOLS] == []
 
 
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):

@@ -10,7 +10,7 @@ import pytest
 from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ORDER = """
-standby errors traits grid roughness surface self_affine scans measured topography surfaces
+standby errors files traits grid roughness surface self_affine scans measured topography surfaces
 plane_strain symbols elasticity fields laws superposition pairing loading scene wall interface
 solvers.base solvers solvers.continuation solvers.active_set solvers.polonsky_keer
 solvers.verlet solvers.tamaas solvers.kernels solvers.refinement solvers.preconditioner solvers.conjugate_gradients
@@ -23,9 +23,9 @@ negligible costs joblog outlook takes effect_survey findings claims api
 hazards.cases hazards.lines hazards.surfaces hazards.paths hazards.adhesive hazards.rough hazards.sliding hazards
 verdicts wall_verdicts path_verdicts stability figure_config plan ladder compare crate bundle explain
 priced accuracy_case cost precision draws calibration regression trials budget
-figures figures.style figures.maps figures.resolution figures.stress figures.load_curves figures.rough_curves
-figures.interfaces figures.thicknesses figures.factors figures.asperities figures.ch2 figures.ch3 figures.ch4
-figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render figures.claims figures.knobs
+figures figures.notation figures.style figures.maps figures.resolution figures.stress figures.load_curves
+figures.rough_curves figures.interfaces figures.thicknesses figures.factors figures.asperities figures.ch2 figures.ch3
+figures.ch4 figures.ch5 figures.slide_curves figures.ch6 figures.stability figures.render figures.claims figures.knobs
 figures.accuracy figures.sketch
 figures.effects figures.trials figures.effect_maps figures.overview gallery rulegraph report cli
 """.split()

@@ -355,20 +355,6 @@ def test_a_failure_on_the_way_leaves_the_old_files_and_no_others(place, monkeypa
     assert sorted(files.data.parent.iterdir()) == sorted([files.data, files.costs])
 
 
-def test_a_text_that_cannot_be_moved_into_place_leaves_the_old_one_and_no_other(tmp_path, monkeypatch):
-    path = tmp_path / "folder" / "costs.json"
-    march.write_text("old κ", path)
-
-    def fail(*paths):
-        raise OSError("disk full")
-
-    monkeypatch.setattr(march.os, "replace", fail)
-    with pytest.raises(OSError, match="disk full"):
-        march.write_text("new", path)
-    assert path.read_text(encoding="utf-8") == "old κ"
-    assert list(path.parent.iterdir()) == [path]
-
-
 def step_lines(caplog):
     return [record.getMessage() for record in caplog.records if record.levelno == logging.INFO]
 

@@ -277,11 +277,11 @@ def test_edges_lie_between_nodes_and_wrap_around():
         gap = away**2 - 5.3**2
         shape = away**2
         middle = away[np.argmin(shape)]
-        trailing, leading = sliding.contact_edges(gap, shape, 1.0)
+        trailing, leading = sliding.contact_ends(gap, shape, 1.0)
         assert trailing == pytest.approx(-5.3 - middle, abs=0.05)
         assert leading == pytest.approx(5.3 - middle, abs=0.05)
-    assert np.isnan(sliding.contact_edges(x + 1.0, x, 1.0)).all()
-    assert sliding.contact_edges(x - 100.0, x, 1.0) == (-32.5, 31.5)
+    assert np.isnan(sliding.contact_ends(x + 1.0, x, 1.0)).all()
+    assert sliding.contact_ends(x - 100.0, x, 1.0) == (-32.5, 31.5)
 
 
 def line(slid: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01) -> onset.Slide:

@@ -21,6 +21,7 @@ from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
 from contactsim.onset import slid
 from contactsim.peeling import ONSET, THRESHOLD
+from contactsim.schema import COMPANIONS, LOADS
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""
@@ -36,7 +37,7 @@ AVERAGED = (
     "reduced_pressure_contact",
     "mean_gap",
 )
-ALONG_PATHS = (
+AVERAGED_STATES = (
     "mean_pressure",
     "normalised_pressure",
     "relative_repulsive_area",
@@ -45,13 +46,12 @@ ALONG_PATHS = (
     "gradient_ratio_interacting",
     "mean_gap",
 )
-"""What is averaged over members state by state."""
+"""What is averaged over members state by state, of paths with smooth laws."""
 ROUND = {
     False: ("half_width_exact", analytic.cylinder_rms_gradient),
     True: ("contact_radius_exact", analytic.sphere_rms_gradient),
 }
 """Size of the contact of a cylinder, or of a sphere, and the exact gradient in it."""
-LOADS = ("reduced_pressure", "mean_pressure", "contact_ratio")
 
 
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
@@ -102,7 +102,7 @@ def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
     smooth = "line_load" in fine  # else a hard wall pressed through given approaches
-    made, names = (of_states, ALONG_PATHS) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
+    made, names = (of_states, AVERAGED_STATES) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
     data = made(fine)
     if data.member.size > 1:
         data = data.merge(_ensemble(data, names))
@@ -133,7 +133,7 @@ def of_states(data: xr.Dataset) -> xr.Dataset:
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
     """What errors are measured by, as far as there is such: suffix and dataset."""
-    for error in ("grid", "tolerance", "left_out"):
+    for _, error, _ in COMPANIONS.values():
         others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
         if others:
             yield f"_{error}_error", _read(others)

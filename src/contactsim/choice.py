@@ -56,6 +56,8 @@ FLAT = 0.3
 """Powers of a knob below it count as none."""
 LONGEST = 2.0
 """Longest increment of a path, in the laws' length."""
+PRESSING = 0.5
+"""Least increment, nm, of the path that presses before a slide: that of the slides that were measured, see `draws`."""
 WAVES = 2.5
 """Least points for each shortest wavelength."""
 
@@ -201,7 +203,7 @@ def _paced(settings: dict, scene: Scene, known: Kind, names: Sequence[str], erro
 
 def _pressed(settings: dict, increment: float) -> dict:
     """The path that presses before a slide, in increments of its own, as nothing is read off it."""
-    return {"load": settings["load"] | {"increment": max(increment, 0.5)}} if settings.get("slide") else {}
+    return {"load": settings["load"] | {"increment": max(increment, PRESSING)}} if settings.get("slide") else {}
 
 
 def walked(scene: Scene, kind: str, points: int, settings: dict) -> dict:

@@ -19,14 +19,14 @@ import xarray as xr
 from contactsim import budget, dataset
 from contactsim.aggregate import combined, derived, of_states
 from contactsim.build import increments_of, points_of, scene_of
-from contactsim.choice import chosen as chosen_for
+from contactsim.choice import chosen
 from contactsim.compare import compared, is_within, summary
 from contactsim.config import load_yaml, whole
 from contactsim.confirm import reach
 from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.forecast import expectation, forecast_of
-from contactsim.march import chosen, labelled, simulate
+from contactsim.march import asked_of, labelled, simulate
 from contactsim.negligible import without
 from contactsim.plan import Plan
 from contactsim.scene import Scene
@@ -160,7 +160,7 @@ def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     scene, method = scene_of(settings), solver(**settings["solver"])
     points = points_of(settings, scene.upper.surface)
     given = {"tolerance": settings["tolerance"], "method": method, "threads": threads}
-    return simulate(scene, points=points, **given, **chosen(settings)), settings
+    return simulate(scene, points=points, **given, **asked_of(settings)), settings
 
 
 def cost_scene(options: argparse.Namespace) -> None:
@@ -175,7 +175,7 @@ def cost_scene(options: argparse.Namespace) -> None:
     try:
         if options.accuracy is not None:
             asked = {"of": []} | (study.settings["accuracy"] or {}) | {"error": options.accuracy}
-            runs = [chosen_for(settings, **asked) | {"accuracy": asked} for settings in runs]
+            runs = [chosen(settings, **asked) | {"accuracy": asked} for settings in runs]
         sys.stdout.write(expectation(runs, [forecast_of(settings) for settings in runs]))
     except SceneError as error:
         raise error.within(study.file) from error

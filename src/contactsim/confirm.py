@@ -24,8 +24,7 @@ from contactsim.aggregate import combined, of_states
 from contactsim.build import scene_of
 from contactsim.choice import SAFETY, chosen, coarser, left_open, on_grid, on_points, rescaled
 from contactsim.grid import Array
-from contactsim.march import chosen as asked_of
-from contactsim.march import keep, names_of, simulate
+from contactsim.march import asked_of, keep, names_of, simulate
 from contactsim.relations import MEASURES, ORDERS, SECOND, Kind, kind_of, relations
 from contactsim.schema import is_smooth
 from contactsim.solvers import solver
@@ -110,10 +109,10 @@ def outcome(settings: dict, names: Sequence[str], threads: int = 1, begun: Outco
 
 
 def difference(one: Outcome, two: Outcome, name: str) -> Array:
-    """Relative change of a quantity from one solution to another, by load or of the path.
+    """Size of the change of a quantity from one solution to another, over the first's: of each load, or of the path.
 
-    None where neither has it, as a path without a pull-off; infinite where one lacks it, or where a state of either has
-    not converged.
+    Zero where both are equal or neither has it, as a path without a pull-off; infinite where one alone has it, where
+    only the first is zero, and everywhere if a state of either has not converged.
     """
     if not (one.solved and two.solved):
         return np.full(one.values[name].shape, np.inf)

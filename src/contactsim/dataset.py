@@ -7,7 +7,6 @@ appears under its name only when it is complete.
 from __future__ import annotations
 
 import json
-import os
 import re
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.errors import SceneError
+from contactsim.files import write_atomically
 from contactsim.provenance import canonical, versions
 from contactsim.solvers.base import Status
 from contactsim.validity import FLAGS
@@ -111,20 +111,14 @@ def stamped(data: xr.Dataset, title: str, settings: object, source: str) -> xr.D
 
 def write(data: xr.Dataset, path: str | Path) -> None:
     """Write a dataset, large arrays compressed, in one move: a reader sees the old file or the new one."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     encoding = {}
     for name, item in data.variables.items():
         if item.dtype.kind in "fiu":
             encoding[name] = {"_FillValue": None, "fletcher32": item.ndim > 0}  # checksums: damage is an error
             if item.nbytes > 1 << 14:
                 encoding[name] |= {"zlib": True, "complevel": 1}
-    try:
-        data.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    kind = {"engine": "netcdf4", "format": "NETCDF4", "encoding": encoding}
+    write_atomically(path, lambda file: data.to_netcdf(file, **kind))
 
 
 def read(path: str | Path) -> xr.Dataset:

@@ -23,7 +23,7 @@ KEYS = {
     "kinds": Key(mapping, f"a mapping from some of {', '.join(KINDS)} to ranges"),
 }
 RANGE = Key(pair, "a pair of numbers, the least and the largest")
-ROUGH = dict.fromkeys(("hurst", "octaves"), RANGE)
+ROUGH = dict.fromkeys(("hurst", "bandwidth"), RANGE)
 LAW = dict.fromkeys(("work_of_separation", "poisson_ratio", "work_ratio", "approach"), RANGE)
 WALL = ROUGH | {
     "round": Key(positive, "share of cylinders or spheres"),
@@ -86,7 +86,7 @@ def _self_affine(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
         "length": length,
         "rolloff_wavelength": rolloff,
     }
-    return found | {"shortest_wavelength": rolloff / _within(rng, ranges["octaves"]), "amplitudes": "gaussian"}
+    return found | {"shortest_wavelength": rolloff / _within(rng, ranges["bandwidth"]), "amplitudes": "gaussian"}
 
 
 def _wall(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:

@@ -24,7 +24,7 @@ def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
     return values.where(solved(data.status))
 
 
-def left_out(data: xr.Dataset) -> tuple[int, int]:
+def unconverged(data: xr.Dataset) -> tuple[int, int]:
     """How many solutions did not converge, and how many there are; paths of a study need not be equally long."""
     exist = data.status.notnull()
     return int((exist & ~solved(data.status)).sum()), int(exist.sum())

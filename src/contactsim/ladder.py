@@ -15,7 +15,7 @@ from contactsim import dataset
 from contactsim.build import points_of, scene_of
 from contactsim.config import Key, mapping, overlaid, read, size, text, tiered, whole
 from contactsim.errors import SceneError
-from contactsim.march import chosen, simulate
+from contactsim.march import asked_of, simulate
 from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.scene import Scene
 from contactsim.solvers import module_of, solver
@@ -100,7 +100,7 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
 def _options(run: dict) -> dict:
     """How a run is simulated."""
     common = {"points": points_of(run, scene_of(run).upper.surface), "tolerance": run["tolerance"]}
-    return common | {"method": solver(**run["solver"])} | chosen(run)
+    return common | {"method": solver(**run["solver"])} | asked_of(run)
 
 
 def _unknowns(scene: Scene, points: int) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import os
 import resource
 import sys
 import time
@@ -21,6 +20,7 @@ from contactsim import dataset
 from contactsim.branch import options, simulate_path
 from contactsim.build import points_of, scene_of
 from contactsim.errors import SceneError
+from contactsim.files import write_text
 from contactsim.loads import earlier, simulate_loads
 from contactsim.provenance import digest
 from contactsim.scene import Scene
@@ -102,7 +102,7 @@ def run(
         method=solver(**settings["solver"]),
         threads=threads,
         known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
-        **chosen(settings),
+        **asked_of(settings),
     )
     keep(data.assign(told or {}), settings, names, source, (target, costs), begin)
 
@@ -137,7 +137,7 @@ def _alone(settings: dict) -> dict:
     return settings | {"load": settings["load"]["name"]} if "values" in settings["load"] else settings
 
 
-def chosen(settings: dict) -> dict:
+def asked_of(settings: dict) -> dict:
     """What a run's simulation is asked for, beside its grid and tolerance: fields to keep, or how a path is walked."""
     return options(settings) if "increments" in settings else {"keep": settings["keep"]}
 
@@ -152,15 +152,3 @@ def labelled(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
     load, values = settings["load"]["name"], _places(settings)
     data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
     return dataset.described(data.assign(seed=settings["seed"], point=(load, np.array(names, object))))
-
-
-def write_text(text: str, path: str | Path) -> None:
-    """Write a small text file in one move."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import netCDF4
 import numpy as np
-from numpy.typing import ArrayLike
 
 from contactsim import scans
 from contactsim.errors import SceneError
@@ -115,25 +114,16 @@ PERIODIC: Kinds = {
 }
 
 
-def detrend(heights: ArrayLike, kind: str) -> Array:
-    """Return heights (n,), in any unit, less their least-squares fit of a kind in `DETREND`; SceneError else."""
-    return scans.applied(DETREND, "detrend", kind, heights, None, 1)
+def prepare(profile: Profile, detrend: str = "linear", periodic: str = "mirror") -> Profile:
+    """Return the profile less its least-squares fit, then made periodic; SceneError for other kinds.
 
-
-def make_periodic(heights: ArrayLike, kind: str) -> Array:
-    """Return one period of heights (n,), in any unit, made by a kind in `PERIODIC`; SceneError else.
-
-    none: as they are, (n,); a step at the seam stays and adds step^2 / (n spacing^2) to the mean square slope.
+    detrend: none, mean, linear or quadratic.
+    periodic: none: as it is, (n,); a step at the seam stays and adds step^2 / (n spacing^2) to the mean square slope.
     window: mean-free heights, (n,), tapered by cosines to zero over 10 % at each end; the rms slope of roughness
     much shorter than the length falls by about 6 % (mean square times 0.875), that of longer waves changes more.
     mirror: followed by their reverse, (2n-2,), the ends once; the rms slope is kept.
     tilt: less the line through both ends, (n,), zero there then; the mean square of the n-1 slopes falls by the line's.
     """
-    return scans.applied(PERIODIC, "periodic", kind, heights, None, 1)
-
-
-def prepare(profile: Profile, detrend: str = "linear", periodic: str = "mirror") -> Profile:
-    """Return the profile detrended, then made periodic, as `DETREND` and `PERIODIC` name it; SceneError else."""
     level = scans.applied(DETREND, "detrend", detrend, profile.heights, profile.source, 1)
     heights = scans.applied(PERIODIC, "periodic", periodic, level, profile.source, 1)
     return dataclasses.replace(profile, heights=heights)

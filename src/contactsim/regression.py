@@ -15,12 +15,12 @@ from scipy.optimize import least_squares
 from contactsim.calibration import READ
 from contactsim.relations import LINE, ORDERS, PATH, ROUGH_PATH, SECOND, SLIDE, SURFACE, Relation
 
-ROUGH = ("hurst", "octaves", "rough")
+ROUGH = ("hurst", "bandwidth", "rough")
 ERROR_FEATURES = {
     LINE: ("one", "grid", "pressure", *ROUGH),
     SURFACE: ("one", "grid", "pressure", *ROUGH),
     PATH: ("one", "grid", "zone", "friction"),
-    ROUGH_PATH: ("one", "grid", "hurst", "octaves", "strength"),
+    ROUGH_PATH: ("one", "grid", "hurst", "bandwidth", "strength"),
     SLIDE: ("one", "grid", "zone"),
 }
 WORK_FEATURES = {
@@ -34,7 +34,7 @@ WORK_FEATURES = {
         "grid",
         "deep",
         "hurst",
-        "octaves",
+        "bandwidth",
         "coupled",
         "friction",
         "tight",

@@ -147,11 +147,11 @@ def features(scene: Scene) -> list[dict[str, float]]:
     """What a scene is like, in numbers without units that do not depend on its grid: of each load, or of its path."""
     kind, surface = kind_of(scene), scene.upper.surface
     bodies = scene.elasticities
-    found = {"one": 1.0, "rough": 0.0, "hurst": 0.0, "octaves": 0.0, "bodies": float(len(bodies))}
+    found = {"one": 1.0, "rough": 0.0, "hurst": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
     found["layers"] = float(sum(Trait.HALF_SPACE not in body.traits for body in bodies))
     if isinstance(surface, SelfAffine):
-        octaves = np.log(surface.rolloff_wavelength / surface.finest)
-        found |= {"rough": 1.0, "hurst": surface.hurst, "octaves": float(octaves)}
+        bandwidth = np.log(surface.rolloff_wavelength / surface.finest)
+        found |= {"rough": 1.0, "hurst": surface.hurst, "bandwidth": float(bandwidth)}
     if kind in (LINE, SURFACE):
         return [found | _pressed(scene, step.value) for step in scene.path.steps]
     reach, strength = reach_of(scene), strength_of(scene)

@@ -72,6 +72,7 @@ ACCURACY_KEYS = {
 ORIGINS = ("mean_plane", "first_touch")
 """Where approach is zero: see `contactsim.loading`."""
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
+"""By which loads on their own are prescribed; a study has one of them, and its dataset the dimension of that name."""
 RIGID = "rigid"
 """Kind of a body that does not give way, and has no keys."""
 
@@ -165,7 +166,8 @@ COMPANIONS = {
     ),
     "whole": ("leave_out", "left_out", FEWER),
 }
-"""Sections that ask for runs that measure an error: the key in which they differ, what they measure, and their keys."""
+"""Sections that ask for runs that measure an error: the key in which they differ, the kind of error, of
+`variables.ERRORS`, and their keys."""
 
 
 def acting(settings: dict, file: object, prefix: str) -> dict:

@@ -42,7 +42,7 @@ def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array
     """
     close = gap[0] <= gap[0].min() + problem.law.reach
     weighted = problem.balanced(np.zeros_like(displacement), displacement) * problem.weights
-    trailing, leading = contact_edges(gap[0], problem.shape[0], problem.grid.spacing[0])
+    trailing, leading = contact_ends(gap[0], problem.shape[0], problem.grid.spacing[0])
     return {
         "slid": problem.slid,
         "contact_trailing": trailing,
@@ -52,7 +52,7 @@ def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array
     }
 
 
-def contact_edges(gap: Array, shape: Array, spacing: float) -> tuple[float, float]:
+def contact_ends(gap: Array, shape: Array, spacing: float) -> tuple[float, float]:
     """First and last place with a negative gap (n,), between nodes, nm from where the undeformed `shape` is least.
 
     NaN where there is none; minus and plus half a period where there is contact all over.

@@ -166,8 +166,7 @@ def quantities(study: Study) -> list[str]:
     if load == "contact_ratio":
         size = "contact_radius" if study.settings["surface"]["kind"] == "sphere" else "half_width"
         known |= {size, f"{size}_exact", "rms_gradient_exact"}
-    if study.settings["companion"] is not None:
-        known |= {f"{name}_grid_error" for name in AVERAGED if name in known}
+    known |= _errors(study, known & {*AVERAGED})
     if extrapolation.is_doubled(study.settings["vary"].get("points", [])):
         known |= {f"{name}{LIMIT}" for name in AVERAGED if name in known}
     if study.dimensions == ["hurst", "member", "reduced_pressure"]:
@@ -184,10 +183,13 @@ def _path_quantities(study: Study) -> list[str]:
         known |= {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
         known |= {name for name in ONSET if scene.sliding}
         known |= {name for name in THRESHOLD if scene.sliding and ALONG in study.dimensions}
-    for part, (_, error, _) in COMPANIONS.items():
-        if study.settings[part] is not None:
-            known |= {f"{name}_{error}_error" for name in known if not name.endswith("_error")}
-    return sorted(known | (set(study.dimensions) - {"member", "step"}))
+    return sorted(known | _errors(study, known) | (set(study.dimensions) - {"member", "step"}))
+
+
+def _errors(study: Study, names: set[str]) -> set[str]:
+    """Names of the errors of quantities that a study measures."""
+    kinds = [error for part, (_, error, _) in COMPANIONS.items() if study.settings[part] is not None]
+    return {f"{name}_{error}_error" for name in names for error in kinds}
 
 
 def quantity(data: xr.Dataset, name: str) -> xr.DataArray:

@@ -209,6 +209,14 @@ VARIABLES = {
     "profile_imag": ("nm", "imaginary part of the profile's Fourier coefficients"),
 }
 """Unit and long name of every variable that a dataset may hold."""
+ERRORS = {
+    "grid": "change of the mean on halving the grid",
+    "increment": "what the increments of the path leave open",
+    "tolerance": "change of the mean on solving more tightly",
+    "left_out": "change on leaving nothing out",
+    "estimated": "error as estimated from a coarser run before",
+}
+"""Kinds of error beside the standard one, and what each is: of a quantity NAME that of a kind is NAME_KIND_error."""
 SUFFIXES = {
     "_difference_standard_error": ": standard error of the difference, member by member",
     "_difference": ": mean difference from a reference, member by member",
@@ -221,11 +229,7 @@ SUFFIXES = {
     "_change": ": change from a reference, as a part of it",
     "_mean": ": mean over members",
     "_standard_error": ": standard error of the mean over members",
-    "_grid_error": ": change of the mean on halving the grid",
-    "_increment_error": ": what the increments of the path leave open",
-    "_tolerance_error": ": change of the mean on solving more tightly",
-    "_left_out_error": ": change on leaving nothing out",
-    "_estimated_error": ": error as estimated from a coarser run before",
+    **{f"_{kind}_error": f": {text}" for kind, text in ERRORS.items()},
     "_half_width": ": half-width of the 95 % confidence interval",
 }
 """What aggregation adds to a variable's name, and to its long name."""

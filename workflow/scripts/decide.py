@@ -2,8 +2,8 @@
 
 import json
 
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 from contactsim.negligible import decide
 
 logged(snakemake.log[0])

@@ -3,8 +3,8 @@
 import json
 
 from contactsim import dataset, ladder
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

@@ -4,8 +4,8 @@ import json
 
 from contactsim import dataset
 from contactsim.effect_survey import as_text
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 
 logged(snakemake.log[0])
 settings = json.loads(snakemake.params.plan)

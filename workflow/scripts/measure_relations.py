@@ -3,8 +3,8 @@
 import json
 
 from contactsim.calibration import measured
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 
 logged(snakemake.log[0])
 write_text(measured(json.loads(snakemake.params.plan)).to_csv(index=False), snakemake.output[0])

@@ -4,8 +4,8 @@ import json
 
 from contactsim import dataset
 from contactsim.cost import read_cases
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 from contactsim.plan import Plan
 
 logged(snakemake.log[0])

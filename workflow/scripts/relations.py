@@ -2,8 +2,8 @@
 
 import pandas as pd
 
+from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.march import write_text
 from contactsim.regression import as_text
 
 logged(snakemake.log[0])

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 from contactsim import report, rulegraph
-from contactsim.figures.render import move
+from contactsim.files import write_text
 from contactsim.joblog import logged
 from contactsim.plan import Plan
 
@@ -13,4 +13,4 @@ settings, target = json.loads(snakemake.params.plan), Path(snakemake.output[0])
 asked = rulegraph.ask(settings["tier"])
 found = report.found(Plan.read(snakemake.params.config, settings["tier"]), settings, target.parent)
 page = report.render(found, rulegraph.answer(asked))
-move(str(target), lambda path: path.write_text(page, encoding="utf-8"))
+write_text(page, target)

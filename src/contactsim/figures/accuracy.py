@@ -16,8 +16,9 @@ from matplotlib.lines import Line2D
 from contactsim import dataset, precision
 from contactsim.accuracy_case import REFERENCE
 from contactsim.ensemble import converged
-from contactsim.figures import knobs, style
-from contactsim.figures.render import framed, move, save
+from contactsim.figures import knobs, notation, style
+from contactsim.figures.render import framed, save
+from contactsim.files import write_atomically
 from contactsim.forecast import transform_seconds
 from contactsim.precision import ROUNDING
 from contactsim.variables import VARIABLES
@@ -57,7 +58,7 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     equal = precision.compared(table, quantity, settings["levels"], COSTS)
     draw(table, equal, data[plan["default"]], np.reshape(panels, (2, columns)), plan)
     save(figure, table, targets)
-    move(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
+    write_atomically(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
 
 
 def foreseen(table: pd.DataFrame, expected: list) -> pd.DataFrame:
@@ -157,7 +158,7 @@ def draw(table: pd.DataFrame, equal: pd.DataFrame, values: xr.Dataset, axes: np.
             knobs.panel(panel, table[table.knob == knob], quantity, measure, knobs.named(plan["marks"], knob))
             _forecast(panel, table[(table.knob == knob) & table.own], quantity, measure)
             panel.set_title(titles[knob] if row == 0 else "", fontsize=9)
-            panel.set_xlabel(f"relative error of {style.SYMBOLS[quantity]}" if row else "")
+            panel.set_xlabel(f"relative error of {notation.SYMBOLS[quantity]}" if row else "")
         axes[row, 0].set_ylabel(label)
     _grid_dependence(axes[0, -1], values, quantity, titles["points"])
     _words(axes[1, -1], table, equal)
@@ -191,7 +192,7 @@ def _grid_dependence(axes: Axes, values: xr.Dataset, quantity: str, across: str)
             axes.plot(part.points, mean if value is None else mean.sel(hurst=value), color=color, **look)
     first = next(iter(definitions), quantity)
     unit = VARIABLES[first][0]
-    axes.set(xlabel=across, ylabel=style.SYMBOLS[first] + (f" ({unit})" if unit != "1" else ""))
+    axes.set(xlabel=across, ylabel=notation.SYMBOLS[first] + (f" ({unit})" if unit != "1" else ""))
     axes.set_xscale("log", base=2)
     axes.yaxis.get_major_formatter().set_useOffset(False)
     keys = style.hurst_key(part.hurst.values) if "hurst" in part.dims else []
@@ -202,7 +203,9 @@ def _words(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> None:
     """Observed orders, and a table of cost at equal error over that of the study's own solver."""
     axes.axis("off")
     grids = table[(table.knob == "points") & table.own]
-    orders = [f"{style.SYMBOLS[name]} {precision.order(grids, name):.2f}" for name in style.SYMBOLS if name in table]
+    orders = [
+        f"{symbol} {precision.order(grids, name):.2f}" for name, symbol in notation.SYMBOLS.items() if name in table
+    ]
     orders = _filled("Observed order in grid points: ", orders)
     text = f"{orders}\n\nCost at equal error over that of {own_solver(table)},"
     axes.text(0, 1, f"{text}\nin transforms × points (in seconds)", fontsize=7, va="top", linespacing=1.3)

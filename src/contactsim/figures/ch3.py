@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from contactsim import analytic, ensemble
-from contactsim.figures import factors, resolution, style
+from contactsim.figures import factors, notation, resolution, style
 from contactsim.figures.maps import of_dataset, panels
 
 FREE_OF_NEIGHBOURS = 0.25
@@ -205,7 +205,7 @@ def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Contact, pressure and gap of one rough surface at one load."""
     one = of_dataset(fields)
     places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
-    words = [f"{style.PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
+    words = [f"{notation.PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
     axes[0].text(1, -0.03, ", ".join(words), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")
     return panels(one, axes).assign(**places)
 

@@ -10,10 +10,11 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
-from contactsim import dataset, ensemble
+from contactsim import dataset, ensemble, variables
 from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, verdicts
 from contactsim.figures import style
-from contactsim.figures.render import LINE_INCHES, move
+from contactsim.figures.notation import READ
+from contactsim.figures.render import LINE_INCHES, save
 from contactsim.takes import LIMIT
 
 COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
@@ -29,91 +30,6 @@ COLUMNS = {
     "because": ("why this band", 2.85),
 }
 """Head and width in inches of each column."""
-SYMBOLS = {
-    "relative_contact_area": "aᵣₑₗ",
-    "relative_contact_area_subgrid": "aᵣₑₗ with edges between points",
-    "kappa": "κ",
-    "kappa_r": "κᵣ",
-    "kappa_r_bond": "κᵣ of pairs",
-    "rms_gradient_contact": "ḡᵣ",
-    "rms_gradient_contact_bond": "ḡᵣ of pairs",
-    "rms_gradient_exact": "the exact ḡᵣ",
-    "reduced_pressure": "p*",
-    "reduced_pressure_contact": "pᵣ*",
-    "mean_pressure": "p",
-    "mean_gap": "the mean gap",
-    "contact_ratio": "c/R",
-    "contact_radius": "c",
-    "contact_radius_exact": "the exact c",
-    "half_width": "c",
-    "half_width_exact": "the exact c",
-    "hurst": "H",
-    "poisson_ratio": "ν",
-    "thickness": "the thickness",
-    "kappa_fit": "κ of the fit to each H",
-    "kappa_fit_logarithm": "κ of the logarithmic fit",
-    "kappa_fit_all": "κ of the fit to all H",
-    "nonlinearity": "the non-linearity",
-    "nonlinearity_reduced": "the non-linearity in pᵣ*",
-    "curvature": "the curvature",
-    "curvature_reduced": "the curvature in pᵣ*",
-    "pressure_at_fiftieth": "p/E* at aᵣₑₗ = 0.02",
-    "pressure_at_tenth": "p/E* at aᵣₑₗ = 0.1",
-    "pressure_at_third": "p/E* at aᵣₑₗ = 1/3",
-    "dissipated_energy": "energy of a cycle",
-    "dissipated_work": "energy of a cycle by area",
-    "area_at_twelve": "aᵣₑₗ at 12 nm",
-    "pressure_at_twelve": "p/E* at 12 nm",
-    "gradient_at_fiftieth": "ḡᵣ/ḡ at aᵣₑₗ = 0.02",
-    "surface_rms_height": "hᵣₘₛ",
-    "least_step": "least step",
-    "largest_step": "largest step",
-    "spread_ratio": "ratio of spreads",
-    "largest_spread": "largest spread",
-    "least_rise": "least rise",
-    "largest_rise": "largest rise",
-    "rise_gain": "gain of the rise",
-    "work_of_separation": "φn",
-    "work_ratio": "φt/φn",
-    "pull_off_load_loading": "the pull-off load",
-    "pull_off_load_unloading": "the pull-off load on unloading",
-    "pull_off_approach_loading": "the approach at pull-off",
-    "pull_off_approach_unloading": "the approach at pull-off on unloading",
-    "largest_jump_loading": "the largest jump on loading",
-    "largest_jump_unloading": "the largest jump on unloading",
-    "final_repulsive_length": "the contact size",
-    "final_interacting_length": "the interacting length",
-    "final_load": "the load",
-    "final_repulsive_load": "the repulsive force",
-    "final_adhesive_load": "the adhesive force",
-    "final_pressure": "the largest pressure",
-    "final_pull": "the largest pull",
-    "final_slip": "the largest slip",
-    "static_friction": "Fₛ",
-    "mean_friction": "(Fₛ+Fₖ)/2",
-    "average_friction": "the mean force",
-    "onset_slide": "Uₓ at the onset",
-    "onset_repulsive_length": "Aₛ",
-    "initial_repulsive_length": "A₀",
-    "initial_load": "L before the slide",
-    "asymmetry_early": "asymmetry half way to the onset",
-    "quadratic_coefficient": "ζ",
-    "quadratic_agreement": "R² of Eq. 6.8",
-    "first_drop": "the first drop",
-    "first_periods": "cells of the first slip",
-    "first_released_energy": "energy released at the first slip",
-    "loop_energy": "energy of a loop",
-    "shear_strength": "τc",
-    "friction_without_contact": "Fₛ without contact",
-    "threshold_agreement": "R² of Eq. 6.9",
-    "counter_body_youngs_modulus": "E",
-    "counter_body_thickness": "h",
-    "slide_approach": "δ",
-    "slide_mean_pressure": "p",
-    "pairing_lattice_constant": "l",
-    "surface_length": "w",
-}
-"""Names of the config as they are read in a text."""
 CHARACTERS = 18
 """Characters of the table's font in an inch."""
 PADDING = 0.07
@@ -130,9 +46,7 @@ def render_claims(plan: Mapping, paths: Mapping[str, str], targets: Mapping[str,
     rows = verdicts(dict(plan["claims"]), data)
     number = plan["chapter"].removeprefix("ch")
     figure = drawn(rows, f"Chapter {number}: what it states, and what was found", made_text(data))
-    move(targets["csv"], lambda path: rows.to_csv(path, index=False))
-    move(targets["png"], figure.savefig)
-    move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    save(figure, rows, targets)
 
 
 def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
@@ -179,10 +93,11 @@ def compared(measure: str) -> str:
 
 def symbol(name: str) -> str:
     """A name of the config in symbols; other words as they are."""
-    for suffix, words in (("_grid_error", "grid error of "), (LIMIT, "limit of ")):
+    errors = {f"_{kind}_error": f"{kind.replace('_', ' ')} error of " for kind in variables.ERRORS}
+    for suffix, words in (errors | {LIMIT: "limit of "}).items():
         if name.endswith(suffix):
             return words + symbol(name.removesuffix(suffix))
-    return SYMBOLS.get(name, name)
+    return READ.get(name, name)
 
 
 def rounded(value: float, *errors: float) -> list[str]:
@@ -209,7 +124,7 @@ def made_text(data: Mapping[str, xr.Dataset]) -> str:
     settings = {study: dataset.settings_of(one) for study, one in data.items()}
     parts = [f"{tier} tier" for tier in sorted({one["tier"] for one in settings.values()})]
     for study, one in data.items():
-        lost, total = ensemble.left_out(one)
+        lost, total = ensemble.unconverged(one)
         members = f"{one.member.size} members" if one.member.size > 1 else "1 member"
         points = style.points_text(settings[study], *one.points.values.ravel())
         parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")

@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from contactsim import precision
-from contactsim.figures import style
+from contactsim.figures import notation, style
 from contactsim.figures.knobs import LOOKS
 from contactsim.figures.render import framed, save
 
@@ -36,7 +36,7 @@ def render(plan: Mapping, tables: Sequence[str], targets: Mapping[str, str]) -> 
     for panel, (name, table) in zip(panels, found.items(), strict=False):
         quantity = cases[name]["quantity"]
         draw(panel, _priced(table), quantity)
-        panel.set_title(f"{cases[name]['title']}: {style.SYMBOLS[quantity]}", fontsize=7.5)
+        panel.set_title(f"{cases[name]['title']}: {notation.SYMBOLS[quantity]}", fontsize=7.5)
         kept.append(_priced(table).assign(case=name, quantity=quantity, error=_priced(table)[quantity]))
     for panel in panels[len(found) :]:
         panel.axis("off")

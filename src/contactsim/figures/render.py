@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
@@ -16,24 +15,23 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from contactsim import dataset, ensemble, validity
+from contactsim import dataset, ensemble, validity, variables
 from contactsim.figures import style
+from contactsim.figures.notation import READ, SYMBOLS
+from contactsim.files import write_atomically
 from contactsim.tabulate import tabulated
 
 LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
 FILM_DPI, CLOSE = 110, 1e-6
 """Of a film's frames; of a slide, nm: what is nearer counts as the same."""
-PRICED = {
-    "kappa": "κ",
-    "kappa_r": "κᵣ",
-    "kappa_r_bond": "κᵣ of pairs",
+PRICED = {name: READ[name] for name in ("kappa", "kappa_r", "kappa_r_bond")} | {
     "final_repulsive_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
     "pull_off_load_unloading": "on unloading",
 }
 """Quantities whose errors a footer tells, and how."""
-PRICED_SLIDES = {"static_friction": "static friction", "first_drop": "first drop", "reattached": "reattached part"}
+PRICED_SLIDES = {name: SYMBOLS[name] for name in ("static_friction", "first_drop", "reattached")}
 """The same of slides."""
 
 
@@ -57,7 +55,7 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     shown = draw(*shown_data, panels, **settings["reference"])
     save(figure, shown, targets)
     if settings["film"] is not None:
-        move(targets["gif"], lambda path: film(figure, panels, draw, shown_data[0], settings["film"], path))
+        write_atomically(targets["gif"], lambda path: film(figure, panels, draw, shown_data[0], settings["film"], path))
 
 
 def film(
@@ -103,7 +101,7 @@ def framed(settings: Mapping, footer: str, rows: int = 1, widths: Sequence[float
 def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
     """Tier, grid, members, and of the loads shown unconverged solutions and largest errors; the study's time."""
     settings = dataset.settings_of(data)
-    lost, total = ensemble.left_out(data)
+    lost, total = ensemble.unconverged(data)
     members = data.member.size
     parts = [
         f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}",
@@ -120,7 +118,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
 def errors_told(data: xr.Dataset) -> list[str]:
     """The largest errors of the quantities that are told, a line a kind of error."""
     priced, told = PRICED_SLIDES if "static_friction" in data else PRICED, []
-    for error in ("grid", "increment", "tolerance", "left_out", "estimated"):
+    for error in variables.ERRORS:
         sizes = [
             f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit(data[name])}"
             for name, words in priced.items()
@@ -138,13 +136,6 @@ def _unit(values: xr.DataArray) -> str:
 
 def save(figure: Figure, shown: pd.DataFrame, targets: Mapping[str, str]) -> None:
     """Save a figure as PNG and PDF, and the numbers that it shows as CSV."""
-    move(targets["png"], figure.savefig)
-    move(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
-    move(targets["csv"], lambda path: shown.to_csv(path, index=False))
-
-
-def move(path: str, save: Callable[[Path], object]) -> None:
-    """Save under a temporary name, with the same ending, and move it into place."""
-    temporary = Path(path).with_name(f".{os.getpid()}.{Path(path).name}")
-    save(temporary)
-    os.replace(temporary, path)
+    write_atomically(targets["png"], figure.savefig)
+    write_atomically(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    write_atomically(targets["csv"], lambda path: shown.to_csv(path, index=False))

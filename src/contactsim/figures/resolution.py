@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from contactsim import dataset, ensemble
-from contactsim.figures import style
+from contactsim.figures import notation, style
 
 QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
 FAINTEST = 0.35
@@ -82,7 +82,7 @@ def draw(shown: pd.DataFrame, quantity: str, axes: Axes) -> None:
             error = np.hypot(limit.standard_error.fillna(0.0), limit.spread)
             axes.errorbar([place], limit.value, error, elinewidth=0.8, capsize=1.5, **look | {"linestyle": "none"})
     axes.axvspan(end * 0.93, end * 1.5, color="#eeeeee", zorder=0, lw=0)
-    axes.set(xscale="log", xlabel="points per shortest wavelength", ylabel=style.SYMBOLS[quantity])
+    axes.set(xscale="log", xlabel="points per shortest wavelength", ylabel=notation.SYMBOLS[quantity])
     axes.set_xlim(counts[0] / 1.2, end * 1.5)
     axes.xaxis.set_major_locator(FixedLocator([*counts, end * 1.2]))
     axes.xaxis.set_minor_locator(NullLocator())

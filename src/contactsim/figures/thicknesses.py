@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim.figures import style
+from contactsim.figures import notation, style
 
 FAINT = 0.35
 """Opacity of what is drawn beside what counts."""
@@ -64,7 +64,7 @@ def frame(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     bodies = {f"$h={_power(value)}$ nm": _line(data, value) for value in data.thickness.values}
     keys = style.key(colours, bodies | {f"thesis, {kappa_r:g}": (0, (6, 3))})
     area.legend(handles=keys + style.poisson_key(data.poisson_ratio.values), loc="upper left")
-    change.legend(handles=_shades({style.SYMBOLS[name]: alpha for name, alpha in SHADES.items()}), loc="lower right")
+    change.legend(handles=_shades({notation.SYMBOLS[name]: alpha for name, alpha in SHADES.items()}), loc="lower right")
     factor.legend(handles=_shades({"Eq. 3.8": 1.0, "pairs in contact": FAINT}), loc="upper right")
     last.legend(handles=_shades({"Eq. 3.8": 1.0, "pairs in contact": FAINT}), loc="lower left")
 
