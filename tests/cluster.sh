@@ -13,7 +13,7 @@
 # Times, which differ from run to run, are in costs/ and figures/, and in trials.nc, of what was spent on trials.
 set -euo pipefail
 unset PYTHONDONTWRITEBYTECODE # jobs start faster where compiled code is kept
-COMPARED='runs/*.nc datasets/*.nc decisions/*.json stability/*.nc effect_maps/*.nc claims/*.csv'
+COMPARED='accuracy/*.nc trials/*.nc runs/*.nc datasets/*.nc decisions/*.json stability/*.nc effect_maps/*.nc claims/*.csv'
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 LOCAL=${1:--}
 shift || true
@@ -152,7 +152,8 @@ resume() {
   say "the same command again"
   "${COMMAND[@]}" >>"$LOG" 2>&1 || fail "the second command did not finish: see $LOG"
   say "finished: $(runs_done) runs done; $(find "$CLUSTER/results/quick" -name '*.tmp' | wc -l) temporary files left"
-  "${COMMAND[@]}" --dry-run 2>&1 | grep -q 'Nothing to be done' || fail "there is still something to be done"
+  "${COMMAND[@]}" --dry-run >"$WORK/dry-run.log" 2>&1 || fail "the dry run did not finish: see $WORK/dry-run.log"
+  grep -q 'Nothing to be done' "$WORK/dry-run.log" || fail "there is still something to be done: see $WORK/dry-run.log"
   say "the same command once more: nothing to be done"
 }
 

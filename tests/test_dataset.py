@@ -243,3 +243,13 @@ def test_a_solver_has_no_option_named_like_a_key_of_a_surface_or_a_body():
     # Their dimensions would have one name, and the option the other's unit.
     for kind in SOLVERS:
         assert not set(keys_of(solver_class(kind))) & set(SETTINGS)
+
+
+@pytest.mark.parametrize(
+    ("control", "slid", "unit"),
+    [("approach", False, "nm"), ("mean_pressure", False, "GPa"), ("mean_pressure", True, "nm")],
+)
+def test_values_along_a_path_are_in_the_unit_of_what_is_prescribed(control, slid, unit):
+    data = xr.Dataset({"control": control}, {"snapshot": [0.1, 0.2], "increment": [0.1]})
+    found = dataset.described(data.assign(slid=("snapshot", [1.0, 2.0])) if slid else data)
+    assert found.snapshot.attrs["units"] == found.increment.attrs["units"] == unit

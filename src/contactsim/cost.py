@@ -16,7 +16,7 @@ from contactsim.config import Key, choice, listed, load_yaml, mapping, number, p
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast
 from contactsim.plan import Plan
-from contactsim.priced import SingleLoads, Slide, WholePath, kind_of, read_turned
+from contactsim.priced import SingleLoads, WholePath, WholeSlide, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, solver_class
 from contactsim.solvers.base import require
@@ -24,7 +24,7 @@ from contactsim.study import Study
 from contactsim.takes import quantities
 from contactsim.traits import Trait
 
-PRICED = (*SingleLoads.quantities, *Slide.quantities)
+PRICED = (*SingleLoads.quantities, *WholeSlide.quantities)
 CASE_KEYS = {
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),

@@ -34,6 +34,7 @@ SETTINGS = {
     "radius": ("nm", "radius of the cylinder or sphere"),
     "amplitude": ("nm", "amplitude of the wave"),
     "periods": ("1", "number of waves in a period"),
+    "increment": ("nm", "increment asked for"),
     "height": ("nm", "height of the plane"),
     "file": ("1", "file of a measured profile or surface"),
     "detrend": ("1", "how a measured profile or surface is detrended"),
@@ -60,6 +61,10 @@ SETTINGS = {
 """Unit and long name of the keys of a study that can be varied; a solver's options have unit 1."""
 
 
+ALONG_LOAD = {"snapshot", "increment"}
+"""Variables in nm along approaches and slides, in GPa where the mean pressure is prescribed."""
+
+
 def described(data: xr.Dataset) -> xr.Dataset:
     """The dataset with units and long_name on every variable; a derived one inherits those of its base name."""
     for name in data.variables:
@@ -70,6 +75,9 @@ def described(data: xr.Dataset) -> xr.Dataset:
             or ("1", f"option {base}")
         )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
+    if "control" in data and "slid" not in data and bool((data["control"] == "mean_pressure").all()):
+        for name in ALONG_LOAD & set(data.variables):
+            data[name].attrs["units"] = "GPa"
     if "status" in data:
         values = [status.value[0] for status in Status]
         meanings = " ".join(status.name.lower() for status in Status)

@@ -141,7 +141,7 @@ class WholePath:
         return {"increment": VARIABLES[study.settings["load"]["control"]][0]}
 
 
-class Slide(WholePath):
+class WholeSlide(WholePath):
     """A path that presses and slides, whose slide is turned; as `WholePath`."""
 
     knobs = (*WholePath.knobs, "window")
@@ -170,7 +170,7 @@ class Slide(WholePath):
         return {"increment": "nm"}
 
 
-KINDS: tuple[SingleLoads | WholePath, ...] = (Slide(), WholePath(), SingleLoads())
+KINDS: tuple[SingleLoads | WholePath, ...] = (WholeSlide(), WholePath(), SingleLoads())
 
 
 def kind_of(study: Study) -> SingleLoads | WholePath | None:
@@ -208,6 +208,6 @@ def solutions(data: xr.Dataset) -> xr.Dataset:
     failed = ~solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
     found = of_states(data)
-    return found[[name for name in Slide.quantities if name in found]].assign(
+    return found[[name for name in WholeSlide.quantities if name in found]].assign(
         transforms=data.transforms.sum("step"), status=first
     )
