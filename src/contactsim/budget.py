@@ -1,8 +1,8 @@
 """What all figures of a tier will cost, before anything runs.
 
 Of each figure: its runs, and the core-hours and the memory that `contactsim.outlook` predicts of them or, where it
-cannot, that a run of the same settings took before, at whichever tier. What figures share counts for each of them, and
-once in their sum. Of what is not known beforehand the number of jobs is told.
+cannot, that the run of this name took at a tier where its settings now are the same. What figures share counts for each
+of them, and once in their sum. Of what is not known beforehand the number of jobs is told.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Cost:
         measured: from `all_measured`.
         """
         runs = list(runs)
-        files = [measured.get(canonical(run.settings), Path()) for run in runs]
+        files = [measured.get(canonical(run.settings)) for run in runs]
         twins = [plan.twin(run) is not None for run in runs]
         seconds = [0.0 if twin else seconds_of(*one) for twin, *one in zip(twins, runs, files, strict=True)]
         megabytes = [megabytes_of(*one) for one in zip(runs, files, strict=True)]
