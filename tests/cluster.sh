@@ -151,7 +151,7 @@ kill_midway() { # of a first command: the node's daemon, all processes of the ru
 resume() {
   say "the same command again"
   "${COMMAND[@]}" >>"$LOG" 2>&1 || fail "the second command did not finish: see $LOG"
-  say "finished: $(runs_done) runs done; $(find "$CLUSTER/results/quick" -name '*.tmp' | wc -l) temporary files left"
+  say "finished: $(runs_done) runs done; $(find "$CLUSTER/results/quick" -name '.[0-9]*.*' | wc -l) temporary files left"
   "${COMMAND[@]}" --dry-run >"$WORK/dry-run.log" 2>&1 || fail "the dry run did not finish: see $WORK/dry-run.log"
   grep -q 'Nothing to be done' "$WORK/dry-run.log" || fail "there is still something to be done: see $WORK/dry-run.log"
   say "the same command once more: nothing to be done"

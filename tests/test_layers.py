@@ -81,3 +81,31 @@ def test_the_readme_shows_every_module():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     for name in ORDER:
         assert re.search(rf"\b{name.rpartition('.')[2]}\b", text), name
+
+
+def rules() -> dict[str, str]:
+    """The text of each rule that has a script, by the script's name."""
+    found = {}
+    for file in sorted((ROOT / "workflow/rules").glob("*.smk")):
+        for text in re.split(r"^ *rule ", file.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]:
+            named = re.search(r'script: "\.\./scripts/(\w+\.py)"', text)
+            if named:
+                found[named[1]] = text
+    return found
+
+
+def test_every_script_has_a_rule():
+    assert set(rules()) == {file.name for file in (ROOT / "workflow/scripts").glob("*.py")}
+
+
+@pytest.mark.parametrize("script", sorted(rules()))
+def test_a_script_asks_for_nothing_that_its_rule_does_not_give(script):
+    text = (ROOT / "workflow/scripts" / script).read_text(encoding="utf-8")
+    own = {"input", "output", "params", "log", "wildcards", "threads", "rule"}
+    for part, name in re.findall(r"snakemake\.(\w+)(?:\.([a-z_]+)\b(?!\())?", text):
+        assert part in own
+        if name and part != "wildcards":
+            given = re.search(
+                rf"\b{part}:(.*?)^ *(?!{part})[a-z]+:", rules()[script] + "\nend:", re.DOTALL | re.MULTILINE
+            )
+            assert re.search(rf"\b{name}=", given[1]), (part, name)

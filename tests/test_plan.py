@@ -320,16 +320,16 @@ BAD = {
     "figure of too few datasets": (
         {"ch3.yaml": {"figures/fig_3_1": FIGURE}},
         "ch3.yaml",
-        "figures.fig_3_1.study and beside",
-        ["smooth"],
-        "which are line, surface",
+        "figures.fig_3_1.beside",
+        [],
+        "draws: line, surface",
     ),
     "figure of too many datasets": (
         {"ch3.yaml": {"figures/fig_3_3/beside": ["smooth"]}},
         "ch3.yaml",
-        "figures.fig_3_3.study and beside",
-        ["rough", "smooth"],
-        "which are data",
+        "figures.fig_3_3.beside",
+        ["smooth"],
+        "draws: data",
     ),
     "figure that is no mapping": ({"ch3.yaml": {"figures/fig_3_1": 3}}, "ch3.yaml", "figures.fig_3_1", 3, "a mapping"),
     "compare no list": (

@@ -28,7 +28,6 @@ from contactsim.schema import (
     AUTO_KEYS,
     COMPANIONS,
     KINDS,
-    LOADS,
     MODULI,
     PATH_KEYS,
     SLIDE_KEYS,
@@ -38,6 +37,7 @@ from contactsim.stability import STABILITY_KEYS
 from contactsim.study import Study
 from contactsim.tabulate import LAW_KEYS
 from contactsim.takes import FITTED, TAKES, needs
+from contactsim.variables import LOADS
 from test_bundle import PROJECT, SMALL, small_section
 from test_workflow import CYLINDER, Project
 

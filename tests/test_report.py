@@ -19,7 +19,7 @@ from contactsim.claims import CONDITION, NOT_REPRODUCED, REPRODUCED
 from contactsim.figures.claims import rounded
 from contactsim.gallery import VERDICTS
 from contactsim.plan import Plan
-from contactsim.rulegraph import drawn
+from contactsim.rulegraph import HEIGHT, WIDTH, drawn
 
 pytestmark = pytest.mark.slow
 
@@ -185,6 +185,20 @@ def test_a_browser_shows_all_of_it_without_errors_or_requests(page, every, tmp_p
     assert found["asked"] == []
     urls = re.findall(r'"url":"(\w+://[^"/]*)', log.read_text(encoding="utf-8"))
     assert {url for url in urls if not OWN.search(url)} <= {"file://"}
+
+
+def test_no_line_of_the_graph_of_rules_passes_behind_a_box():
+    names = "abcdz"
+    needs = ("ab", "bc", "cz", "ad", "dz")
+    nodes = "".join(f'{count}[label = "{name}", color]\n' for count, name in enumerate(names))
+    edges = "".join(f"{names.index(one)} -> {names.index(two)}\n" for one, two in needs)
+    found = str(drawn(nodes + edges, {}))
+    boxes = {(int(x), int(y) + HEIGHT // 2) for x, y in re.findall(r'<rect x="(\d+)" y="(\d+)"', found)}
+    through = [(int(x) - WIDTH, int(y)) for x, y in re.findall(r"L(\d+) (\d+)", found)]
+    assert len(boxes) == 5
+    assert len(through) == 1, "the line from a to d passes the column of b"
+    assert not boxes & {*through}
+    assert {x for x, _ in through} <= {x for x, _ in boxes}
 
 
 def test_the_graph_of_rules_puts_what_is_needed_to_the_left_and_joins_figures():

@@ -16,9 +16,9 @@ from contactsim.aggregate import combined
 from contactsim.build import scene_of
 from contactsim.march import labelled, simulate
 from contactsim.priced import Setting, SingleLoads, WholePath, kind_of, solutions
-from contactsim.provenance import computing_digest
+from contactsim.provenance import computing_digest, digest
 from contactsim.schema import COMPANIONS
-from contactsim.solvers import installed, module_of, solver
+from contactsim.solvers import installed, module_of, peer_version, solver
 from contactsim.study import Study
 
 REFERENCE = "reference"
@@ -113,5 +113,6 @@ def simulated(settings: dict) -> xr.Dataset:
 
 def job_plan(case: Case, job: str) -> dict:
     """What a job depends on: its settings and its code."""
-    source = computing_digest("contactsim.accuracy_case", module_of(case.solved_by(job)))
-    return {"job": case.job_settings(job), "source": source}
+    solved_by = case.solved_by(job)
+    source = computing_digest("contactsim.accuracy_case", module_of(solved_by))
+    return {"job": case.job_settings(job), "source": digest(source, peer_version(solved_by))}

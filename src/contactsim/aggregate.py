@@ -21,7 +21,7 @@ from contactsim.hysteresis import CYCLE, cycled
 from contactsim.observables import proportionality
 from contactsim.onset import slid
 from contactsim.peeling import ONSET, THRESHOLD
-from contactsim.schema import COMPANIONS, LOADS
+from contactsim.variables import ERRORS, LOADS
 
 APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
 """What stays with the runs."""
@@ -133,7 +133,7 @@ def of_states(data: xr.Dataset) -> xr.Dataset:
 
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
     """What errors are measured by, as far as there is such: suffix and dataset."""
-    for _, error, _ in COMPANIONS.values():
+    for error in ERRORS:
         others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
         if others:
             yield f"_{error}_error", _read(others)

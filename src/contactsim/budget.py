@@ -1,22 +1,24 @@
 """What all figures of a tier will cost, before anything runs.
 
-Of each figure: its runs, and the core-hours and the memory that `contactsim.outlook` predicts of them. What figures
-share counts for each of them, and once in their sum. Of what is not known beforehand the number of jobs is told.
+Of each figure: its runs, and the core-hours and the memory that `contactsim.outlook` predicts of them or, where it
+cannot, that the run of this name took at a tier where its settings now are the same. What figures share counts for each
+of them, and once in their sum. Of what is not known beforehand the number of jobs is told.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from contactsim import trials
-from contactsim.cost import read_cases
+from contactsim.cost import every_tier, read_cases
 from contactsim.draws import read_draws
 from contactsim.effect_survey import read_maps
 from contactsim.ladder import read_ladder
 from contactsim.outlook import START, megabytes_of, seconds_of
 from contactsim.plan import Plan
+from contactsim.provenance import canonical
 from contactsim.study import Run
 
 
@@ -34,10 +36,13 @@ class Cost:
     megabytes: float = 0.0
 
     @classmethod
-    def of(cls, runs: Iterable[Run], plan: Plan) -> Cost:
-        """The cost of runs: those whose results are expected to be taken over from another take their start alone."""
+    def of(cls, runs: Iterable[Run], plan: Plan, measured: Mapping[str, Path]) -> Cost:
+        """The cost of runs: those whose results are expected to be taken over from another take their start alone.
+
+        measured: from `all_measured`.
+        """
         runs = list(runs)
-        files = [plan.results / f"costs/runs/{run.stem}.json" for run in runs]
+        files = [measured.get(canonical(run.settings)) for run in runs]
         twins = [plan.twin(run) is not None for run in runs]
         seconds = [0.0 if twin else seconds_of(*one) for twin, *one in zip(twins, runs, files, strict=True)]
         megabytes = [megabytes_of(*one) for one in zip(runs, files, strict=True)]
@@ -46,16 +51,27 @@ class Cost:
         return cls(len(runs), sum(one is None for one in seconds), spent, largest)
 
 
-def by_figure(plan: Plan) -> dict[str, Cost]:
-    """The cost of the runs that each figure shows."""
-    return {name: Cost.of(_runs(plan, figure.studies), plan) for name, figure in plan.figures.items()}
+def all_measured(plans: Iterable[Plan]) -> dict[str, Path]:
+    """By the settings of a run, where it stands what it took; of plans of several tiers the last counts."""
+    found = {}
+    for plan in plans:
+        for run in _runs(plan, plan.studies):
+            file = plan.results / f"costs/runs/{run.stem}.json"
+            if file.exists():
+                found[canonical(run.settings)] = file
+    return found
 
 
-def in_all(plan: Plan) -> Cost:
-    """The cost of all runs that figures or claims need, each counted once."""
+def by_figure(plan: Plan, measured: Mapping[str, Path]) -> dict[str, Cost]:
+    """The cost of the runs that each figure shows; measured: from `all_measured`."""
+    return {name: Cost.of(_runs(plan, figure.studies), plan, measured) for name, figure in plan.figures.items()}
+
+
+def in_all(plan: Plan, measured: Mapping[str, Path]) -> Cost:
+    """The cost of all runs that figures or claims need, each counted once; measured: from `all_measured`."""
     studies = [study for figure in plan.figures.values() for study in figure.studies]
     studies += [study for chapter in plan.claims for study in plan.claims_studies(chapter)]
-    return Cost.of(_runs(plan, dict.fromkeys(studies)), plan)
+    return Cost.of(_runs(plan, dict.fromkeys(studies)), plan, measured)
 
 
 def others(folder: str | Path, plan: Plan) -> dict[str, int]:
@@ -75,9 +91,10 @@ def _runs(plan: Plan, studies: Iterable[str]) -> list[Run]:
 
 def table(folder: str | Path, plan: Plan) -> str:
     """One line for each figure, one for all their runs, and one for each of what is made besides."""
+    measured = all_measured([*every_tier(folder).values(), plan])
     lines = [("figure", "jobs", "core-hours", "largest job", "")]
-    lines += [_line(name, cost) for name, cost in by_figure(plan).items()]
-    lines += [_line("all runs, each once", in_all(plan))]
+    lines += [_line(name, cost) for name, cost in by_figure(plan, measured).items()]
+    lines += [_line("all runs, each once", in_all(plan, measured))]
     lines += [_line(name, Cost(jobs, jobs)) for name, jobs in others(folder, plan).items()]
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     text = [f"{name:<{widths[0]}}{_right(cells, widths[1:-1])}  {words}" for name, *cells, words in lines]

@@ -138,7 +138,7 @@ def _rows(knob: str, found: Outcome, reference: Outcome, kind: str) -> list[dict
 
 
 def plan(settings: dict, kind: str) -> dict:
-    """What the measurements of one kind depend on."""
+    """What the measurements of one kind depend on; not on the relations that they begin from, or they never settled."""
     drawn = {"ranges": settings["kinds"][kind], **settings["calibration"]}
     source = computing_digest("contactsim.calibration", *(module_of(usual) for usual in USUAL.values()))
     return {"kind": kind, "drawn": drawn, "source": source}

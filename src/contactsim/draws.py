@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from contactsim.choice import PRESSING
 from contactsim.config import Key, listed, mapping, pair, positive, read, size, text, tiered, whole
 from contactsim.errors import SceneError
 from contactsim.relations import KINDS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
@@ -23,7 +24,7 @@ KEYS = {
     "kinds": Key(mapping, f"a mapping from some of {', '.join(KINDS)} to ranges"),
 }
 RANGE = Key(pair, "a pair of numbers, the least and the largest")
-ROUGH = dict.fromkeys(("hurst", "bandwidth"), RANGE)
+ROUGH = dict.fromkeys(("hurst", "wavelength_ratio"), RANGE)
 LAW = dict.fromkeys(("work_of_separation", "poisson_ratio", "work_ratio", "approach"), RANGE)
 WALL = ROUGH | {
     "round": Key(positive, "share of cylinders or spheres"),
@@ -86,7 +87,7 @@ def _self_affine(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
         "length": length,
         "rolloff_wavelength": rolloff,
     }
-    return found | {"shortest_wavelength": rolloff / _within(rng, ranges["bandwidth"]), "amplitudes": "gaussian"}
+    return found | {"shortest_wavelength": rolloff / _within(rng, ranges["wavelength_ratio"]), "amplitudes": "gaussian"}
 
 
 def _wall(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
@@ -132,7 +133,7 @@ def _rough(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
 def _slide(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
     law, elastic = _law(ranges, rng, frictionless=0.0)
     radius = _within(rng, ranges["radius"])
-    path = {"approach": [-8.0, -4.0], "increment": 0.5}
+    path = {"approach": [-8.0, -4.0], "increment": PRESSING}
     return law | {
         "surface": {"kind": "cylinder", "radius": radius, "length": 0.4 * radius},
         "body": {"kind": "rigid"},

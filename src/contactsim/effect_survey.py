@@ -69,7 +69,7 @@ def read_maps(folder: str | Path, over: dict, tier: str) -> dict | None:
 
 
 def _map(name: str, section: object, file: str) -> dict:
-    """A map as read: what it is of, and axes that its scene has, down to the scenes at their first values."""
+    """A map as read: what it is of, and axes that its scene has, down to the scenes of each of their values."""
     prefix = f"maps.{name}"
     one = read(section, MAP_KEYS, file, prefix)
     one["axes"] = {axis: read(given, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, given in one["axes"].items()}
@@ -82,7 +82,10 @@ def _map(name: str, section: object, file: str) -> dict:
         for key in given["per"]:
             if not _is_number(value_at(one["scene"], key)):
                 raise SceneError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
-    runs = _study(one, {axis: given["values"][0] for axis, given in one["axes"].items()}, name, file).runs()
+    first = {axis: given["values"][0] for axis, given in one["axes"].items()}
+    for axis, given in one["axes"].items():
+        for value in given["values"]:
+            runs = _study(one, first | {axis: value}, name, file).runs()
     if len(runs) != 1:
         raise SceneError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
     known = comparable(runs[0].settings["effects"])
@@ -187,5 +190,5 @@ def as_text(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
             "axes": one["axes"],
             "change": [float(f"{value:.3g}") for value in data.change_without.values.ravel()],
         }
-    head = "# What leaving effects out changes, measured by `snakemake freeze_maps`; see contactsim/effect_maps.py\n"
+    head = "# What leaving effects out changes, measured by `snakemake freeze_maps`; see contactsim/effect_survey.py\n"
     return head + yaml.safe_dump(told, sort_keys=False, width=120, default_flow_style=None)

@@ -90,8 +90,10 @@ def _check_function(name: str, settings: dict, studies: dict[str, Study], file: 
     wanted = [argument.arg for argument in known[name].args[:-1]]  # the last are the axes
     given = [settings["study"] or "a law", *settings["beside"]]
     if len(given) != len(wanted):
-        allowed = f"as many as the function draws, which are {', '.join(wanted)}"
-        raise SceneError(f"{prefix}.study and beside", given, allowed, file)
+        allowed = f"so many that with {given[0]} they are those that the function draws: {', '.join(wanted)}"
+        raise SceneError(f"{prefix}.beside", settings["beside"], allowed, file)
+    if wanted[0] == FIELDS and settings["study"] is None:
+        raise SceneError(f"{prefix}.law", settings["law"], "a study, whose fields the function draws", file)
     if wanted[0] == FIELDS:
         _check_map(settings, studies[settings["study"]], file, prefix)
     keywords = [argument.arg for argument in known[name].kwonlyargs]

@@ -49,13 +49,13 @@ def _forecast(text: str) -> Forecast | None:
         return None
 
 
-def seconds_of(run: Run, costs: str | Path) -> float | None:
+def seconds_of(run: Run, costs: str | Path | None) -> float | None:
     """CPU seconds of a run: as forecast or, of scenes that were not measured, as it took before; None if unknown."""
     found = forecast_for(run)
     return _spent(costs, "cpu_seconds_of_last_run") if found is None else found.seconds
 
 
-def megabytes_of(run: Run, costs: str | Path) -> float | None:
+def megabytes_of(run: Run, costs: str | Path | None) -> float | None:
     """Memory of a run's job: as forecast or, of scenes that were not measured, as it took before; None if unknown."""
     found = forecast_for(run)
     return _spent(costs, "peak_memory_of_last_run") if found is None else EMPTY + ARRAYS * found.megabytes
@@ -81,7 +81,7 @@ def minutes_asked(run: Run, costs: str | Path, attempt: int = 1) -> int:
     return attempt * (UNKNOWN_MINUTES if found is None else math.ceil(LONGER * (found + START) / 60))
 
 
-def is_short(run: Run, costs: str | Path) -> bool:
+def is_short(run: Run, costs: str | Path | None) -> bool:
     """Whether a run should share a job of a cluster with others; one of which nothing is known is taken to be short."""
     return (seconds_of(run, costs) or 0.0) <= SHORT
 

@@ -42,6 +42,8 @@ WORK_FEATURES = {
     ),
     SLIDE: ("one", "steps", "zone", "grid", "deep", "tight"),
 }
+CHOSEN = ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")
+"""Features that follow from what a user chooses: a scene is not outside what was measured because of them."""
 STEEP = ("pull_off_load_loading", "static_friction", "final_load", "onset_repulsive_length")
 """Quantities whose error's order in the grid is fitted: the process zone is resolved or is not."""
 NOISE, WRONG = {"points": 5e-4}, 0.15
@@ -62,41 +64,27 @@ def fit(table: pd.DataFrame) -> dict:
 
 
 def _kind(kind: str, rows: pd.DataFrame) -> dict:
-    errors: dict[str, dict] = {"points": {}}
-    resolved = {}
-    grids = rows[rows.knob == "points"]
+    """The relations of one kind, from all rows of it."""
+    wall = kind in (LINE, SURFACE)
+    other = "tolerance" if wall else "increment"
+    errors: dict[str, dict] = {"points": {}, other: {}, "resolved": {}}
+    grids, others = rows[rows.knob == "points"], rows[rows.knob == other]
     for name in READ[kind]:
         known = f"error_{name}"
         order = None if name in STEEP else ORDERS.get(name, SECOND)
         errors["points"][name] = _line(grids, known, ERROR_FEATURES[kind], {"grid": order} if order else {})
-        if kind in (LINE, SURFACE):
-            resolved[name] = _line(grids, known, ("one", "resolved", "pressure", *ROUGH), {"resolved": order})
-    if kind in (LINE, SURFACE):
-        errors["tolerance"] = {
-            name: _line(rows[rows.knob == "tolerance"], f"error_{name}", ("one", "tolerance"), {})
-            for name in READ[kind]
-        }
-    else:
-        errors["increment"] = {
-            name: _line(rows[rows.knob == "increment"], f"error_{name}", ("one", "increment"), {})
-            for name in READ[kind]
-        }
-    seen = ["bodies", "layers"] + [
-        name
-        for name in WORK_FEATURES[kind]
-        if name not in ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")
-    ]
+        errors[other][name] = _line(others, known, ("one", other), {})
+        if wall:
+            features = ("one", "resolved", "pressure", *ROUGH)
+            errors["resolved"][name] = _line(grids, known, features, {"resolved": order})
     errors = {knob: {name: law for name, law in laws.items() if law} for knob, laws in errors.items()}
-    resolved = {name: law for name, law in resolved.items() if law}
-    transforms, begun = (
-        _line(rows[rows.knob != "begun"], "transforms", WORK_FEATURES[kind], {}),
-        rows[rows.knob == "begun"],
-    )
+    transforms = _line(rows[rows.knob != "begun"], "transforms", WORK_FEATURES[kind], {})
     law = Relation(transforms["coefficients"], transforms["spread"])
-    shares = [one["transforms"] / law(one) for one in begun.to_dict("records")]
+    shares = [one["transforms"] / law(one) for one in rows[rows.knob == "begun"].to_dict("records")]
+    seen = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in CHOSEN)]
     return {
-        "errors": errors,
-        "resolved": resolved,
+        "errors": {knob: errors[knob] for knob in ("points", other)},
+        "resolved": errors["resolved"],
         "transforms": transforms,
         "begun": _short(np.median(shares or [1.0])),
         "seconds": _seconds(rows),
@@ -144,5 +132,5 @@ def _short(value: float) -> float:
 
 def as_text(table: pd.DataFrame) -> str:
     """The relations as their file has them."""
-    head = "# Relations of accuracy and cost, measured by `snakemake relations`; see contactsim/calibration.py\n"
+    head = "# Relations of accuracy and cost, measured by `snakemake relations`; see contactsim/regression.py\n"
     return head + yaml.safe_dump(fit(table), sort_keys=False, width=120, default_flow_style=None)

@@ -26,6 +26,7 @@ from contactsim.solvers import SOLVERS, solver_class, usual_kind
 from contactsim.surface import Flat
 from contactsim.surfaces import SURFACES
 from contactsim.traits import Trait
+from contactsim.variables import LOADS
 
 
 def turning(value: object) -> list[float]:
@@ -71,8 +72,6 @@ ACCURACY_KEYS = {
 
 ORIGINS = ("mean_plane", "first_touch")
 """Where approach is zero: see `contactsim.loading`."""
-LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
-"""By which loads on their own are prescribed; a study has one of them, and its dataset the dimension of that name."""
 RIGID = "rigid"
 """Kind of a body that does not give way, and has no keys."""
 

@@ -175,7 +175,7 @@ def quantities(study: Study) -> list[str]:
 
 
 def _path_quantities(study: Study) -> list[str]:
-    """What a path amounts to, its grid errors, and what is varied."""
+    """What a path amounts to, its errors as far as they are measured, and what is varied."""
     known = set(AREA_LOAD)
     if is_smooth(study.settings):
         scene = scene_of(study.runs()[0].settings)

@@ -209,6 +209,8 @@ VARIABLES = {
     "profile_imag": ("nm", "imaginary part of the profile's Fourier coefficients"),
 }
 """Unit and long name of every variable that a dataset may hold."""
+LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
+"""By which loads on their own are prescribed; a study has one of them, and its dataset the dimension of that name."""
 ERRORS = {
     "grid": "change of the mean on halving the grid",
     "increment": "what the increments of the path leave open",

@@ -50,7 +50,7 @@ if DRAWS:
 
 
     rule relations:
-        input: of_the_standard_tier, [RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
+        input: of_the_standard_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
         params: source=source_digest("contactsim.regression")

@@ -3,10 +3,11 @@
 import json
 
 from contactsim import aggregate, costs, dataset
+from contactsim.files import write_text
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
 data = aggregate.aggregate(plan["runs"], plan["settings"], plan["source"])
 dataset.write(data, snakemake.output.data)
-costs.table(plan["runs"]).to_csv(snakemake.output.costs, index=False)
+write_text(costs.table(plan["runs"]).to_csv(index=False), snakemake.output.costs)

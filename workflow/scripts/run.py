@@ -1,8 +1,8 @@
 """One run: all loads of one member of one variant."""
 
 import json
-from pathlib import Path
 
+from contactsim.files import write_text
 from contactsim.joblog import logged
 from contactsim.negligible import run
 
@@ -10,4 +10,4 @@ logged(snakemake.log[0])
 plan, files = json.loads(snakemake.params.plan), [snakemake.output.data, snakemake.output.costs]
 decision, twin = (snakemake.input.get(name) or None for name in ("decision", "twin"))
 run(plan["settings"], plan["source"], *files, snakemake.threads, decision, twin)
-Path(snakemake.output.done).write_text(plan["source"])
+write_text(plan["source"], snakemake.output.done)

@@ -246,8 +246,7 @@ def _lines(equal: pd.DataFrame, others: Iterable[str]) -> Iterable[list[str]]:
 
 def times(ratios: pd.Series) -> str:
     """Times the cost of the study's own solver, in transforms and in seconds; a dash where it was not measured."""
-    return "–" if ratios.isna().any() else f"{_two_digits(ratios.work)} ({_two_digits(ratios.seconds)})"
-
-
-def _two_digits(value: float) -> str:
-    return f"{float(f'{value:.1e}'):.0f}" if value >= 9.95 else f"{value:#.2g}"
+    if ratios.isna().any():
+        return "–"
+    both = [f"{float(f'{one:.1e}'):.0f}" if one >= 9.95 else f"{one:#.2g}" for one in (ratios.work, ratios.seconds)]
+    return f"{both[0]} ({both[1]})"

@@ -99,6 +99,8 @@ OTHERS = {
 }
 """What only sentences name: exact answers, fits, takes and keys of the config."""
 SYMBOLS = {name: drawn for name, (drawn, _) in QUANTITIES.items()}
+"""Quantities as an axis has them."""
 PLACES = {name: drawn for name, (drawn, _) in DIMENSIONS.items()}
+"""Dimensions as an axis has them."""
 READ = {name: words for name, (_, words) in (QUANTITIES | DIMENSIONS).items()} | OTHERS
 """Names as they are read in a sentence."""

@@ -16,6 +16,7 @@ QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": st
 FAINTEST = 0.35
 """Opacity of the smallest load."""
 CORNER = {"fontsize": 6.5, "ha": "right", "va": "top"}
+"""Looks of words in the upper right corner."""
 
 
 def per_wavelength(data: xr.Dataset) -> xr.Dataset:

@@ -30,6 +30,7 @@ LABELS = {
 WALL = {"relative_interacting_area": "relative_contact_area", "normalised_pressure": "normalised_pressure"}
 """What a hard wall has in the place of a law's quantities."""
 WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
+"""Looks of a hard wall beside adhesive contacts."""
 
 
 def prepared(data: xr.Dataset) -> xr.Dataset:

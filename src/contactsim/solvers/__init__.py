@@ -5,7 +5,7 @@ Classes are named, not imported, so that a run loads, and depends on, only the m
 
 from __future__ import annotations
 
-from importlib import import_module
+from importlib import import_module, metadata
 from importlib.util import find_spec
 
 from contactsim.errors import SceneError
@@ -55,6 +55,11 @@ def usual(scene: Scene) -> Solver:
 def installed(kind: str) -> bool:
     """Whether what a solver needs is there."""
     return kind not in PEERS or find_spec(PEERS[kind]) is not None
+
+
+def peer_version(kind: str) -> str:
+    """Version of the package that a solver needs beside this one; empty of others."""
+    return metadata.version(PEERS[kind]) if kind in PEERS else ""
 
 
 def solver(kind: str, **options: float) -> Solver:

@@ -3,8 +3,8 @@
 Guess the contact set, solve the linear problem on it, drop points that pull, add points that overlap, repeat (SIAM J.
 Optim. 13, 865, doi:10.1137/S1052623401383558). The stiffness |q| is an M-matrix on the grid (its off-diagonal entries
 are not positive), so with exact inner solutions the sets shrink monotonically after the first step and cannot cycle.
-That of an incompressible layer much thinner than the contacts are wide is none; on rough lines, with layers of half a
-spacing and more, the sets have settled nevertheless.
+That of an incompressible layer much thinner than the contacts are wide is no M-matrix; on rough lines, with layers of
+half a spacing and more, the sets have settled nevertheless.
 
 The inner solver is conjugate gradients on the contact set, preconditioned across the gaps (see
 `contactsim.solvers.continuation`).
