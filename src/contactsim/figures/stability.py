@@ -58,6 +58,10 @@ def taken(one: xr.Dataset) -> xr.Dataset:
     return one.isel(solver=takes) if takes.any() else one
 
 
+LETTERS = 118
+"""How many a head has room for at its usual size."""
+
+
 def _blocks(parts: list[xr.Dataset], axes: Axes, room: float) -> None:
     """One block a hazard: its name and what gets harder, then a row a solver; room: height of the panel in rows."""
     columns = parts[0].severity.size
@@ -76,10 +80,10 @@ def _blocks(parts: list[xr.Dataset], axes: Axes, room: float) -> None:
             edgecolors="white",
             linewidth=0.4,
         )
-        axes.text(0, top - 0.15, f"{hazard}: ", fontsize=6, va="bottom", ha="left", weight="bold")
-        axes.annotate(
-            str(one.harder.values), (1, 0), xycoords=axes.texts[-1], fontsize=6, va="bottom", annotation_clip=False
-        )
+        harder = str(one.harder.values)
+        head = {"fontsize": 6 * min(1.0, LETTERS / len(hazard + harder)), "va": "bottom"}
+        axes.text(0, top - 0.15, f"{hazard}: ", ha="left", weight="bold", **head)
+        axes.annotate(harder, (1, 0), xycoords=axes.texts[-1], annotation_clip=False, **head)
         look = {"fontsize": FONT, "ha": "center", "va": "center"}
         for (row, column), cost in np.ndenumerate(one.transforms.values):
             axes.text(column + 0.5, top + row + 0.53, _short(cost), **look)
