@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import json
-import shutil
 
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
 from cases import refused
 from conftest import ROOT
 from contactsim import calibration, cost, dataset, draws, effect_survey, ladder, regression, trials
+from contactsim.config import tiered
 from contactsim.draws import read_draws
 from contactsim.figures import effect_maps as map_figure
 from contactsim.figures import overview
 from contactsim.figures import trials as trial_figure
 from contactsim.plan import Plan
 from contactsim.relations import LINE, PATH, as_relations
+from contactsim.stability import read_settings
 
 QUICK = {"trial": {"scenes": 2}, "errors": [0.05], "kinds": {"surface": None, "slide": None, "rough_path": None}}
 SETTINGS = read_draws(ROOT / "config", QUICK, "quick")
@@ -120,25 +120,22 @@ def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overvie
     assert cost.read_overview(tmp_path) is None
 
 
-@pytest.mark.parametrize("part", ["stability", "effects", "trials", "effect_maps"])
+READERS = {
+    "stability": lambda file, over: read_settings(*tiered(file, over, "quick")),
+    "effects": lambda file, over: ladder.read_ladder(file.parent, 0, over, "quick"),
+    "trials": lambda file, over: draws.read_draws(file.parent, over, "quick"),
+    "effect_maps": lambda file, over: effect_survey.read_maps(file.parent, over, "quick"),
+}
+
+
+@pytest.mark.parametrize("part", READERS)
 def test_a_tier_cannot_change_what_has_no_file_and_is_named_where_it_is_wrong(tmp_path, part):
-    folder = shutil.copytree(ROOT / "config", tmp_path / "config")
-    tiers = yaml.safe_load((folder / "tiers.yaml").read_text())
-    tiers["quick"][part] = {"title": []}
-    (folder / "tiers.yaml").write_text(yaml.safe_dump(tiers))
     with refused("title", "a line of text") as caught:
-        _all_read(folder)
+        READERS[part](ROOT / f"config/{part}.yaml", {"title": []})
+    assert str(caught.value.file).endswith("tiers.yaml")
     assert f"{part}.yaml with tier quick of" in str(caught.value.file)
-    (folder / f"{part}.yaml").unlink()
     with refused(f"quick.{part}", "left out, as there is no"):
-        _all_read(folder)
-
-
-def _all_read(folder):
-    plan = Plan.read(folder, "quick")
-    ladder.read_ladder(folder, plan.seed, plan.effects, plan.tier)
-    draws.read_draws(folder, plan.trials, plan.tier)
-    effect_survey.read_maps(folder, plan.effect_maps, plan.tier)
+        READERS[part](tmp_path / f"{part}.yaml", {"title": []})
 
 
 def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_path):
