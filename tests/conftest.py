@@ -21,6 +21,7 @@ from contactsim.files import write_text
 from contactsim.negligible import decide, run
 from contactsim.plan import Plan
 
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of processes that tests start; of this one, see below
 ROOT = Path(__file__).parents[1]
 FILES = (("datasets", ".nc"), ("costs", ".csv"))
 
