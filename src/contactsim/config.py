@@ -73,7 +73,12 @@ def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
         if over:
             raise SceneError(f"{tier}.{file.stem}", over, f"left out, as there is no {file}", tiers)
         return None
-    return overlaid(load_yaml(file), over), f"{file} with tier {tier} of {tiers}" if over else str(file)
+    return overlaid(load_yaml(file), over), named(file, over, tier)
+
+
+def named(file: Path, over: dict, tier: str) -> str:
+    """What to name where a file beside tiers.yaml is wrong, with what a tier changes in it."""
+    return f"{file} with tier {tier} of {file.with_name('tiers.yaml')}" if over else str(file)
 
 
 def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:

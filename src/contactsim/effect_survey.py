@@ -16,7 +16,7 @@ import yaml
 from contactsim import dataset
 from contactsim.config import Key, listed, mapping, number, pair, read, size, text, tiered
 from contactsim.effect_maps import change, product, value_at
-from contactsim.errors import SceneError
+from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.leaving_out import LEFT_OUT
 from contactsim.provenance import computing_digest, digest, source_digest
@@ -80,7 +80,7 @@ def _map(name: str, section: object, file: str) -> dict:
         if head not in one["scene"] or (tail and not isinstance(one["scene"][head], dict)):
             raise SceneError(f"{prefix}.axes.{axis}.key", given["key"], "a key of the map's scene", file)
         for key in given["per"]:
-            if not _is_number(value_at(one["scene"], key)):
+            if not is_number(value_at(one["scene"], key)):
                 raise SceneError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
     first = {axis: given["values"][0] for axis, given in one["axes"].items()}
     for axis, given in one["axes"].items():
@@ -93,15 +93,6 @@ def _map(name: str, section: object, file: str) -> dict:
         if quantity not in known:
             raise SceneError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
     return one
-
-
-def _is_number(value: object) -> bool:
-    """Whether a value of a config is a number."""
-    try:
-        number(value)
-    except ValueError:
-        return False
-    return True
 
 
 def _panel(section: dict, count: int, maps: Mapping, file: str) -> dict:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from contactsim import negligible, stability
 from contactsim.claims import Claim
-from contactsim.config import Key, load_yaml, mapping, overlaid, read, text, tiered, whole
+from contactsim.config import Key, load_yaml, mapping, named, overlaid, read, text, tiered, whole
 from contactsim.effect_maps import reduced
 from contactsim.errors import SceneError
 from contactsim.figure_config import Figure, read_figure
@@ -21,38 +21,11 @@ CONFIG_KEYS = {
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
 }
-RESERVED = (
-    "all",
-    "claims",
-    "accuracy",
-    "effects",
-    "measure_effects",
-    "trial",
-    "trials",
-    "relations",
-    "measure_relations",
-    "decide",
-    "overview",
-    "effect_maps",
-    "measure_map",
-    "freeze_maps",
-    "stability",
-    "report",
-    "gallery",
-    "bundle",
-    "targets",
-    "run",
-    "aggregate",
-    "unknown_target",
-    "price",
-    "accuracy_figure",
-    "judge",
-    "hazard",
-    "stability_dataset",
-    "test",
-    "setup",
-    "help",
-)
+RESERVED = """
+all claims accuracy effects measure_effects trial trials relations measure_relations decide overview effect_maps
+measure_map freeze_maps stability report gallery bundle targets run aggregate unknown_target price accuracy_figure
+judge hazard stability_dataset test setup help
+""".split()
 """Names that the workflow's own rules and the Makefile's targets have."""
 
 
@@ -124,11 +97,10 @@ class Plan:
                     raise SceneError(
                         f"{tier}.studies.{name}", over, "a mapping of keys to override", folder / "tiers.yaml"
                     )
-                source = file if not over else f"{file} with tier {tier} of {folder / 'tiers.yaml'}"
                 if over:
                     Study.read(name, section, file, main["seed"])  # what a tier hides must be right too
                     section = overlaid(section, over)
-                studies[name] = Study.read(name, section, source, main["seed"])
+                studies[name] = Study.read(name, section, named(file, over, tier), main["seed"])
                 chapters[name] = file.stem
             own = {name: studies[name] for name in sections["studies"]}
             _check_surfaces(own)

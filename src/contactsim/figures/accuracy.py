@@ -23,13 +23,7 @@ from contactsim.forecast import transform_seconds
 from contactsim.precision import ROUNDING
 from contactsim.variables import VARIABLES
 
-KNOBS = {
-    "points": "grid points",
-    "tolerance": "tolerance",
-    "increment": "increment",
-    "window": "window",
-    "members": "members",
-}
+KNOBS = {"points": "grid points"} | {name: name for name in ("tolerance", "increment", "window", "members")}
 LETTERS = 66
 """About how many the last column has room for in a line."""
 COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}
