@@ -15,6 +15,7 @@ set -euo pipefail
 unset PYTHONDONTWRITEBYTECODE # jobs start faster where compiled code is kept
 COMPARED='accuracy/*.nc trials/*.nc runs/*.nc datasets/*.nc decisions/*.json stability/*.nc effect_maps/*.nc claims/*.csv'
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
+COMMIT=$(git -C "$ROOT" rev-parse HEAD) # of both clones, whatever is committed meanwhile
 LOCAL=${1:--}
 shift || true
 TARGETS=("${@:-all}")
@@ -37,7 +38,7 @@ fail() {
 clone_into() { # a clone of this commit with its packages
   if [ ! -d "$1" ]; then
     git clone --quiet "$ROOT" "$1"
-    git -C "$1" checkout --quiet "$(git -C "$ROOT" rev-parse HEAD)"
+    git -C "$1" checkout --quiet "$COMMIT"
   fi
   make --silent -C "$1" setup 2>"$WORK/setup.log" || fail "no set-up: see $WORK/setup.log"
 }
@@ -187,7 +188,7 @@ list() { # files below the first part of a pattern, of the ending of its second,
 for program in slurmctld:slurm-wlm munged:munge; do
   command -v "${program%:*}" >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -qq -y "${program#*:}"
 done
-say "commit $(git -C "$ROOT" rev-parse --short HEAD), in $WORK"
+say "commit ${COMMIT:0:7}, in $WORK"
 clone_into "$CLUSTER"
 trap stop_cluster EXIT
 start_cluster
