@@ -58,6 +58,15 @@ PATH_CASE = {name: CASE[name] for name in ("title", "caption", "size")} | {
         "mass_weighted_verlet": {"increment": [1.0]},
     },
 }
+ROUGH_CASE = {
+    "study": "rough_line",
+    "load": [1e-3],
+    "quantities": ["kappa_r"],
+    "vary": {"surface.hurst": [0.8]},
+    "settled": {"points": 8192, "tolerance": 1.0e-4},
+    "reference": {"points": 32768, "tolerance": 1.0e-7},
+    "solvers": {"active_set": {"points": [8192, 16384]}},
+}
 WALL_ON_A_PATH = ASPERITY | {
     "effects": ["hard_wall"],
     "body": {"kind": "half_space", "contact_modulus": 70.0},
@@ -149,14 +158,26 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
 
 
 def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
-    settings = {"study": "rough_line", "load": [1e-3], "quantities": ["kappa_r"], "vary": {"surface.hurst": [0.8]}}
-    one = case(tmp_path, **settings)
+    one = case(tmp_path, **ROUGH_CASE)
     (run,) = one.study_at(one.turned("active_set")[0], "active_set").runs()
     whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst": 0.8})
     assert run.coordinates == {"hurst": 0.8}
     assert run.settings["surface"] == whole.settings["surface"]
     assert {run.settings[key] for key in ("seed", "study")} == {whole.settings[key] for key in ("seed", "study")}
     assert one.selection == {"hurst": [0.8]}
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"solvers": {"active_set": {"points": [8190, 16384]}}}, "solvers.active_set.points"),
+        ({"settled": {"points": 8190, "tolerance": 1e-4}}, "settled.points"),
+    ],
+)
+def test_grids_that_miss_the_shortest_wave_are_refused_before_any_job(tmp_path, changes, key):
+    with pytest.raises(SceneError, match="more than 8190: two points per shortest wavelength") as caught:
+        case(tmp_path, **ROUGH_CASE | changes)
+    assert (caught.value.key, caught.value.value) == (f"quick.case.{key}", 8190)
 
 
 def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_path):

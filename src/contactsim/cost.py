@@ -9,14 +9,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from contactsim.accuracy_case import Case, job_plan
+from contactsim.accuracy_case import REFERENCE, Case, job_plan
 from contactsim.build import scene_of
 from contactsim.choice import size_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast
 from contactsim.plan import Plan
-from contactsim.priced import SingleLoads, WholePath, WholeSlide, kind_of, read_turned
+from contactsim.priced import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, solver_class
 from contactsim.solvers.base import require
@@ -92,13 +92,23 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     if case.default not in settings["solvers"]:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
         raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
-    scene = scene_of(case.study.runs()[0].settings)
-    for solver_kind in settings["solvers"]:
-        try:
-            require(solver_class(solver_kind)(), scene)
-        except SceneError as error:
-            raise SceneError(f"{prefix}.solvers", solver_kind, error.allowed, file) from error
+    for job in (REFERENCE, *settings["solvers"]):
+        for setting in case.turned(job):
+            _check_setting(case, job, setting, file, prefix)
     return case
+
+
+def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: str) -> None:
+    """Build the scene of a job at one setting, so that nothing impossible is found out by the job."""
+    try:
+        scene = scene_of(case.study_at(setting, job).runs()[0].settings)
+        scene.upper.surface.check(setting.points)
+        require(solver_class(case.solved_by(job))(), scene)
+    except SceneError as error:
+        if error.key == "solver":
+            raise SceneError(f"{prefix}.solvers", job, error.allowed, file) from error
+        turned = REFERENCE if job == REFERENCE else f"solvers.{job}"
+        raise error.within(file, f"{prefix}.{turned if error.key == setting.knob else 'settled'}") from error
 
 
 def _check_known(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
