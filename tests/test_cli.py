@@ -59,6 +59,23 @@ def test_a_run_has_its_own_load_and_the_proportionality_factors(scene_file, caps
     assert stored.kappa_r.attrs["units"] == "1"
 
 
+def test_units_stand_between_the_names_and_the_numbers_of_their_columns(scene_file, capsys):
+    cli.main(["run", str(scene_file)])
+    *_, broken, names, units, first, second, _ = capsys.readouterr().out.splitlines()
+    gaps = dataset.read(scene_file.with_suffix(".nc")).mean_gap.values
+    end = {name: names.index(name) + len(name) for name in ("mean_pressure", "mean_gap")}
+    for line, pressure, gap in (
+        (units, "GPa", "nm"),
+        (first, "0.01", f"{gaps[0]:.4g}"),
+        (second, "0.1", f"{gaps[1]:.4g}"),
+    ):
+        assert line[: end["mean_pressure"]].split()[-1] == pressure
+        assert line[: end["mean_gap"]].split()[-1] == gap
+    assert len(units) == end["mean_gap"]  # what comes after has no unit
+    assert names.split()[-1] == "status" and first.endswith("  converged")
+    assert broken.endswith("contact_area_") and names[: len(broken)].endswith("subgrid")
+
+
 def test_a_run_keeps_what_its_scene_file_says_and_its_fields_can_be_mapped(scene_file):
     scene_file.write_text(SCENE.replace("5.0}", "5.0, dimensions: 2}").replace("256", "32") + "keep: [fields]\n")
     cli.main(["run", str(scene_file)])

@@ -365,7 +365,7 @@ def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowe
 
 def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
     one = cost.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
-    found = cost.figure_settings(one, PLAN, cost.every_tier(ROOT / "config"))
+    found = cost.figure_settings(one, PLAN, cost.every_tier(ROOT / "config", PLAN))
     marks = found["marks"]
     assert {name: own.get("increment") for name, own in marks.items()} == {
         "quick": None,  # they adapt
@@ -387,7 +387,7 @@ def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
 
 
 def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
-    tiers = cost.every_tier(ROOT / "config")
+    tiers = cost.every_tier(ROOT / "config", PLAN)
     assert list(tiers) == ["quick", "standard", "full"]
     for plan in tiers.values():
         cases = cost.read_cases(ROOT / "config", plan)

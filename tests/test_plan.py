@@ -541,8 +541,10 @@ def edited(monkeypatch):
         monkeypatch.setattr(
             Path, "read_bytes", lambda self: read_bytes(self) + (b"# edited\n" if self == path else b"")
         )
+        provenance.source_digest.cache_clear()
 
-    return edit
+    yield edit
+    provenance.source_digest.cache_clear()
 
 
 @pytest.mark.parametrize(

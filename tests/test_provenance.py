@@ -20,21 +20,26 @@ MODULES = sorted(
 )
 
 
+def forget():
+    imports_of.cache_clear()
+    source_digest.cache_clear()
+
+
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """A copy of the package, which provenance takes for the package itself."""
     copy = tmp_path / "contactsim"
     shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(provenance, "package_root", lambda: copy)
-    imports_of.cache_clear()
+    forget()
     yield copy
-    imports_of.cache_clear()
+    forget()
 
 
 def write(package, **texts):
     for name, text in texts.items():
         (package / f"{name}.py").write_text(text, encoding="utf-8")
-    imports_of.cache_clear()
+    forget()
 
 
 def test_marching_uses_what_it_imports_directly_or_not_and_no_figure_and_no_solver():
@@ -109,7 +114,7 @@ def test_the_digest_does_not_depend_on_the_order_or_the_place_of_the_package(pac
     package.rename(package.with_name("moved"))
     moved = package.with_name("moved")
     monkeypatch.setattr(provenance, "package_root", lambda: moved)
-    imports_of.cache_clear()
+    forget()
     assert source_digest("contactsim.march", "contactsim.solvers.verlet") == here
     assert len(here) == 16
     assert set(here) <= set("0123456789abcdef")
@@ -118,7 +123,7 @@ def test_the_digest_does_not_depend_on_the_order_or_the_place_of_the_package(pac
 def test_a_copy_of_the_package_has_its_digest(package, monkeypatch):
     copied = source_digest("contactsim.march")
     monkeypatch.setattr(provenance, "package_root", lambda: SOURCE)
-    imports_of.cache_clear()
+    forget()
     assert source_digest("contactsim.march") == copied
 
 

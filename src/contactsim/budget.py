@@ -91,17 +91,18 @@ def _runs(plan: Plan, studies: Iterable[str]) -> list[Run]:
 
 def table(folder: str | Path, plan: Plan) -> str:
     """One line for each figure, one for all their runs, and one for each of what is made besides."""
-    measured = all_measured([*every_tier(folder).values(), plan])
+    measured = all_measured([*every_tier(folder, plan).values(), plan])
     lines = [("figure", "jobs", "core-hours", "largest job", "")]
     lines += [_line(name, cost) for name, cost in by_figure(plan, measured).items()]
     lines += [_line("all runs, each once", in_all(plan, measured))]
     lines += [_line(name, Cost(jobs, jobs)) for name, jobs in others(folder, plan).items()]
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    text = [f"{name:<{widths[0]}}{_right(cells, widths[1:-1])}  {words}" for name, *cells, words in lines]
+    text = [f"{name:<{widths[0]}}{right(cells, widths[1:-1])}  {words}" for name, *cells, words in lines]
     return "".join(f"{line.rstrip()}\n" for line in text)
 
 
-def _right(cells: list[str], widths: list[int]) -> str:
+def right(cells: Iterable[str], widths: Iterable[int]) -> str:
+    """A line of cells, each at the right of its column."""
     return "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import logging
 import sys
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,7 @@ from contactsim.schema import COMPANIONS
 from contactsim.solvers import solver
 from contactsim.solvers.base import Status, solved
 from contactsim.study import Study
+from contactsim.variables import VARIABLES
 
 DRAWN = (".png", ".pdf", ".svg")
 
@@ -124,16 +126,32 @@ def run_scene(options: argparse.Namespace) -> None:
     data = _as_of_a_study(data, settings)
     source = study.runs()[0].source
     dataset.write(dataset.stamped(data, study.settings["title"], settings, source), target)
-    columns = [name for name in SHOWN if name in data]
-    names = {status.value[0]: status.name.lower() for status in Status}
-    rows = data[columns].to_dataframe().assign(status=[names[int(status)] for status in data.status])
-    sys.stdout.write(rows.to_string(float_format="{:.4g}".format) + "\n")
+    sys.stdout.write(f"{_table(data)}\n")
     if "accuracy" in data:
         sys.stdout.write(f"{_reached(data)}\n")
     sys.stdout.write(f"written to {target}\n")
     failed = int((~solved(data.status)).sum())
     if failed:
-        sys.exit(f"Error: {failed} of {len(rows)} load steps did not converge")
+        sys.exit(f"Error: {failed} of {data.status.size} load steps did not converge")
+
+
+def _table(data: xr.Dataset) -> str:
+    """A line for each load; above it the names of variables, broken after underscores, and their units."""
+    names = {status.value[0]: status.name.lower() for status in Status}
+    rows = data[[name for name in SHOWN if name in data]].to_dataframe().reset_index()
+    rows["status"] = [names[status] for status in rows.status]
+    columns = []
+    for name, values in rows.items():
+        unit = VARIABLES[name][0]
+        head = [*textwrap.wrap(name.replace("_", "_ "), 17), "" if unit == "1" else unit]
+        columns.append([part.replace("_ ", "_") for part in head] + [_cell(value) for value in values])
+    tall, widths = max(map(len, columns)), [max(map(len, column)) for column in columns]
+    lines = zip(*([""] * (tall - len(column)) + column for column in columns), strict=True)
+    return "\n".join(budget.right(line, widths).rstrip() for line in lines)
+
+
+def _cell(value: object) -> str:
+    return value if isinstance(value, str) else f"{value:.4g}"
 
 
 def _reached(data: xr.Dataset) -> str:

@@ -33,8 +33,8 @@ class Key:
     default: object = REQUIRED
 
 
-class _Loader(yaml.SafeLoader):
-    """Safe YAML in which a key given twice is an error."""
+class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
+    """Safe YAML, read in C where that is installed, in which a key given twice is an error."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
         """The mapping, unless a key stands in it twice."""

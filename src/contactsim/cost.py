@@ -137,9 +137,10 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
     return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
-def every_tier(folder: str | Path) -> dict[str, Plan]:
-    """The plans of all tiers."""
-    return {tier: Plan.read(folder, tier) for tier in load_yaml(Path(folder) / "tiers.yaml")}
+def every_tier(folder: str | Path, plan: Plan) -> dict[str, Plan]:
+    """The plans of all tiers; plan: of one of them."""
+    tiers = load_yaml(Path(folder) / "tiers.yaml")
+    return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
 
 
 def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from contactsim.build import scene_of
@@ -116,6 +117,7 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
         raise SceneError(f"{prefix}.select", settings["select"], allowed, file)
 
 
+@cache
 def _functions(module: str) -> dict[str, ast.arguments]:
     """The public functions of a module, with their arguments; read, not imported, since matplotlib takes a second."""
     path = module_path(module)

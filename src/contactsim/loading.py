@@ -83,13 +83,19 @@ class LoadPath:
 
         Near is within half of the longer increment beside that step. Of a path that slides, steps that slide count.
         """
-        values = np.array([step.value if step.control is self.steps[-1].control else np.inf for step in self.steps])
+        values = self._values
         place = int(np.argmin(np.round(np.abs(values - value), 9)))
         beside = np.abs(values[max(place - 1, 0) : place + 2] - values[place])
         beside = beside[np.isfinite(beside)]
         if abs(values[place] - value) > beside.max(initial=0.0) / 2 + 1e-9:
             raise SceneError("snapshots", value, f"values near steps of the path; the nearest is {values[place]:g}")
         return place
+
+    @cached_property
+    def _values(self) -> Array:
+        """Of each step; infinite of those before the slide of a path that slides."""
+        last = self.steps[-1].control
+        return np.array([step.value if step.control is last else np.inf for step in self.steps])
 
     @cached_property
     def traits(self) -> frozenset[Trait]:

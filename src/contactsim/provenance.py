@@ -58,6 +58,7 @@ def modules_used(*names: str) -> tuple[str, ...]:
     return tuple(sorted(known))
 
 
+@cache
 def source_digest(*names: str) -> str:
     """Digest of the text of these modules and of all that they import: 16 hexadecimal digits."""
     text = hashlib.sha256()

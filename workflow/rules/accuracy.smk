@@ -17,7 +17,7 @@ def case_study(ending, folder):
 
 @functools.cache
 def all_tiers():
-    return cost.every_tier(CONFIG)
+    return cost.every_tier(CONFIG, PLAN)
 
 
 def case_figure(wildcards):
