@@ -59,9 +59,9 @@ def stand_by():
     sys.executable = shlex.join(command)
 
 
-def timed_threads():
-    """Cores that a timed job keeps from others: it computes on one."""
-    return workflow.cores if PLAN.timed_alone else 1
+def timed_threads(at_once=1):
+    """Cores that a timed job, which computes on one, keeps from others: all, or a share where some may run at once."""
+    return max(workflow.cores // at_once, 1) if PLAN.timed_alone else 1
 
 
 def together(name):

@@ -11,6 +11,7 @@ if MAPS:
         log: RESULTS / "logs/effect_maps/{map}.log"
         params: plan=map_params
         group: together("maps")
+        priority: 1  # they take minutes: not at the end
         message: "effect map {wildcards.map}: with and without, everywhere"
         script: "../scripts/measure_map.py"
 
