@@ -341,6 +341,7 @@ def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path,
             "above the reference",
         ),
         ({"solvers": {"newton": {"increment": [0.01]}}}, "quick.case.solvers.newton.increment", "reference's, 0.05"),
+        ({"solvers": {"newton": {"tolerance": [1.0]}}}, "quick.case.solvers.newton.tolerance", "at most 0.1"),
         ({"solvers": {"newton": {"increment": [-1.0]}}}, "quick.case.solvers.newton.increment", "list of increments"),
         ({"solvers": {"newton": {"increment": 1.0}}}, "quick.case.solvers.newton.increment", "list of increments"),
         ({"solvers": {"newton": {}}}, "quick.case.solvers.newton", "points, or tolerance, or increment"),
@@ -365,7 +366,9 @@ def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowe
 
 def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
     one = cost.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
-    found = cost.figure_settings(one, PLAN, cost.every_tier(ROOT / "config", PLAN))
+    tiers = cost.every_tier(ROOT / "config", PLAN)
+    assert tiers["quick"] is PLAN
+    found = cost.figure_settings(one, PLAN, tiers)
     marks = found["marks"]
     assert {name: own.get("increment") for name, own in marks.items()} == {
         "quick": None,  # they adapt

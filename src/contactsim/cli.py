@@ -35,7 +35,6 @@ from contactsim.schema import COMPANIONS
 from contactsim.solvers import solver
 from contactsim.solvers.base import Status, solved
 from contactsim.study import Study
-from contactsim.variables import VARIABLES
 
 DRAWN = (".png", ".pdf", ".svg")
 
@@ -97,6 +96,8 @@ SHOWN = (
     *("residual", "jump", "beyond", "transforms", "status"),
 )
 """What is printed of a simulation, as far as its scene has it."""
+NARROW = 17
+"""Letters of a column's name, and spaces where it is broken, in one line."""
 
 
 def explain_scene(options: argparse.Namespace) -> None:
@@ -142,8 +143,8 @@ def _table(data: xr.Dataset) -> str:
     rows["status"] = [names[status] for status in rows.status]
     columns = []
     for name, values in rows.items():
-        unit = VARIABLES[name][0]
-        head = [*textwrap.wrap(name.replace("_", "_ "), 17), "" if unit == "1" else unit]
+        unit = data[name].attrs["units"]
+        head = [*textwrap.wrap(name.replace("_", "_ "), NARROW), "" if unit == "1" else unit]
         columns.append([part.replace("_ ", "_") for part in head] + [_cell(value) for value in values])
     tall, widths = max(map(len, columns)), [max(map(len, column)) for column in columns]
     lines = zip(*([""] * (tall - len(column)) + column for column in columns), strict=True)
@@ -151,7 +152,7 @@ def _table(data: xr.Dataset) -> str:
 
 
 def _cell(value: object) -> str:
-    return value if isinstance(value, str) else f"{value:.4g}"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _reached(data: xr.Dataset) -> str:

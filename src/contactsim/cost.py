@@ -15,6 +15,7 @@ from contactsim.choice import size_of
 from contactsim.config import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast
+from contactsim.interface import check_tolerance
 from contactsim.plan import Plan
 from contactsim.priced import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
@@ -99,11 +100,14 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
 
 
 def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: str) -> None:
-    """Build the scene of a job at one setting, so that nothing impossible is found out by the job."""
+    """Build the scenes of a job at one setting, so that nothing impossible is found out by the job."""
     try:
-        scene = scene_of(case.study_at(setting, job).runs()[0].settings)
-        scene.upper.surface.check(setting.points)
-        require(solver_class(case.solved_by(job))(), scene)
+        for run in case.study_at(setting, job).runs():
+            scene = scene_of(run.settings)
+            scene.upper.surface.check(setting.points)
+            require(solver_class(case.solved_by(job))(), scene)
+            if Trait.SMOOTH in scene.traits:
+                check_tolerance(setting.tolerance)
     except SceneError as error:
         if error.key == "solver":
             raise SceneError(f"{prefix}.solvers", job, error.allowed, file) from error
@@ -138,7 +142,7 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
 
 
 def every_tier(folder: str | Path, plan: Plan) -> dict[str, Plan]:
-    """The plans of all tiers; plan: of one of them."""
+    """The plans of all tiers; plan: that of its tier, which is not read again."""
     tiers = load_yaml(Path(folder) / "tiers.yaml")
     return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
 

@@ -57,7 +57,7 @@ class Plan:
 
     results: the folder for it; seed: root of all random numbers; effects, trials, effect_maps: what the tier changes in
     the ladder of effects, the scenes drawn at random and the maps of what effects change; timed_alone: whether what is
-    timed has the machine for itself.
+    timed keeps cores from all else.
     """
 
     tier: str

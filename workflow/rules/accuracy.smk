@@ -1,4 +1,4 @@
-# What accuracy costs: one job a case and solver, timed; two at once take each 2 to 9 % longer than alone, as measured.
+# What accuracy costs: one job a case and solver, timed, at most two at once.
 def case_params(wildcards):
     return canonical(accuracy_case.job_plan(CASES[wildcards.case], wildcards.job))
 

@@ -61,7 +61,7 @@ def stand_by():
 
 def timed_threads(at_once=1):
     """Cores that a timed job, which computes on one, keeps from others: all, or a share where some may run at once."""
-    return max(workflow.cores // at_once, 1) if PLAN.timed_alone else 1
+    return -(-workflow.cores // at_once) if PLAN.timed_alone else 1
 
 
 def together(name):

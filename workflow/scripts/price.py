@@ -2,6 +2,8 @@
 
 import json
 
+from threadpoolctl import threadpool_limits
+
 from contactsim import dataset
 from contactsim.cost import read_cases
 from contactsim.files import write_text
@@ -12,6 +14,7 @@ logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
 config, tier = snakemake.params.config, snakemake.params.tier
 case = read_cases(config, Plan.read(config, tier))[snakemake.wildcards.case]
-data, seconds = case.measure(snakemake.wildcards.job)
+with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
+    data, seconds = case.measure(snakemake.wildcards.job)
 dataset.write(dataset.stamped(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
 write_text(json.dumps(seconds), snakemake.output.costs)

@@ -2,12 +2,15 @@
 
 import json
 
+from threadpoolctl import threadpool_limits
+
 from contactsim import dataset, trials
 from contactsim.files import write_text
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-data, spent = trials.trial(plan["settings"], plan["kind"], plan["count"])
+with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
+    data, spent = trials.trial(plan["settings"], plan["kind"], plan["count"])
 dataset.write(dataset.stamped(data, "accuracy on trial", plan["settings"], plan["source"]), snakemake.output.data)
 write_text(json.dumps(spent), snakemake.output.costs)
