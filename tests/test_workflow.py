@@ -24,6 +24,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 
+import pandas as pd
 import pytest
 import xarray as xr
 import yaml
@@ -289,7 +290,7 @@ def jobs_in(text: str) -> list[str]:
     messages = re.findall(r"^Job \d+: (.*)$", text, re.MULTILINE)
     counts = dict(re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE))
     assert counts or "Nothing to be done" in text
-    silent = {"total", "all", "rough", "baseline", "smooth"}  # rules that only gather files
+    silent = {"total", "all", "rough", "baseline", "smooth", "accuracy_wave"}  # rules that only gather files
     assert len(messages) == sum(int(count) for name, count in counts.items() if name not in silent)
     messages = [message for message in messages if not message.startswith(REPORT)]
     return sorted(re.sub(r"^(fig_\w+): .*", r"\1", message) for message in messages)
@@ -665,6 +666,30 @@ def test_a_wrong_command_is_refused_in_words(
     assert refused.stderr.count("Error") == 1
     assert "Traceback" not in refused.stderr
     assert not (fresh.folder / "results").exists()
+
+
+def test_what_accuracy_costs_is_made_case_by_case_beside_the_study_that_is_there(project: Project) -> None:
+    case = figure("smooth") | {
+        "load": [0.1, 0.3],
+        "quantities": ["relative_contact_area"],
+        "settled": {"points": 512, "tolerance": 1.0e-3},
+        "reference": {"points": 4096, "tolerance": 1.0e-6},
+        "levels": {"points": [0.05]},
+        "solvers": {"active_set": {"points": [256, 512], "tolerance": [0.1]}},
+    }
+    tiers = ("standard", "quick")
+    project.configure("accuracy", {tier: {"wave": case, "other": case} for tier in tiers})
+    before = project.times("standard/runs/**/*")
+    jobs = ["accuracy of wave: active_set", "accuracy of wave: reference"]
+    picture = "accuracy_wave: results/standard/figures/accuracy_wave.png"
+    assert project.make("accuracy_wave") == [*jobs, picture]
+    assert project.times("standard/runs/**/*") == before
+    prices = pd.read_csv(project.folder / "results/standard/figures/accuracy_wave.csv")
+    assert prices.points.tolist() == [256, 512, 512] and (prices.seconds > 0).all()
+    assert (prices.relative_contact_area[prices.knob == "points"].between(1e-3, 0.05)).all()
+    case["solvers"]["active_set"]["tolerance"] = [0.01]
+    project.configure("accuracy", {tier: {"wave": case} for tier in tiers})
+    assert project.planned("accuracy_wave") == [jobs[0], picture]
 
 
 def test_a_wrong_setting_is_refused_with_file_key_value_and_what_is_allowed(fresh: Project) -> None:

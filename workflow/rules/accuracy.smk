@@ -70,6 +70,13 @@ if OVERVIEW:
         script: "../scripts/overview.py"
 
 
+for _case in CASES:
+    rule:
+        name: f"accuracy_{_case}"
+        localrule: True
+        input: figure_files(f"accuracy_{_case}")
+
+
 rule accuracy:
     localrule: True
     input: [file for case in CASES for file in figure_files(f"accuracy_{case}")]
