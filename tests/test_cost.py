@@ -167,6 +167,15 @@ def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
     assert one.selection == {"hurst": [0.8]}
 
 
+@pytest.mark.parametrize("name", ["figure", "taken", "a-b", ""])
+def test_a_case_cannot_have_a_name_that_is_no_target_or_that_of_another(tmp_path, name):
+    plan = replace(PLAN, studies=PLAN.studies | {"accuracy_taken": PLAN.studies["smooth_line"]})
+    (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {name: CASE}}))
+    with pytest.raises(SceneError, match="letters, digits and underscores; with accuracy_ before it no") as caught:
+        cost.read_cases(tmp_path, plan)
+    assert (caught.value.key, caught.value.value) == ("quick", name)
+
+
 @pytest.mark.parametrize(
     ("changes", "key"),
     [

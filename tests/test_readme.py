@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 
@@ -170,6 +171,13 @@ def test_every_command_names_a_target_or_an_option_that_exists():
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", README, re.MULTILINE)
     assert commands
     assert set(commands) <= targets
+
+
+def test_what_is_said_of_the_trials_is_what_their_table_holds():
+    found, words = pd.read_csv(ROOT / "docs/trials.csv"), " ".join(README.split())
+    assert f"asked for errors of 1, 2 and 5 %, {found.met.sum()} are within the error" in words
+    assert f"they take {found.cost.median():.3g} times (median) the work of the cheapest" in words
+    assert f"a factor of two of that spent in {found.prediction.between(0.5, 2).sum()} of them" in words
 
 
 def test_nothing_in_the_readme_waits_to_be_filled_in():

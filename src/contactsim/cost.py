@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +17,7 @@ from contactsim.config import Key, choice, listed, load_yaml, mapping, number, p
 from contactsim.errors import SceneError
 from contactsim.forecast import forecast
 from contactsim.interface import check_tolerance
-from contactsim.plan import Plan
+from contactsim.plan import RESERVED, Plan
 from contactsim.priced import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers import SOLVERS, solver_class
@@ -75,6 +76,10 @@ def overview(settings: dict, cases: dict[str, Case], tier: str) -> dict:
 
 
 def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
+    target = f"accuracy_{name}"
+    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED, *plan.studies, *plan.figures):
+        allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
+        raise SceneError(plan.tier, name, allowed, file)
     prefix = f"{plan.tier}.{name}"
     settings = read(section, CASE_KEYS, file, prefix)
     if settings["study"] not in plan.studies:

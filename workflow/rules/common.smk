@@ -103,8 +103,8 @@ def target_lines():
     lines += [f"  {name:14} {DRAWS['title']}" for name in TRIALS]
     lines += [f"  {name:14} {OVERVIEW['title']}" for name in OVERVIEWS]
     lines += [f"  {name:14} {MAPS['title']}" for name in EFFECT_MAPS]
-    lines += [f"  accuracy_{name:5} {case.settings['title']}" for name, case in CASES.items()]
-    lines += [f"  {'accuracy':14} all that begin so"] * bool(CASES)
+    lines += [f"  {f'accuracy_{name}':14} {case.settings['title']}" for name, case in CASES.items()]
+    lines += [f"  {'accuracy':14} all of those that begin so"] * bool(CASES)
     lines += [f"  {'claims':14} what the thesis states, and whether it is reproduced"] * bool(PLAN.claims)
     lines += [f"  {'report':14} all that was found, on one page"]
     lines += [f"  {'all':14} all of these, beside which there are:"]
