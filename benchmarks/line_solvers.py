@@ -21,8 +21,8 @@ import measure
 import report
 from records import Table, on_one_thread
 
-from contactsim.plan import Plan
-from contactsim.solvers import installed
+from contactsim.solvers.registry import installed
+from contactsim.study.plan import Plan
 
 HERE = Path(__file__).resolve().parent
 CASE = ("part", "solver", "hurst", "points", "member", "reduced_pressure", "tolerance")

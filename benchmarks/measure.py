@@ -15,13 +15,13 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from contactsim.build import scene_of
+from contactsim.contact.hard_wall import Certificate, Scale, WallProblem, pose
+from contactsim.contact.scene import Scene
 from contactsim.grid import Array, Grid, Tally
-from contactsim.plan import Plan
-from contactsim.scene import Scene
-from contactsim.solvers import solver
 from contactsim.solvers.base import solve
-from contactsim.wall import Certificate, Scale, WallProblem, pose
+from contactsim.solvers.registry import solver
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import scene_of
 
 CAP = 120
 """CPU seconds that one solution may take."""

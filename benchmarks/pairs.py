@@ -16,11 +16,11 @@ import peers
 from measure import CAP, LONG, in_child, posed, worst
 from scipy.fft import rfft2
 
+from contactsim.contact.hard_wall import Scale, WallProblem, pose
 from contactsim.grid import Array
-from contactsim.plan import Plan
-from contactsim.solvers import solver
 from contactsim.solvers.base import solve
-from contactsim.wall import Scale, WallProblem, pose
+from contactsim.solvers.registry import solver
+from contactsim.study.plan import Plan
 
 OURS = "conjugate_gradients"
 

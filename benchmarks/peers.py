@@ -11,8 +11,8 @@ import itertools
 import time
 from dataclasses import dataclass
 
+from contactsim.contact.hard_wall import WallProblem
 from contactsim.grid import Array
-from contactsim.wall import WallProblem
 
 RUNGS = tuple(10 ** (-power / 2) for power in range(8, 29))
 """Tolerances tried: 1e-4 to 1e-14, two a decade."""

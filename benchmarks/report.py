@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.markers import CARETUPBASE
 
 from contactsim.figures import style
-from contactsim.figures.render import framed
+from contactsim.figures.layout import framed
 
 SOLVERS = {
     "active_set": ("active set", style.WHOLE),

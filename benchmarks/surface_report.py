@@ -11,7 +11,7 @@ from measure import CAP
 from report import insert, markdown
 
 from contactsim.figures import style
-from contactsim.figures.render import framed
+from contactsim.figures.layout import framed
 
 SOLVERS = {
     "ours": ("conjugate gradients, ours", style.WHOLE),

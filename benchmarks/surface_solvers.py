@@ -22,7 +22,7 @@ import pairs
 import surface_report
 from records import Table, on_one_thread
 
-from contactsim.plan import Plan
+from contactsim.study.plan import Plan
 
 HERE = Path(__file__).resolve().parent
 CASE = ("part", "solver", "hurst", "points", "reduced_pressure", "tolerance")

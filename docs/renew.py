@@ -4,7 +4,7 @@ import re
 import shutil
 from pathlib import Path
 
-from contactsim import gallery
+from contactsim.publish import gallery
 
 DOCS = Path(__file__).parent
 RESULTS = DOCS.parent / "results/standard"

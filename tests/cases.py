@@ -11,9 +11,9 @@ import pytest
 
 import contactsim
 from contactsim.errors import SceneError
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.solvers import PEERS, SOLVERS, solver_class
 from contactsim.solvers.base import Result
+from contactsim.solvers.registry import PEERS, SOLVERS, solver_class
+from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.traits import Trait
 
 ALL = tuple(kind for kind in SOLVERS if kind not in PEERS and {Trait.LINE, Trait.WALL} <= solver_class(kind).accepts)

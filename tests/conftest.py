@@ -13,13 +13,14 @@ from pathlib import Path
 import pytest
 from threadpoolctl import threadpool_limits
 
-from contactsim import aggregate, costs, dataset
-from contactsim.build import scene_of
-from contactsim.figures.claims import render_claims
-from contactsim.figures.render import render
+from contactsim import dataset
+from contactsim.analysis import aggregate, costs
+from contactsim.error_control.neglect import decide, run
+from contactsim.figures.diagnostics.claims import render_claims
+from contactsim.figures.layout import render
 from contactsim.files import write_text
-from contactsim.negligible import decide, run
-from contactsim.plan import Plan
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import scene_of
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of processes that tests start; of this one, see below
 ROOT = Path(__file__).parents[1]

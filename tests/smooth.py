@@ -6,16 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.adhesion import state_observables
-from contactsim.elasticity import Elasticity, Layer
-from contactsim.follow import Requested
-from contactsim.interface import InterfaceProblem, pose_interface
-from contactsim.laws import CohesiveZone, Law, NormalCohesiveZone
-from contactsim.loading import LoadPath, approach
-from contactsim.scene import Body, Scene
-from contactsim.solvers import solver
-from contactsim.surface import Cylinder, Flat, Surface
-from contactsim.walk import PathState
+from contactsim.contact.cohesive import InterfaceProblem, pose_interface
+from contactsim.contact.loading import LoadPath, approach
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import Elasticity, Layer
+from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
+from contactsim.observables.adhesion import state_observables
+from contactsim.paths.continuation import PathState
+from contactsim.paths.increments import Requested
+from contactsim.solvers.registry import solver
+from contactsim.surfaces.shapes import Cylinder, Flat, Surface
 
 LENGTH, RADIUS = 10000.0, 25000.0
 LAYER = Layer(70.0 / (1 - 0.3**2), 0.3, 5000.0)

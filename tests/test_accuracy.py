@@ -10,11 +10,13 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from contactsim import dataset, precision
-from contactsim.adhesion import SUMMARY
-from contactsim.aggregate import AVERAGED
-from contactsim.figures import accuracy, knobs, notation, style
-from contactsim.figures.render import framed
+from contactsim import dataset
+from contactsim.analysis.aggregate import AVERAGED
+from contactsim.evaluation.work_precision import error_cost
+from contactsim.figures import notation, style
+from contactsim.figures.diagnostics import accuracy, knobs
+from contactsim.figures.layout import framed
+from contactsim.observables.adhesion import SUMMARY
 from prices import LOADS, PATH_REFERENCE, REFERENCE, job, path_job, path_study, study
 
 MARKS = {
@@ -109,14 +111,14 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     """The panels of a case, drawn in full, with seconds a thousandth of the work; the table."""
     settings = plan["settings"]
     ensemble = study(members) if settings["load"] else path_study([200.0] * members)
-    table = precision.table(settings, jobs, ensemble, plan["default"])
+    table = error_cost.table(settings, jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
     table = table.assign(work_expected=np.where(table.own, table.work * 1.5, np.nan))
     table["seconds_expected"] = table.work_expected / 1000
     columns = len(accuracy.turned(table)) + 1
     figure, panels = framed(settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
     axes = np.reshape(panels, (2, columns))
-    equal = precision.compared(table, settings["quantities"][0], settings["levels"], accuracy.COSTS)
+    equal = error_cost.compared(table, settings["quantities"][0], settings["levels"], accuracy.COSTS)
     accuracy.draw(table, equal, jobs[plan["default"]], axes, plan)
     FigureCanvasAgg(figure).draw()
     return axes, table

@@ -11,16 +11,28 @@ import yaml
 
 from cases import refused
 from conftest import ROOT
-from contactsim import cli, confirm, dataset, relations
-from contactsim.build import scene_of
-from contactsim.choice import FEWEST, SIZES, at_least, chosen, coarser, left_open
-from contactsim.confirm import outcome, reach
-from contactsim.draws import draw, read_draws
+from contactsim import cli, dataset
+from contactsim.error_control import control, scaling
+from contactsim.error_control.control import outcome, reach
+from contactsim.error_control.forecast import forecast, forecast_of, forecast_to
+from contactsim.error_control.options import FEWEST, SIZES, at_least, chosen, coarser, left_open
+from contactsim.error_control.scaling import (
+    KINDS,
+    LINE,
+    MEASURES,
+    PATH,
+    ROUGH_PATH,
+    SLIDE,
+    SURFACE,
+    Relation,
+    features,
+    kind_of,
+)
 from contactsim.errors import SceneError
-from contactsim.forecast import forecast, forecast_of, forecast_to
-from contactsim.outlook import told
-from contactsim.relations import KINDS, LINE, MEASURES, PATH, ROUGH_PATH, SLIDE, SURFACE, Relation, features, kind_of
-from contactsim.study import Study
+from contactsim.evaluation.calibration.sampling import draw, read_draws
+from contactsim.evaluation.resources import told
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
 
 DRAWS = read_draws(ROOT / "config", {}, "standard")
 LINE_SCENE = {
@@ -67,7 +79,7 @@ def test_a_relation_is_a_power_law_with_its_scatter():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_relations_are_known_of_every_kind_and_errors_fall_with_the_grid(kind):
-    known = relations.relations().kinds[kind]
+    known = scaling.relations().kinds[kind]
     assert set(MEASURES[kind]) <= set(known.errors["points"])
     assert all(law.coefficients["grid"] >= 1 for law in known.errors["points"].values())
     assert known.seconds["step"] > 0
@@ -102,7 +114,7 @@ def test_a_quarter_of_the_error_takes_twice_the_points_where_errors_are_of_secon
 def test_what_a_path_leaves_open_is_within_what_was_asked_for_and_its_companion_leaves_more(kind):
     for error in (0.01, 0.05):
         found = chosen(drawn(kind), error)
-        known = relations.relations().kinds[kind]
+        known = scaling.relations().kinds[kind]
         for name in MEASURES[kind]:
             assert left_open(found, known, name) < 1.3 * error
             assert left_open(coarser(found), known, name) > left_open(found, known, name)
@@ -158,7 +170,7 @@ def test_without_an_accuracy_tolerance_and_increments_are_required():
         study(plain, tolerance=1e-3)
 
 
-def true_error(found: confirm.Reached, factor: int) -> float:
+def true_error(found: control.Reached, factor: int) -> float:
     """Against a grid that many times finer."""
     settings = found.last.settings | {"points": found.last.points * factor, "tolerance": 1e-6}
     if "increments" in settings:
@@ -195,7 +207,7 @@ def test_a_run_that_begins_from_its_companion_takes_fewer_transforms_to_the_same
 def test_a_grid_that_was_too_hopeful_is_refined_and_an_error_that_is_still_missed_is_told(
     monkeypatch, caplog, tmp_path
 ):
-    true = relations.relations()
+    true = scaling.relations()
     line = true.kinds[LINE]
     hopeful = {
         knob: {
@@ -205,24 +217,24 @@ def test_a_grid_that_was_too_hopeful_is_refined_and_an_error_that_is_still_misse
         for knob, laws in line.errors.items()
     }
     wrong = replace(true, kinds=true.kinds | {LINE: replace(line, errors=hopeful)})
-    monkeypatch.setattr(confirm, "relations", lambda: wrong)
+    monkeypatch.setattr(control, "relations", lambda: wrong)
     run = settings_of(LINE_SCENE)
-    monkeypatch.setattr("contactsim.choice.relations", lambda: wrong)
+    monkeypatch.setattr("contactsim.error_control.options.relations", lambda: wrong)
     found = reach(run, 0.005)
     assert len(found.before) == 2
     assert found.last.points > found.before[1].points > found.before[0].points
     assert found.data.refinements == 1
     assert bool(found.data.reached) == found.met
-    monkeypatch.setattr(confirm.Reached, "met", property(lambda self: False))
+    monkeypatch.setattr(control.Reached, "met", property(lambda self: False))
     with caplog.at_level(logging.WARNING):
-        confirm.run(run, "source", tmp_path / "a.nc", tmp_path / "a.json")
+        control.run(run, "source", tmp_path / "a.nc", tmp_path / "a.json")
     assert "is not reached" in caplog.text
     assert dataset.read(tmp_path / "a.nc").reached == 0
 
 
 def test_a_run_stores_its_estimate_what_it_was_asked_for_and_all_that_it_cost(tmp_path):
     run = settings_of(LINE_SCENE)
-    confirm.run(run, "source", tmp_path / "a.nc", tmp_path / "a.json")
+    control.run(run, "source", tmp_path / "a.nc", tmp_path / "a.json")
     data = dataset.read(tmp_path / "a.nc")
     assert data.accuracy == 0.02
     assert data.reached == 1
@@ -231,7 +243,7 @@ def test_a_run_stores_its_estimate_what_it_was_asked_for_and_all_that_it_cost(tm
     assert data.points_before < data.points
     assert data.transforms_before > 0
     again = tmp_path / "b.nc"
-    confirm.run(run, "source", again, tmp_path / "b.json")
+    control.run(run, "source", again, tmp_path / "b.json")
     assert again.read_bytes() == (tmp_path / "a.nc").read_bytes()
 
 
@@ -239,10 +251,10 @@ def test_a_quantity_that_only_one_of_two_runs_has_is_of_no_known_error():
     settings = settings_of(ASPERITY)
     one = outcome(settings | {"tolerance": 1e-4}, MEASURES[PATH])
     lost = replace(one, values=one.values | {"pull_off_load_loading": np.array([np.nan])})
-    known = relations.relations().kinds[PATH]
-    assert np.isinf(confirm.estimated(one, lost, known, ["pull_off_load_loading"])["pull_off_load_loading"])
-    both = confirm.estimated(lost, lost, known, ["pull_off_load_loading"])["pull_off_load_loading"]
-    assert both == confirm._expected(lost, known, "pull_off_load_loading")
+    known = scaling.relations().kinds[PATH]
+    assert np.isinf(control.estimated(one, lost, known, ["pull_off_load_loading"])["pull_off_load_loading"])
+    both = control.estimated(lost, lost, known, ["pull_off_load_loading"])["pull_off_load_loading"]
+    assert both == control._expected(lost, known, "pull_off_load_loading")
 
 
 def test_each_variant_gets_the_grid_that_its_own_scene_needs():

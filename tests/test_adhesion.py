@@ -8,16 +8,26 @@ import xarray as xr
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from contactsim import analytic, loading
-from contactsim.adhesion import FINAL, SUMMARY, gradients, histograms, largest_jumps, legs, pull_off, summarised
-from contactsim.elasticity import HalfSpace
-from contactsim.interface import pose_interface
-from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.march import simulate
-from contactsim.roughness import local_squares, rms_gradient
-from contactsim.scene import Body, Scene
-from contactsim.surface import Cylinder, Flat
-from contactsim.tabulate import tabulated
+from contactsim import reference
+from contactsim.contact import loading
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.observables.adhesion import (
+    FINAL,
+    SUMMARY,
+    gradients,
+    histograms,
+    largest_jumps,
+    legs,
+    pull_off,
+    summarised,
+)
+from contactsim.study.execute import simulate
+from contactsim.study.law_table import tabulated
+from contactsim.surfaces.shapes import Cylinder, Flat
+from contactsim.surfaces.statistics import local_squares, rms_gradient
 from contactsim.traits import Trait
 from smooth import LAWS, LENGTH, along, scene_of
 
@@ -80,10 +90,10 @@ def test_the_pull_off_of_jkr_is_the_least_load_of_its_crack():
 
     def load(half_width):
         opened = np.sqrt(2 * np.pi * modulus * work * half_width)
-        return analytic.cylinder_load(half_width, radius, modulus) - opened
+        return reference.cylinder_load(half_width, radius, modulus) - opened
 
     least = minimize_scalar(load, bounds=(1.0, 2000.0), method="bounded", options={"xatol": 1e-9})
-    assert analytic.cylinder_pull_off(work, radius, modulus) == pytest.approx(-least.fun, rel=1e-10)
+    assert reference.cylinder_pull_off(work, radius, modulus) == pytest.approx(-least.fun, rel=1e-10)
     assert least.x**3 == pytest.approx(2 * work * radius**2 / (np.pi * modulus), rel=1e-4)
 
 
@@ -101,7 +111,7 @@ def test_the_pull_off_of_a_rigid_cylinder_is_the_largest_of_its_integrals():
         return quad(lambda x: law.traction(np.array([[gap + x**2 / (2 * radius)]]))[0, 0], -400, 400, limit=200)[0]
 
     best = minimize_scalar(lambda gap: -pull(gap), bounds=(0.0, 3.0), method="bounded")
-    assert analytic.rigid_cylinder_pull_off(work, radius, length) == pytest.approx(-best.fun, rel=1e-6)
+    assert reference.rigid_cylinder_pull_off(work, radius, length) == pytest.approx(-best.fun, rel=1e-6)
     assert best.x == pytest.approx(length / 2, abs=1e-3)
 
 
@@ -112,7 +122,7 @@ def test_a_stiff_cylinder_pulls_off_like_a_rigid_one(law):
     scene = Scene(Body(Flat.facing(upper), body), Body(upper), (law,), path)
     data = simulate(scene, points=128, tolerance=1e-8)
     found = pull_off(data.approach.values, data.line_load.values)
-    assert found["pull_off_load_loading"] == pytest.approx(analytic.rigid_cylinder_pull_off(1.0, 500.0, 1.0), rel=2e-3)
+    assert found["pull_off_load_loading"] == pytest.approx(reference.rigid_cylinder_pull_off(1.0, 500.0, 1.0), rel=2e-3)
     assert found["pull_off_approach_loading"] == pytest.approx(-0.5, abs=0.11)
     assert np.allclose(data.repulsive_load - data.adhesive_load, data.line_load)
 
@@ -121,9 +131,9 @@ def test_a_tabulated_law_peaks_at_its_strengths():
     settings = {"effect": "cohesive_zone", "work_of_separation": 2.0, "work_ratio": 0.5, "normal_length": 1.5}
     settings |= {"tangential_length": 0.8, "normal_gap": [-0.5, 0.0, 1.0], "tangential_gap": [0.0, 0.4], "reach": 6.0}
     data = tabulated(settings)
-    normal = analytic.normal_strength(2.0, 1.5, data.tangential_gap.values / 0.8)
+    normal = reference.normal_strength(2.0, 1.5, data.tangential_gap.values / 0.8)
     assert np.allclose(data.normal_traction.max("opening"), normal, rtol=1e-4)
-    tangential = analytic.tangential_strength(1.0, 0.8, data.normal_gap.values / 1.5)
+    tangential = reference.tangential_strength(1.0, 0.8, data.normal_gap.values / 1.5)
     assert np.allclose(data.tangential_traction.max("slip_gap"), tangential, rtol=1e-3)
     assert np.allclose(data.tangential_traction, -data.tangential_traction[:, ::-1])
     assert abs(normal[0] - CohesiveZone(2.0, 0.5, 1.5, 0.8).strength) < 1e-15

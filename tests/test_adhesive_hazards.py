@@ -7,18 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.elasticity import HalfSpace, Layer
-from contactsim.hazards import HAZARDS, first_line, rough
-from contactsim.hazards.adhesive import ADHESIVE
-from contactsim.hazards.paths import PathCase, surface_compliance
-from contactsim.hazards.rough import ROUGH
-from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.loading import press
-from contactsim.path_verdicts import path_faults
-from contactsim.solvers import solver
-from contactsim.solvers.base import Status
-from contactsim.stability import judge
-from contactsim.verdicts import Outcome
+from contactsim.contact.loading import press
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.evaluation.robustness import rough
+from contactsim.evaluation.robustness.adhesive import ADHESIVE
+from contactsim.evaluation.robustness.judge_paths import path_faults
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.path_cases import PathCase, surface_compliance
+from contactsim.evaluation.robustness.registry import HAZARDS, first_line
+from contactsim.evaluation.robustness.rough import ROUGH
+from contactsim.evaluation.robustness.survey import judge
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.solvers.registry import solver
+from contactsim.status import Status
 from smooth import LENGTH, along, scene_of
 
 NAMES = [hazard.__name__ for hazard in (*ADHESIVE, *ROUGH)]

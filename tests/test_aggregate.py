@@ -7,12 +7,13 @@ import pytest
 import xarray as xr
 from scipy.stats import t as student
 
-from contactsim import aggregate, analytic, dataset
-from contactsim.aggregate import AVERAGED, load_name
-from contactsim.ensemble import departure, relative_change, unconverged
+from contactsim import dataset, reference
+from contactsim.analysis import aggregate
+from contactsim.analysis.aggregate import AVERAGED, load_name
+from contactsim.analysis.ensemble import departure, relative_change, unconverged
+from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fits
 from contactsim.errors import SceneError
-from contactsim.fits import WEIGHTINGS, fit_line_area, fits
-from contactsim.solvers.base import Status
+from contactsim.status import Status
 
 PRESSURES = [0.01, 0.1, 0.3]
 HURSTS = [0.2, 0.8]
@@ -356,14 +357,14 @@ PLANTED = {0.2: (0.6, 1.3), 0.8: (0.9, 4.0)}
 @pytest.mark.parametrize("weighting", WEIGHTINGS)
 @pytest.mark.parametrize("planted", [*PLANTED.values(), (1.3, 0.5)])
 def test_a_fit_recovers_the_planted_parameters(planted, weighting):
-    area = np.tile(analytic.line_area(LOADS, *planted), (2, 3, 1))
+    area = np.tile(reference.line_area(LOADS, *planted), (2, 3, 1))
     # Convergence of least squares to 1e-8 of the cost, which is quadratic: half the digits of b2, the looser one.
     np.testing.assert_allclose(fit_line_area(LOADS, area, weighting), planted, rtol=1e-4)
 
 
 def noisy(planted, members, size, seed):
     draw = np.random.default_rng(seed)
-    clean = analytic.line_area(LOADS, *planted)
+    clean = reference.line_area(LOADS, *planted)
     return clean * (1 + size * draw.standard_normal((1, members, LOADS.size)))
 
 
@@ -372,7 +373,7 @@ def test_a_fit_of_noisy_areas_is_the_least_of_its_own_sum_of_squares(weighting):
     area = noisy(PLANTED[0.2], 3, 0.05, 0)
 
     def cost(b1, b2):
-        model = analytic.line_area(LOADS, b1, b2)
+        model = reference.line_area(LOADS, b1, b2)
         return np.sum((model - area) ** 2 if weighting == "area" else np.log(model / area) ** 2)
 
     b1, b2 = fit_line_area(LOADS, area, weighting)
@@ -382,7 +383,7 @@ def test_a_fit_of_noisy_areas_is_the_least_of_its_own_sum_of_squares(weighting):
 
 @pytest.mark.parametrize("weighting", WEIGHTINGS)
 def test_a_fit_leaves_out_areas_that_are_not_known_or_zero(weighting):
-    area = np.tile(analytic.line_area(LOADS, *PLANTED[0.2]), (1, 3, 1))
+    area = np.tile(reference.line_area(LOADS, *PLANTED[0.2]), (1, 3, 1))
     area[0, 0, 3] = np.nan
     area[0, 1, :2] = 0.0
     np.testing.assert_allclose(fit_line_area(LOADS, area, weighting), PLANTED[0.2], rtol=1e-4)
@@ -440,7 +441,7 @@ def test_a_hurst_exponent_that_never_converged_has_no_fit_and_spoils_no_other():
 
 
 def test_the_jackknife_of_a_mean_is_the_confidence_interval_of_a_mean(monkeypatch):
-    mean = "contactsim.fits.fit_line_area"
+    mean = "contactsim.analysis.fits.fit_line_area"
     monkeypatch.setattr(mean, lambda pressure, area, weighting: (area.mean(), -2 * area.mean()))
     data = line(members=7, noise=0.1)
     found = fits(data, [1.0]).sel(fitted="0.8", weighting="area", fit_limit=1.0)

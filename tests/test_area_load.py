@@ -6,8 +6,16 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim.area_load import AREA_LOAD, LEVELS, curvature, curve_numbers, first_reached, nonlinearity, related
-from contactsim.hysteresis import cycled, dissipated
+from contactsim.observables.hysteresis import cycled, dissipated
+from contactsim.observables.linearity import (
+    AREA_LOAD,
+    LEVELS,
+    curvature,
+    curve_numbers,
+    first_reached,
+    nonlinearity,
+    related,
+)
 
 AREA = np.linspace(0.01, 0.3, 30)
 

@@ -5,8 +5,9 @@ import json
 import pytest
 
 from conftest import ROOT
-from contactsim import budget, cli, outlook
-from contactsim.plan import Plan
+from contactsim import cli
+from contactsim.evaluation import budget, resources
+from contactsim.study.plan import Plan
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +41,7 @@ def test_a_figure_costs_what_its_studies_cost_together(plan):
     runs = [run for study in figure.studies for run in plan.studies[study].runs()]
     cost = budget.by_figure(plan, {})["fig_3_5"]
     assert (cost.jobs, cost.unknown) == (len(runs), 0)
-    seconds = [outlook.seconds_of(run, "nothing") + outlook.START for run in runs if plan.twin(run) is None]
+    seconds = [resources.seconds_of(run, "nothing") + resources.START for run in runs if plan.twin(run) is None]
     assert cost.seconds == pytest.approx(sum(seconds), rel=1e-12)
 
 
@@ -48,7 +49,7 @@ def test_what_is_taken_over_from_another_run_costs_its_start_alone(plan):
     runs = plan.studies["rough_adhesive_auto"].runs()
     taken = [run for run in runs if plan.twin(run) is not None]
     assert taken
-    assert budget.Cost.of(taken, plan, {}).seconds == len(taken) * outlook.START
+    assert budget.Cost.of(taken, plan, {}).seconds == len(taken) * resources.START
 
 
 def test_what_is_not_known_is_told_and_not_counted_as_nothing(plan):
@@ -71,7 +72,7 @@ def test_what_a_run_of_the_same_settings_took_at_another_tier_counts_where_nothi
     measured = budget.all_measured([plan, standard, full])
     assert list(measured.values()) == [costs]
     found = budget.by_figure(full, measured)["fig_6_4"]
-    assert (found.unknown, found.seconds, found.megabytes) == (found.jobs - 1, 99.0 + outlook.START, 4321.0)
+    assert (found.unknown, found.seconds, found.megabytes) == (found.jobs - 1, 99.0 + resources.START, 4321.0)
     assert budget.by_figure(plan, measured)["fig_6_4"].unknown == budget.by_figure(plan, {})["fig_6_4"].jobs
 
 
@@ -86,26 +87,26 @@ def test_the_shell_tells_the_cost_of_every_figure(monkeypatch, capsys):
 
 def test_a_run_asks_for_more_than_is_forecast_and_for_as_much_again_with_each_attempt(plan, tmp_path):
     run = first_run(plan, "rough_surface")
-    expected = outlook.forecast_for(run)
-    assert outlook.memory_asked(run, tmp_path) > expected.megabytes + 300
-    assert 60 * outlook.minutes_asked(run, tmp_path) > 3 * expected.seconds
-    for asked in (outlook.memory_asked, outlook.minutes_asked):
+    expected = resources.forecast_for(run)
+    assert resources.memory_asked(run, tmp_path) > expected.megabytes + 300
+    assert 60 * resources.minutes_asked(run, tmp_path) > 3 * expected.seconds
+    for asked in (resources.memory_asked, resources.minutes_asked):
         assert isinstance(asked(run, tmp_path), int)
         assert asked(run, tmp_path, attempt=2) == 2 * asked(run, tmp_path)
 
 
 def test_a_run_of_an_unknown_kind_asks_for_what_it_took_before(plan, tmp_path):
     run, costs = first_run(plan, "flat"), tmp_path / "costs.json"
-    assert outlook.forecast_for(run) is None
-    assert outlook.minutes_asked(run, costs) == outlook.UNKNOWN_MINUTES
-    assert outlook.memory_asked(run, costs) == outlook.UNKNOWN_MEGABYTES
+    assert resources.forecast_for(run) is None
+    assert resources.minutes_asked(run, costs) == resources.UNKNOWN_MINUTES
+    assert resources.memory_asked(run, costs) == resources.UNKNOWN_MEGABYTES
     costs.write_text(json.dumps({"cpu_seconds_of_last_run": 99.0, "peak_memory_of_last_run": 4321.0}))
-    assert outlook.minutes_asked(run, costs) == 10
-    assert outlook.memory_asked(run, costs) == 4400
+    assert resources.minutes_asked(run, costs) == 10
+    assert resources.memory_asked(run, costs) == 4400
 
 
 def test_runs_share_a_job_of_a_cluster_only_where_they_are_short(plan, tmp_path):
-    assert outlook.is_short(first_run(plan, "smooth_line"), tmp_path)
-    assert outlook.is_short(first_run(plan, "flat"), tmp_path)
+    assert resources.is_short(first_run(plan, "smooth_line"), tmp_path)
+    assert resources.is_short(first_run(plan, "flat"), tmp_path)
     full = Plan.read(ROOT / "config", "full")
-    assert not outlook.is_short(first_run(full, "surface_finest"), tmp_path)
+    assert not resources.is_short(first_run(full, "surface_finest"), tmp_path)

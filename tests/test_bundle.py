@@ -19,10 +19,12 @@ from rocrate.rocrate import ROCrate
 from scipy.stats import linregress
 
 from conftest import ROOT
-from contactsim import aggregate, bundle, costs, dataset
+from contactsim import dataset
+from contactsim.analysis import aggregate, costs
 from contactsim.errors import SceneError
-from contactsim.march import run
-from contactsim.study import Study
+from contactsim.publish import bundle
+from contactsim.study.execute import run
+from contactsim.study.study import Study
 from test_workflow import CYLINDER, Project, figure
 
 LIMITS = (0.0, 0.5, 1.0)

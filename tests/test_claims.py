@@ -10,11 +10,12 @@ import pytest
 import xarray as xr
 
 from conftest import ROOT
-from contactsim import aggregate, claims, dataset, takes
-from contactsim.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, Claim, Finding
+from contactsim import dataset
+from contactsim.analysis import aggregate, claims, reductions
+from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, Claim, Finding
 from contactsim.errors import SceneError
-from contactsim.figures.claims import COLOURS, COLUMNS, drawn
-from contactsim.plan import Plan
+from contactsim.figures.diagnostics.claims import COLOURS, COLUMNS, drawn
+from contactsim.study.plan import Plan
 
 PLAN = Plan.read(ROOT / "config", "quick")
 STUDIES = {
@@ -333,14 +334,14 @@ def array(values, **places):
 def test_each_take_gives_what_a_hand_would():
     load = array([1.0, 10.0, 100.0], load=[1, 2, 3])
     both = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst=[0.2, 0.8], load=[1, 2, 3])
-    assert takes.mean(both) == 2.0
-    assert takes.spread(both, "load") == pytest.approx((2 / 3 + 0) / 2)
-    assert takes.spread(both, "hurst") == pytest.approx((1 / 1.5 + 3 / 2.5 + 2 / 2) / 3)
-    assert takes.fall(both, "load") == pytest.approx((-0.5 + 0) / 2)
-    assert takes.slope(load**0.5, load, "load") == pytest.approx(0.5)
-    assert takes.spread_ratio(both, 2 * both, "load") == 1.0
-    assert takes.departure(both, array([2.0, 2.0, 2.0], load=[1, 2, 3])) == 1.0
-    assert takes.ratio(both, load) == 2.0
+    assert reductions.mean(both) == 2.0
+    assert reductions.spread(both, "load") == pytest.approx((2 / 3 + 0) / 2)
+    assert reductions.spread(both, "hurst") == pytest.approx((1 / 1.5 + 3 / 2.5 + 2 / 2) / 3)
+    assert reductions.fall(both, "load") == pytest.approx((-0.5 + 0) / 2)
+    assert reductions.slope(load**0.5, load, "load") == pytest.approx(0.5)
+    assert reductions.spread_ratio(both, 2 * both, "load") == 1.0
+    assert reductions.departure(both, array([2.0, 2.0, 2.0], load=[1, 2, 3])) == 1.0
+    assert reductions.ratio(both, load) == 2.0
 
 
 def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
@@ -361,10 +362,10 @@ def test_the_fits_are_those_of_the_dataset(made):
         ("kappa_fit_logarithm", "logarithm", ["0.2", "0.5", "0.8"]),
         ("kappa_fit_all", "area", ["all"] * 3),
     ):
-        found = takes.quantity(below, name)
+        found = reductions.quantity(below, name)
         for row, which in zip(found.values, fitted, strict=True):
             fit = data.sel(weighting=weighting, fit_limit=0.1, fitted=which)
-            expected = takes.analytic.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
+            expected = reductions.analytic.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
             assert np.allclose(row, expected)
 
 

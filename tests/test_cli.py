@@ -5,12 +5,13 @@ import pytest
 
 import contactsim
 from conftest import ROOT
-from contactsim import cli, dataset, loading
-from contactsim.elasticity import HalfSpace
+from contactsim import cli, dataset
+from contactsim.contact import loading
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
 from contactsim.figures import maps
-from contactsim.laws import HardWall
-from contactsim.scene import Body, Scene
-from contactsim.surface import Flat, Sinusoid
+from contactsim.interface.laws import HardWall
+from contactsim.surfaces.shapes import Flat, Sinusoid
 
 SCENE = """
 surface: {kind: sinusoid, length: 1000.0, amplitude: 5.0}

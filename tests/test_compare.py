@@ -8,9 +8,9 @@ import pytest
 
 from conftest import ROOT
 from contactsim import cli, dataset
-from contactsim.compare import FIT_DIMENSIONS, compared, differences, is_within, joined, summary
+from contactsim.analysis.tiers import FIT_DIMENSIONS, compared, differences, is_within, joined, summary
 from contactsim.errors import SceneError
-from contactsim.plan import Plan
+from contactsim.study.plan import Plan
 
 COARSE = pd.DataFrame({"hurst": [0.2, 0.2, 0.8], "load": [0.1, 0.5, 0.1], "kappa": [1.1, 9.0, 3.0]})
 FINE = pd.DataFrame({"hurst": [0.8, 0.2, 0.2], "load": [0.1, 0.1, 0.3], "kappa": [2.0, 1.0, 7.0]})

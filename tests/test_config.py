@@ -7,9 +7,21 @@ from dataclasses import dataclass, field
 import pytest
 import yaml
 
-from contactsim.config import Key, choice, keys_of, listed, load_yaml, mapping, number, overlaid, positive, read, text
-from contactsim.config import whole as whole_number
 from contactsim.errors import SceneError
+from contactsim.study.reading import (
+    Key,
+    choice,
+    keys_of,
+    listed,
+    load_yaml,
+    mapping,
+    number,
+    overlaid,
+    positive,
+    read,
+    text,
+)
+from contactsim.study.reading import whole as whole_number
 
 KEYS = {
     "length": Key(number, "a number of nm"),

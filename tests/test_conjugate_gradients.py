@@ -8,17 +8,19 @@ from scipy.optimize import nnls
 
 import contactsim
 from cases import press as press_line
-from contactsim import analytic, loading
-from contactsim.elasticity import HalfSpace, Layer
+from contactsim import reference
+from contactsim.contact import loading
+from contactsim.contact.hard_wall import pose
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.laws import HardWall
-from contactsim.scene import Body, Scene
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.solvers import solver
-from contactsim.solvers.base import Status, require, solve
-from contactsim.solvers.conjugate_gradients import NestedConjugateGradients
-from contactsim.surface import Flat, Sinusoid, Sphere
-from contactsim.wall import pose
+from contactsim.interface.laws import HardWall
+from contactsim.solvers.base import require, solve
+from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
+from contactsim.solvers.registry import solver
+from contactsim.status import Status
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.shapes import Flat, Sinusoid, Sphere
 
 UNIT = (1.0, 1.0)
 
@@ -85,9 +87,9 @@ def dense(heights, pressure, matrix):
 def test_a_wave_along_either_axis_has_westergaards_area(ratio, axis):
     wave = np.cos(2 * np.pi * np.arange(256) / 256)
     heights = np.broadcast_to(wave if axis else wave[:, None], (256, 256))
-    result = press(heights, ratio * analytic.full_contact_pressure(1.0, 256.0, 1.0))
+    result = press(heights, ratio * reference.full_contact_pressure(1.0, 256.0, 1.0))
     assert result.status is Status.CONVERGED
-    assert abs(result.relative_contact_area - analytic.sinusoid_area(ratio)) <= 1.5 / 256
+    assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / 256
     assert np.ptp(result.pressure, axis=1 - axis).max() < 1e-4 * result.pressure.max()
 
 
@@ -103,7 +105,7 @@ def test_a_wave_on_a_surface_is_that_along_a_line():
 def test_waves_crossed_are_flattened_at_their_pressure_of_complete_contact():
     surface = Sinusoid(64.0, 1.0, dimensions=2)
     surface_points = 64
-    flat = np.sqrt(2) * analytic.full_contact_pressure(1.0, 64.0, 1.0)  # |q| is √2 times that of one wave
+    flat = np.sqrt(2) * reference.full_contact_pressure(1.0, 64.0, 1.0)  # |q| is √2 times that of one wave
     for factor, full in ((0.999, False), (1.001, True)):
         result = press(surface.heights(surface_points), factor * flat)
         assert result.status is Status.CONVERGED
@@ -117,11 +119,11 @@ def test_a_sphere_is_hertzs_and_its_error_falls_with_the_grid(ratio):
     errors = []
     for points in (128, 256, 512):
         surface = Sphere(4.0, 1.0)
-        load = analytic.sphere_load(ratio, 1.0, 1.0)
+        load = reference.sphere_load(ratio, 1.0, 1.0)
         heights = surface.heights(points)
         result = press(Heights(heights, (4 / points,) * 2), load / 16.0)
         assert result.status is Status.CONVERGED
-        errors.append(abs(result.pressure.max() / analytic.sphere_pressure(0.0, ratio, 1.0, 1.0) - 1))
+        errors.append(abs(result.pressure.max() / reference.sphere_pressure(0.0, ratio, 1.0, 1.0) - 1))
         radius = np.sqrt(result.relative_contact_area * 16 / np.pi)
         assert radius == pytest.approx(ratio, abs=1.0 * 4 / points)
     assert errors[-1] < 0.01

@@ -8,14 +8,14 @@ import xarray as xr
 import yaml
 
 from conftest import ROOT
-from contactsim import accuracy_case, cost, precision
-from contactsim import solvers as solver_registry
-from contactsim.build import scene_of
 from contactsim.errors import SceneError
-from contactsim.march import simulate
-from contactsim.plan import Plan
-from contactsim.solvers.base import Status
-from contactsim.study import Study
+from contactsim.evaluation.work_precision import case_config, cases, error_cost
+from contactsim.solvers import registry as solver_registry
+from contactsim.status import Status
+from contactsim.study.execute import simulate
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
 
 CASE = {
     "title": "Case",
@@ -81,7 +81,7 @@ PLAN = replace(PLAN, studies=PLAN.studies | OWN)
 
 def case(tmp_path, base=CASE, **changes):
     (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {"case": base | changes}}))
-    return cost.read_cases(tmp_path, PLAN)["case"]
+    return case_config.read_cases(tmp_path, PLAN)["case"]
 
 
 @pytest.fixture(scope="module")
@@ -99,7 +99,7 @@ def measured(tmp_path_factory):
 def table_of(measured, made):
     one, jobs = measured
     study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
-    return precision.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
+    return error_cost.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
 
 
 def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
@@ -111,7 +111,7 @@ def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_pat
         (1024, 1e-4),
     ]
     assert [(at.points, at.tolerance) for at in turned if at.knob == "tolerance"] == [(512, 10.0), (512, 1e-2)]
-    assert not set(one.turned(accuracy_case.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
+    assert not set(one.turned(cases.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
 
 
 def test_errors_are_those_by_hand_and_fall_with_the_grid(measured, made):
@@ -145,13 +145,13 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
     settings = {"settled": {"points": 32, "tolerance": 1e-4}, "reference": {"points": 64, "tolerance": 1e-6}}
     one = case(tmp_path, **changes, **settings)
     jobs = {job: one.measure(job)[0] for job in one.jobs()}
-    assert one.job_settings(accuracy_case.REFERENCE)["runs"][0]["solver"]["kind"] == "conjugate_gradients"
+    assert one.job_settings(cases.REFERENCE)["runs"][0]["solver"]["kind"] == "conjugate_gradients"
     assert jobs["polonsky_keer"].points_y.values.tolist() == [16, 32]
     data = jobs["polonsky_keer"].isel(setting=0)
     alone = xr.Dataset({"status": (("member", "contact_ratio"), data.status.values)}).assign_coords(
         member=[0], contact_ratio=data.contact_ratio
     )
-    table = precision.table(one.settings, jobs, alone, one.default).query("knob == 'points'").set_index("solver")
+    table = error_cost.table(one.settings, jobs, alone, one.default).query("knob == 'points'").set_index("solver")
     assert table.work["polonsky_keer"] == data.transforms.sum() * 16**2
     assert table.own.to_dict() == {"conjugate_gradients": True, "polonsky_keer": False}
     assert table.kappa_r["polonsky_keer"] == pytest.approx(table.kappa_r["conjugate_gradients"], rel=1e-3)
@@ -172,7 +172,7 @@ def test_a_case_cannot_have_a_name_that_is_no_target_or_that_of_another(tmp_path
     plan = replace(PLAN, studies=PLAN.studies | {"accuracy_taken": PLAN.studies["smooth_line"]})
     (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {name: CASE}}))
     with pytest.raises(SceneError, match="letters, digits and underscores; with accuracy_ before it no") as caught:
-        cost.read_cases(tmp_path, plan)
+        case_config.read_cases(tmp_path, plan)
     assert (caught.value.key, caught.value.value) == ("quick", name)
 
 
@@ -199,7 +199,7 @@ def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_
         ("increment", 64, 1e-4, 1.0),
         ("increment", 64, 1e-4, 0.2),
     ]
-    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(accuracy_case.REFERENCE)]
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(cases.REFERENCE)]
     assert numbers == [
         ("points", 256, 1e-7, 0.5),
         ("tolerance", 64, 1e-7, 0.5),
@@ -236,7 +236,7 @@ def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_t
     one, jobs = followed
     jobs = {job: data for job, (data, _) in jobs.items()}
     study = jobs["newton"].isel(setting=0)  # one member: no ensemble
-    table = precision.table(one.settings, jobs, study, one.default).query("knob == 'increment'")
+    table = error_cost.table(one.settings, jobs, study, one.default).query("knob == 'increment'")
     by_hand = jobs["newton"].pull_off_load_loading.values[3:, 0] / jobs["reference"].pull_off_load_loading.values[2, 0]
     own = table[table.own]
     assert own.increment.tolist() == [1.0, 0.2]
@@ -250,13 +250,13 @@ def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_t
 @pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])
 def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, monkeypatch, place, share):
     one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
-    data = accuracy_case.simulated(one.study_at(one.turned("newton")[0], "newton").runs()[0].settings)
+    data = cases.simulated(one.study_at(one.turned("newton")[0], "newton").runs()[0].settings)
     if place is not None:
         data["status"][place] = Status.BUDGET.value[0]
         data["status"][place:][1:] = Status.BROKEN_OFF.value[0]
-    monkeypatch.setattr(accuracy_case, "simulated", lambda settings: data)
+    monkeypatch.setattr(cases, "simulated", lambda settings: data)
     found, _ = one.measure("newton")
-    assert float(precision._unconverged(found)) == share
+    assert float(error_cost._unconverged(found)) == share
     assert found.status.item() == (0 if place is None else Status.BUDGET.value[0])
 
 
@@ -272,14 +272,14 @@ def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
 def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path, monkeypatch, spent, best):
     one = case(tmp_path, repeats=3, solvers={"active_set": {"points": [256]}})
     settings = one.study_at(one.turned("active_set")[0], "active_set").runs()[0].settings
-    solved, left = accuracy_case.simulated(settings), [*spent]
+    solved, left = cases.simulated(settings), [*spent]
 
     def timed(settings):
         return solved.assign(seconds=solved.seconds * 0 + left.pop(0) / solved.seconds.size)
 
-    monkeypatch.setattr(accuracy_case, "simulated", timed)
+    monkeypatch.setattr(cases, "simulated", timed)
     assert one.measure("active_set")[1] == pytest.approx([best])
-    assert len(left) == (2 if best > accuracy_case.LONG else 0)
+    assert len(left) == (2 if best > cases.LONG else 0)
 
 
 def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
@@ -374,10 +374,10 @@ def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowe
 
 
 def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
-    one = cost.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
-    tiers = cost.every_tier(ROOT / "config", PLAN)
+    one = case_config.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
+    tiers = case_config.every_tier(ROOT / "config", PLAN)
     assert tiers["quick"] is PLAN
-    found = cost.figure_settings(one, PLAN, tiers)
+    found = case_config.figure_settings(one, PLAN, tiers)
     marks = found["marks"]
     assert {name: own.get("increment") for name, own in marks.items()} == {
         "quick": None,  # they adapt
@@ -399,11 +399,11 @@ def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
 
 
 def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
-    tiers = cost.every_tier(ROOT / "config", PLAN)
+    tiers = case_config.every_tier(ROOT / "config", PLAN)
     assert list(tiers) == ["quick", "standard", "full"]
     for plan in tiers.values():
-        cases = cost.read_cases(ROOT / "config", plan)
-        assert list(cases) == [
+        every_case = case_config.read_cases(ROOT / "config", plan)
+        assert list(every_case) == [
             "cylinder",
             "rough_line",
             "layer",
@@ -413,14 +413,14 @@ def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_th
             "rough_adhesive",
             "sliding",
         ]
-        own = [case.default for case in cases.values()]
+        own = [case.default for case in every_case.values()]
         assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"] * 3
-        assert cases["layer"].selection == {"thickness": [640.0]}
-        marks = cost.figure_settings(cases["rough_line"], plan, tiers)["marks"]
+        assert every_case["layer"].selection == {"thickness": [640.0]}
+        marks = case_config.figure_settings(every_case["rough_line"], plan, tiers)["marks"]
         points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
         members = {"quick": 3, "standard": 10, "full": 10, "thesis": 10}
         assert {name: own["points"] for name, own in marks.items()} == points
         assert {name: own["members"] for name, own in marks.items()} == members
         assert marks["quick"]["tolerance"] == plan.studies["rough_line"].settings["tolerance"]
         assert "tolerance" not in marks["thesis"]
-        assert "members" not in cost.figure_settings(cases["cylinder"], plan, tiers)["marks"]["thesis"]
+        assert "members" not in case_config.figure_settings(every_case["cylinder"], plan, tiers)["marks"]["thesis"]

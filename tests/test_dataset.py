@@ -11,12 +11,12 @@ import xarray as xr
 
 import contactsim
 from contactsim import dataset, provenance
-from contactsim.config import keys_of
 from contactsim.dataset import SETTINGS, described, settings_of, stamped
 from contactsim.errors import SceneError
-from contactsim.schema import KINDS
-from contactsim.solvers import SOLVERS, solver_class
-from contactsim.solvers.base import Status
+from contactsim.solvers.registry import SOLVERS, solver_class
+from contactsim.status import Status
+from contactsim.study.keys import KINDS
+from contactsim.study.reading import keys_of
 from contactsim.variables import SUFFIXES, VARIABLES
 
 SOURCE = Path(contactsim.__file__).parent

@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 
 from cases import ALL, press, rough
-from contactsim import loading
-from contactsim.elasticity import HalfSpace
+from contactsim.contact import loading
+from contactsim.contact.hard_wall import pose
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.figures.sketch import save_sketch
-from contactsim.laws import HardWall
-from contactsim.march import simulate
-from contactsim.scene import Body, Scene
-from contactsim.solvers import solver
+from contactsim.interface.laws import HardWall
 from contactsim.solvers.base import solve
-from contactsim.surface import Cylinder, Flat, Sinusoid, Sphere
-from contactsim.wall import pose
+from contactsim.solvers.registry import solver
+from contactsim.study.execute import simulate
+from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 
 WALL = (HardWall(),)
 

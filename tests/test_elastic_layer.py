@@ -13,24 +13,25 @@ from scipy.optimize import nnls
 
 import contactsim
 from cases import ALL, press, rough, wave
-from contactsim import loading
-from contactsim.build import scene_of
-from contactsim.elasticity import HalfSpace, Layer
+from contactsim.contact import loading
+from contactsim.contact.hard_wall import pose
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
+from contactsim.evaluation.robustness.cases import Case, layer_response
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.survey import judge
 from contactsim.explain import explain
 from contactsim.figures.sketch import sketch
-from contactsim.hazards.cases import Case, layer_response
-from contactsim.laws import HardWall
-from contactsim.scene import Body, Scene
-from contactsim.solvers import solver, solver_class
-from contactsim.solvers.active_set import ActiveSet
-from contactsim.solvers.base import Status, require, solve
-from contactsim.solvers.continuation import BlockStiffness, Continuation
-from contactsim.stability import judge
-from contactsim.surface import Flat, Sinusoid
+from contactsim.interface.laws import HardWall
+from contactsim.solvers.base import require, solve
+from contactsim.solvers.hard_wall.active_set import ActiveSet
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
+from contactsim.solvers.registry import solver, solver_class
+from contactsim.status import Status
+from contactsim.study.scenes import scene_of
+from contactsim.surfaces.shapes import Flat, Sinusoid
 from contactsim.traits import Trait
-from contactsim.verdicts import Outcome
-from contactsim.wall import pose
 
 UNIAXIAL = 0.7**2 / 0.4
 """C11 at E* = 1 and ν = 0.3."""

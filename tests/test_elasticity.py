@@ -6,9 +6,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from contactsim.elasticity import ELASTICITIES, HalfSpace, Layer
+from contactsim.elasticity.solids import ELASTICITIES, HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.hazards.cases import layer_response
+from contactsim.evaluation.robustness.cases import layer_response
 from contactsim.traits import Trait
 
 RATIOS = (-0.5, 0.0, 0.1, 0.3, 0.45, 0.49999, 0.5)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from contactsim.analysis.grid_convergence import extrapolated, is_doubled, jackknifed
 from contactsim.errors import SceneError
-from contactsim.extrapolation import extrapolated, is_doubled, jackknifed
 
 
 def on_grids(*values, points=(1024, 2048, 4096), dims=("points",)):

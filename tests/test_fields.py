@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from cases import navier
-from contactsim import analytic
-from contactsim.elasticity import FreeLayer, HalfSpace, Layer, relative_compliance
+from contactsim import reference
+from contactsim.elasticity.solids import FreeLayer, HalfSpace, Layer, relative_compliance
+from contactsim.elasticity.subsurface import Fields, inside
 from contactsim.errors import SceneError
-from contactsim.fields import Fields, inside
-from contactsim.figures import stress
+from contactsim.figures.parts import stress
 from contactsim.grid import Grid
 
 LINE = Grid((96,), (40.0,))
@@ -143,7 +143,7 @@ def test_the_mean_is_carried_uniformly_and_sinks_linearly():
 def hertz(ratio: float, points: int, period: float, depths: np.ndarray) -> Fields:
     """Under a cylinder's pressure with half-width and peak 1."""
     grid = Grid((points,), (period,))
-    pressure = analytic.cylinder_pressure(grid.positions() - period / 2, 1.0, 0.5, 1.0)
+    pressure = reference.cylinder_pressure(grid.positions() - period / 2, 1.0, 0.5, 1.0)
     return inside(HalfSpace(1.0, ratio), grid, -pressure[None], depths)
 
 
@@ -157,7 +157,7 @@ def neighbours(depth: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.5])
 def test_the_stress_below_a_cylinder_is_hertzs(ratio):
     period, depths, errors = 64.0, np.linspace(0, 2, 11), []
-    along, normal = analytic.cylinder_stress_on_axis(depths, 1.0, 1.0)
+    along, normal = reference.cylinder_stress_on_axis(depths, 1.0, 1.0)
     beside = neighbours(depths, period)
     # no strain along x on average, while distant line loads would leave the mean pressure as stress along x
     confined = (1 - ratio / (1 - ratio)) * np.pi / 2 / period
@@ -177,7 +177,7 @@ def test_the_largest_shear_below_a_cylinder_is_where_it_should_be():
     assert shear.max() == pytest.approx(0.300, abs=5e-4)
     assert depths[shear.argmax()] == pytest.approx(0.786, abs=0.006)
     assert found.largest_shear.max() == shear.max()
-    along, normal = analytic.cylinder_stress_on_axis(np.array([0.786]), 1.0, 1.0)
+    along, normal = reference.cylinder_stress_on_axis(np.array([0.786]), 1.0, 1.0)
     assert (along - normal)[0] / 2 == pytest.approx(0.300, abs=5e-4)
 
 

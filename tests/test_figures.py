@@ -7,15 +7,16 @@ from matplotlib.figure import Figure
 
 from conftest import ROOT
 from contactsim import dataset
-from contactsim.cost import PRICED
-from contactsim.elasticity import HalfSpace
-from contactsim.figures import ch3, ch5, claims, notation, render, sketch, style
-from contactsim.laws import HardWall
-from contactsim.loading import press
-from contactsim.plan import Plan
-from contactsim.scene import Body, Scene
-from contactsim.surface import Flat, Sinusoid
-from contactsim.takes import TAKES, quantities, quantity
+from contactsim.analysis.reductions import TAKES, quantities, quantity
+from contactsim.contact.loading import press
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.evaluation.work_precision.case_config import PRICED
+from contactsim.figures import ch3, ch5, layout, notation, sketch, style
+from contactsim.figures.diagnostics import claims
+from contactsim.interface.laws import HardWall
+from contactsim.study.plan import Plan
+from contactsim.surfaces.shapes import Flat, Sinusoid
 
 PLAN = Plan.read(ROOT / "config", "quick")
 
@@ -31,7 +32,7 @@ def test_every_figure_is_drawn_and_gives_its_numbers(made, name):
 def test_a_footer_says_grid_members_losses_and_time(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
     costs = pd.read_csv(made / "results/quick/costs/ch3_rough_line.csv")
-    text = render.footer_text(data, costs)
+    text = layout.footer_text(data, costs)
     for part in (
         "quick tier",
         "131072 points, 32 per shortest wavelength (thesis 64)",
@@ -42,7 +43,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
-    assert "1 of 45 solutions unconverged and left out" in render.footer_text(data, costs)
+    assert "1 of 45 solutions unconverged and left out" in layout.footer_text(data, costs)
 
 
 def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):
@@ -52,12 +53,12 @@ def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monk
     dataset.write(data, tmp_path / "data.nc")
     plan, footers = PLAN.figure_settings("table_3_1"), []
     assert plan["settings"]["select"] == {"contact_ratio": [0.05, 0.25]}
-    framed = render.framed
-    monkeypatch.setattr(render, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
+    framed = layout.framed
+    monkeypatch.setattr(layout, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
     targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
     names = ("ch3_smooth_line", "ch3_smooth_surface")
     prices = [made / f"results/quick/costs/{name}.csv" for name in names]
-    render.render(plan, [tmp_path / "data.nc", made / f"results/quick/datasets/{names[1]}.nc"], prices, targets)
+    layout.render(plan, [tmp_path / "data.nc", made / f"results/quick/datasets/{names[1]}.nc"], prices, targets)
     assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
     largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
     assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]
@@ -194,7 +195,7 @@ def test_a_measured_surface_has_points_and_no_wavelength():
 
 def test_captions_and_footers_are_wrapped_below_the_panels():
     settings = {"size": [4.0, 3.0], "panels": 2, "title": "T", "caption": "word " * 60}
-    figure, panels = render.framed(settings, "made " * 40)
+    figure, panels = layout.framed(settings, "made " * 40)
     assert len(panels) == 2
     assert figure.get_size_inches()[1] > 3.0
     assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())

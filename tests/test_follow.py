@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from contactsim.elasticity import HalfSpace, Layer
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.loading import LoadPath, LoadStep, approach, press, through
+from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.follow import Adaptive
-from contactsim.interface import pose_interface
-from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.loading import LoadPath, LoadStep, approach, press, through
-from contactsim.solvers import solver
-from contactsim.solvers.base import Status
-from contactsim.solvers.equilibrium import APART
-from contactsim.solvers.newton import NewtonKrylov
-from contactsim.surface import Flat
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.paths.increments import Adaptive
+from contactsim.solvers.cohesive.base import APART
+from contactsim.solvers.cohesive.newton_krylov import NewtonKrylov
+from contactsim.solvers.registry import solver
+from contactsim.status import Status
+from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from smooth import LAWS, LAYER, LENGTH, along, scene_of, walk
 

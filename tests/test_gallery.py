@@ -9,12 +9,13 @@ import pytest
 from PIL import Image
 
 from conftest import ROOT
-from contactsim import dataset, gallery
-from contactsim.claims import NOT_REPRODUCED, REPRODUCED
-from contactsim.config import keys_of
-from contactsim.gallery import VERDICTS, named_in
-from contactsim.plan import Plan
-from contactsim.solvers import SOLVERS, solver_class
+from contactsim import dataset
+from contactsim.analysis.claims import NOT_REPRODUCED, REPRODUCED
+from contactsim.publish import gallery
+from contactsim.publish.gallery import VERDICTS, named_in
+from contactsim.solvers.registry import SOLVERS, solver_class
+from contactsim.study.plan import Plan
+from contactsim.study.reading import keys_of
 
 DOCS = ROOT / "docs/gallery"
 OTHERS = {"effects": "What effects cost"}

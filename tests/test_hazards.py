@@ -10,20 +10,20 @@ from scipy.optimize import nnls
 
 import contactsim
 from cases import ALL, FAST, ON_SURFACES, compliance, press, rough, wave
-from contactsim import analytic
+from contactsim import reference
 from contactsim.errors import SceneError
-from contactsim.hazards import HAZARDS, first_line
-from contactsim.hazards.adhesive import ADHESIVE
-from contactsim.hazards.cases import Case, alone, complete, made, mirrored, on_top
-from contactsim.hazards.lines import LINES
-from contactsim.hazards.rough import ROUGH
-from contactsim.hazards.sliding import SLIDING
-from contactsim.hazards.surfaces import SURFACES
-from contactsim.solvers import solver_class
-from contactsim.solvers.base import Status
-from contactsim.stability import judge
+from contactsim.evaluation.robustness.adhesive import ADHESIVE
+from contactsim.evaluation.robustness.cases import Case, alone, complete, made, mirrored, on_top
+from contactsim.evaluation.robustness.lines import LINES
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.registry import HAZARDS, first_line
+from contactsim.evaluation.robustness.rough import ROUGH
+from contactsim.evaluation.robustness.sliding import SLIDING
+from contactsim.evaluation.robustness.surfaces import SURFACES
+from contactsim.evaluation.robustness.survey import judge
+from contactsim.solvers.registry import solver_class
+from contactsim.status import Status
 from contactsim.traits import Trait
-from contactsim.verdicts import Outcome
 
 
 def assert_right(result, tolerance=1e-3):
@@ -161,7 +161,7 @@ def test_the_answer_of_equal_tops_is_that_of_one_that_is_alone_and_uniform_in_it
 
 def test_complete_contact_is_that_of_the_analytic_formula():
     heights = rough(64)
-    assert np.allclose(complete(heights, Case(heights).compliance), analytic.complete_contact(heights, 64.0, 1.0))
+    assert np.allclose(complete(heights, Case(heights).compliance), reference.complete_contact(heights, 64.0, 1.0))
 
 
 @pytest.mark.parametrize("name", ["active_set", "verlet"])
@@ -233,14 +233,14 @@ def test_steep_slopes_give_the_same_answer_as_shallow_ones(name):
 @pytest.mark.parametrize("modulus", [1e-12, 1.0, 1e12])
 def test_the_answer_does_not_depend_on_units(name, unit, modulus):
     heights = rough(256)
-    reference = press(heights, 0.03, name)
+    expected = press(heights, 0.03, name)
     result = contactsim.press(
         unit * heights, spacing=unit, contact_modulus=modulus, mean_pressure=0.03 * modulus, solver=name
     )
     assert_right(result)
-    assert np.array_equal(result.contact, reference.contact)
-    assert np.allclose(result.pressure / modulus, reference.pressure, rtol=1e-6)
-    assert result.record.iterations == reference.record.iterations
+    assert np.array_equal(result.contact, expected.contact)
+    assert np.allclose(result.pressure / modulus, expected.pressure, rtol=1e-6)
+    assert result.record.iterations == expected.record.iterations
 
 
 def test_neither_modulus_nor_height_scale_changes_the_area_at_equal_reduced_pressure():
@@ -276,14 +276,14 @@ def test_heavy_loads_come_to_full_contact(pressure):
     heights = rough(1024, 0.2)
     result = press(heights, pressure, tolerance=1e-6)
     assert_right(result, 1e-6)
-    full = analytic.complete_contact(heights, 1024.0, 1.0)
+    full = reference.complete_contact(heights, 1024.0, 1.0)
     assert result.contact.all() == (pressure > -full.min())
 
 
 @pytest.mark.parametrize("severity", [0, 25, 50, 75, 100])
 def test_near_full_contact_opens_point_by_point(severity):
     heights = rough(2048)
-    full = analytic.complete_contact(heights, 2048.0, 1.0)
+    full = reference.complete_contact(heights, 2048.0, 1.0)
     result = press(heights, -full.min() * (1 - 10 ** (-1 - severity / 20)), tolerance=1e-6)
     assert_right(result, 1e-6)
     assert 0 < (~result.contact).sum() < 400
@@ -300,21 +300,21 @@ def test_equal_highest_points_share_the_load(name):
 @pytest.mark.parametrize("name", FAST)
 def test_a_mirrored_or_shifted_profile_has_the_mirrored_or_shifted_answer(name):
     heights = rough(510)
-    reference = press(heights, 0.02, name, tolerance=1e-7)
+    expected = press(heights, 0.02, name, tolerance=1e-7)
     for change in (lambda field: field[::-1], lambda field: np.roll(field, 123)):
         result = press(np.ascontiguousarray(change(heights)), 0.02, name, tolerance=1e-7)
-        assert np.array_equal(result.contact, change(reference.contact))
-        assert np.allclose(result.pressure, change(reference.pressure), rtol=0, atol=1e-5 * reference.pressure.max())
+        assert np.array_equal(result.contact, change(expected.contact))
+        assert np.allclose(result.pressure, change(expected.pressure), rtol=0, atol=1e-5 * expected.pressure.max())
 
 
 def test_the_area_is_the_same_from_every_depth_of_the_cascade_and_with_two_threads():
     heights = rough(4096)
-    reference = press(heights, 0.02)
+    expected = press(heights, 0.02)
     for threads in (1, 2):
-        assert np.array_equal(press(heights, 0.02, threads=threads).contact, reference.contact)
+        assert np.array_equal(press(heights, 0.02, threads=threads).contact, expected.contact)
     for coarsest in (64, 1024, 1 << 20):
-        method = contactsim.solvers.solver("active_set", coarsest=coarsest)
-        assert np.array_equal(press(heights, 0.02, method).contact, reference.contact)
+        method = contactsim.solvers.registry.solver("active_set", coarsest=coarsest)
+        assert np.array_equal(press(heights, 0.02, method).contact, expected.contact)
 
 
 def test_a_tolerance_below_rounding_ends_as_an_honest_failure():
@@ -371,6 +371,6 @@ def test_any_pressure_and_gap_are_found_again_from_the_heights_that_they_make(na
 
 
 def test_a_wave_on_a_very_long_line_keeps_its_area():
-    result = press(wave(2**18), 0.3 * analytic.full_contact_pressure(1.0, 2**18, 1.0))
+    result = press(wave(2**18), 0.3 * reference.full_contact_pressure(1.0, 2**18, 1.0))
     assert_right(result)
-    assert abs(result.relative_contact_area - analytic.sinusoid_area(0.3)) <= 1.5 / 2**18
+    assert abs(result.relative_contact_area - reference.sinusoid_area(0.3)) <= 1.5 / 2**18

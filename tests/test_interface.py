@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from cases import refusal
-from contactsim.elasticity import HalfSpace, Layer
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.loading import LoadStep, approach
+from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.interface import pose_interface
-from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.loading import LoadStep, approach
-from contactsim.solvers import solver
-from contactsim.surface import Flat
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.solvers.registry import solver
+from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from smooth import LAWS, LAYER, LENGTH, RADIUS, along, scene_of, walk
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from cases import refusal
-from contactsim.laws import OVERCLOSED, CohesiveZone, NormalCohesiveZone
-from contactsim.superposition import Superposition, superposed
+from contactsim.interface.laws import OVERCLOSED, CohesiveZone, NormalCohesiveZone
+from contactsim.interface.superposition import Superposition, superposed
 
 LAWS = (
     NormalCohesiveZone(2.0),

@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 import yaml
 
-from contactsim import aggregate, cli, dataset, march
-from contactsim.elasticity import HalfSpace
+from contactsim import cli, dataset
+from contactsim.analysis import aggregate
+from contactsim.contact.simplification import LEFT_OUT, left_out
+from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.leaving_out import LEFT_OUT, left_out
-from contactsim.study import Study
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.study import execute
+from contactsim.study.study import Study
 from smooth import LAYER, scene_of
 
 SCENE = scene_of(CohesiveZone(2.0, 0.5, 1.5, 2.0))
@@ -107,7 +109,7 @@ def _aggregated(study, folder):
     listed = []
     for run in study.runs():
         path = folder / f"{run.variant}_{run.error}.nc"
-        march.run(run.settings, run.source, path, path.with_suffix(".json"))
+        execute.run(run.settings, run.source, path, path.with_suffix(".json"))
         place = {"coordinates": run.coordinates, "member": run.member, "companion": run.companion, "error": run.error}
         listed.append({"path": path} | place)
     return aggregate.aggregate(listed, study.settings | {"tier": "quick", "name": "asperity"}, "abc")

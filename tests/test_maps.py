@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 
 import contactsim
 from contactsim import dataset
-from contactsim.build import scene_of
 from contactsim.errors import SceneError
 from contactsim.figures import ch3, maps
-from contactsim.march import simulate
-from contactsim.solvers import solver
-from contactsim.study import Study
+from contactsim.solvers.registry import solver
+from contactsim.study.execute import simulate
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
 
 NY, NX, SPACING = 24, 48, (3.0, 2.0)
 LENGTHS = (NY * SPACING[0], NX * SPACING[1])

@@ -11,11 +11,15 @@ import xarray as xr
 
 import contactsim
 import smooth
-from contactsim import costs, dataset, loading, loads, march
-from contactsim.build import points_of, scene_of
+from contactsim import dataset
+from contactsim.analysis import costs
+from contactsim.contact import loading
 from contactsim.errors import SceneError
-from contactsim.solvers.base import Status
-from contactsim.study import Study
+from contactsim.paths import pressures
+from contactsim.status import Status
+from contactsim.study import execute
+from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.study import Study
 
 LOADS = [0.02, 0.1, 0.4]
 SURFACES = {
@@ -53,7 +57,7 @@ def place(tmp_path):
     def run(settings=None, source="source", name="run"):
         files = SimpleNamespace(data=tmp_path / f"{name}.nc", costs=tmp_path / f"{name}.json")
         if settings is not None:
-            march.run(settings, source, files.data, files.costs)
+            execute.run(settings, source, files.data, files.costs)
         return files
 
     return run
@@ -62,13 +66,13 @@ def place(tmp_path):
 @pytest.fixture
 def solved(monkeypatch):
     """The loads (without units) that were solved, in order, of all runs from here on."""
-    pressed, solve = [], loads.solve
+    pressed, solve = [], pressures.solve
 
     def spy(method, problem, scale):
         pressed.append(problem.load)
         return solve(method, problem, scale)
 
-    monkeypatch.setattr(loads, "solve", spy)
+    monkeypatch.setattr(pressures, "solve", spy)
     return pressed
 
 
@@ -297,10 +301,10 @@ def test_costs_keep_the_seconds_of_points_taken_over(place):
 
 
 def test_seconds_stand_in_the_costs_and_never_in_the_dataset(place, monkeypatch):
-    solve = loads.solve
-    monkeypatch.setattr(loads, "solve", lambda *parts: dataclasses.replace(solve(*parts), seconds=123.0))
+    solve = pressures.solve
+    monkeypatch.setattr(pressures, "solve", lambda *parts: dataclasses.replace(solve(*parts), seconds=123.0))
     slow = place(settings_of(), name="slow")
-    monkeypatch.setattr(loads, "solve", lambda *parts: dataclasses.replace(solve(*parts), seconds=0.5))
+    monkeypatch.setattr(pressures, "solve", lambda *parts: dataclasses.replace(solve(*parts), seconds=0.5))
     fast = place(settings_of(), name="fast")
     assert slow.data.read_bytes() == fast.data.read_bytes()
     assert set(seconds_of(slow).values()) == {123.0}
@@ -348,7 +352,7 @@ def test_a_failure_on_the_way_leaves_the_old_files_and_no_others(place, monkeypa
     def fail(*parts):
         raise MemoryError("no room")
 
-    monkeypatch.setattr(loads, "solve", fail)
+    monkeypatch.setattr(pressures, "solve", fail)
     with pytest.raises(MemoryError):
         place(settings_of([0.02, 0.1]))
     assert (files.data.read_bytes(), files.costs.read_bytes()) == before
@@ -360,7 +364,7 @@ def step_lines(caplog):
 
 
 def test_the_log_has_a_line_for_each_step_with_load_residual_transforms_and_seconds(place, caplog):
-    caplog.set_level(logging.INFO, "contactsim.loads")
+    caplog.set_level(logging.INFO, "contactsim.paths.pressures")
     data = dataset.read(place(settings_of()).data)
     lines = step_lines(caplog)
     assert len(lines) == 3
@@ -372,7 +376,7 @@ def test_the_log_has_a_line_for_each_step_with_load_residual_transforms_and_seco
 
 def test_the_log_says_which_steps_are_taken_over(place, caplog):
     place(settings_of([0.1]))
-    caplog.set_level(logging.INFO, "contactsim.loads")
+    caplog.set_level(logging.INFO, "contactsim.paths.pressures")
     place(settings_of())
     first, second, third = step_lines(caplog)
     assert second == "step 2/3 reduced_pressure=0.1 taken over"
@@ -380,10 +384,10 @@ def test_the_log_says_which_steps_are_taken_over(place, caplog):
 
 
 def test_the_time_left_is_that_of_steps_still_to_be_solved(place, caplog, monkeypatch):
-    solve = loads.solve
-    monkeypatch.setattr(loads, "solve", lambda *parts: dataclasses.replace(solve(*parts), seconds=100.0))
+    solve = pressures.solve
+    monkeypatch.setattr(pressures, "solve", lambda *parts: dataclasses.replace(solve(*parts), seconds=100.0))
     place(settings_of([0.02, 0.4]))
-    caplog.set_level(logging.INFO, "contactsim.loads")
+    caplog.set_level(logging.INFO, "contactsim.paths.pressures")
     place(settings_of([0.02, 0.1, 0.2, 0.4]))
     lines = step_lines(caplog)
     # Two of four are known: after the first of the other two, one of 100 s is left; after that, none.

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from cases import refusal
 from contactsim.errors import SceneError
-from contactsim.measured import DETREND, PERIODIC, Profile, prepare, read_profile
-from contactsim.scans import UNITS
+from contactsim.surfaces.io import UNITS
+from contactsim.surfaces.profile import DETREND, PERIODIC, Profile, prepare, read_profile
 
 SPACING = 2.5
 HEIGHTS = np.array([0.0, 1.5, -2.25, 3.0, 0.5, -1.0])

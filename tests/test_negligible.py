@@ -10,15 +10,16 @@ import pytest
 
 from cases import refused
 from conftest import ROOT
-from contactsim import dataset, effect_maps, negligible
-from contactsim.build import scene_of
-from contactsim.effect_maps import change, expected, reduced
-from contactsim.effect_survey import as_text, measure, read_maps
-from contactsim.leaving_out import LEFT_OUT, left_out
-from contactsim.negligible import decide, effects_of, foreseen, run
-from contactsim.plan import Plan
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.study import Study
+from contactsim import dataset
+from contactsim.contact.simplification import LEFT_OUT, left_out
+from contactsim.error_control import effect_maps, neglect
+from contactsim.error_control.effect_maps import change, expected, reduced
+from contactsim.error_control.neglect import decide, effects_of, foreseen, run
+from contactsim.evaluation.effects.survey import as_text, measure, read_maps
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
+from contactsim.surfaces.self_affine import SelfAffine, generator
 
 ASPERITY = {
     "title": "Asperity",
@@ -140,7 +141,7 @@ def test_an_effect_that_maps_and_sample_find_negligible_is_left_out_and_another_
 
 
 def test_the_measured_change_decides_against_the_map(monkeypatch):
-    monkeypatch.setattr(negligible, "expected", lambda run, name: 0.001)
+    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.001)
     found = decide(settings_of(0.0, 0.0), 0.05, ["pull_off_load_loading"], 1)
     assert found.measured["coupling"] > 0.05
     assert "coupling" not in found.left_out
@@ -148,16 +149,16 @@ def test_the_measured_change_decides_against_the_map(monkeypatch):
 
 def test_of_effects_that_are_too_much_together_the_largest_is_put_back(monkeypatch):
     changes = {"friction": 0.01, "coupling": 0.03, "compressibility": 0.04, "height": 0.2}
-    monkeypatch.setattr(negligible, "expected", lambda run, name: 0.001)
-    monkeypatch.setattr(negligible, "change", lambda run, names, of, known: sum(changes[name] for name in names))
+    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.001)
+    monkeypatch.setattr(neglect, "change", lambda run, names, of, known: sum(changes[name] for name in names))
     found = decide(settings_of(), 0.05, ["pull_off_load_loading"], 1)
     assert found.left_out == ["friction", "coupling"]
     assert found.together == pytest.approx(0.04)
 
 
 def test_an_effect_far_from_negligible_is_not_even_checked(monkeypatch):
-    monkeypatch.setattr(negligible, "expected", lambda run, name: 0.9)
-    monkeypatch.setattr(negligible, "change", lambda *given: pytest.fail("checked"))
+    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.9)
+    monkeypatch.setattr(neglect, "change", lambda *given: pytest.fail("checked"))
     assert decide(settings_of(), 0.05, ["pull_off_load_loading"], 1).left_out == []
 
 

@@ -6,21 +6,22 @@ import numpy as np
 import pytest
 
 from conftest import ROOT
-from contactsim import loading, march
-from contactsim.elasticity import HalfSpace, Layer
+from contactsim.contact import loading
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.loading import LoadPath, LoadStep
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.follow import Nested
-from contactsim.interface import pose_interface
-from contactsim.laws import CohesiveZone, HardWall, NormalCohesiveZone
-from contactsim.loading import LoadPath, LoadStep
-from contactsim.march import simulate
-from contactsim.plan import Plan
-from contactsim.scene import Body, Scene
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.solvers import solver
-from contactsim.surface import Flat
+from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
+from contactsim.paths.continuation import PathState, Walk
+from contactsim.paths.increments import Nested
+from contactsim.solvers.registry import solver
+from contactsim.study import execute
+from contactsim.study.execute import simulate
+from contactsim.study.plan import Plan
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
-from contactsim.walk import PathState, Walk
 from smooth import LAWS, Walked, along, scene_of, walk
 
 ROUGH_LAWS = {"normal": NormalCohesiveZone(10.5), "coupled": CohesiveZone(10.5), "frictional": CohesiveZone(10.5, 0.5)}
@@ -155,7 +156,7 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
     settings["load"] = settings["load"] | {"through": [-7.0, 8.0]}
     settings["increments"] = settings["increments"] | {"settled": [-4.0, 2.0, 8.0]}
     whole, again = (tmp_path / name for name in ("whole.nc", "again.nc"))
-    march.run(settings, run.source, whole, tmp_path / "whole.json")
+    execute.run(settings, run.source, whole, tmp_path / "whole.json")
     advance, steps = Walk.advance, []
 
     def killed(self: Walk, step: LoadStep) -> PathState:
@@ -168,7 +169,7 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
     with monkeypatch.context() as patch:
         patch.setattr(Walk, "advance", killed)
         with pytest.raises(KeyboardInterrupt):
-            march.run(settings, run.source, again, tmp_path / "again.json")
+            execute.run(settings, run.source, again, tmp_path / "again.json")
     assert not list(tmp_path.glob("*again*"))
-    march.run(settings, run.source, again, tmp_path / "again.json")
+    execute.run(settings, run.source, again, tmp_path / "again.json")
     assert again.read_bytes() == whole.read_bytes()

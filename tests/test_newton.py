@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from cases import refusal
-from contactsim.elasticity import HalfSpace, Layer
-from contactsim.interface import Tangent, pose_interface
-from contactsim.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.solvers import solver, solver_class
+from contactsim.contact.cohesive import Tangent, pose_interface
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.base import require
-from contactsim.solvers.krylov import gmres
-from contactsim.solvers.zone import RATIO, ZonePreconditioner
-from contactsim.surface import Cylinder, Sinusoid
+from contactsim.solvers.cohesive.gmres import gmres
+from contactsim.solvers.cohesive.zone_preconditioner import RATIO, ZonePreconditioner
+from contactsim.solvers.registry import solver, solver_class
+from contactsim.surfaces.shapes import Cylinder, Sinusoid
 from smooth import LAWS, along, scene_of, walk
 
 

@@ -7,8 +7,8 @@ import pytest
 
 import contactsim
 from cases import FAST, press, wave
-from contactsim import analytic
-from contactsim.observables import relative_contact_area_subgrid
+from contactsim import reference
+from contactsim.observables.contact import relative_contact_area_subgrid
 
 
 def orders(errors):
@@ -20,9 +20,9 @@ def test_mean_gap_of_a_wave_converges_at_second_order(name):
     # p/p_c = 1/2 puts the edges of the contact halfway between points on each of these grids
     errors = []
     for points in (64, 128, 256, 512, 1024):
-        mean = 0.5 * analytic.full_contact_pressure(1.0, points, 1.0)
+        mean = 0.5 * reference.full_contact_pressure(1.0, points, 1.0)
         result = press(wave(points), mean, name, tolerance=1e-8)
-        errors.append(abs(result.gap.mean() - analytic.sinusoid_mean_gap(0.5, 1.0)))
+        errors.append(abs(result.gap.mean() - reference.sinusoid_mean_gap(0.5, 1.0)))
     assert orders(errors) == pytest.approx([2, 2, 2, 2], abs=0.1)
 
 
@@ -33,7 +33,7 @@ def test_cylinder_area_converges_at_first_order():
         x = np.arange(points) * length / points - length / 2
         errors = []
         for half_width in np.linspace(0.5, 0.9, 13):
-            load = analytic.cylinder_load(half_width, radius, 1.0)
+            load = reference.cylinder_load(half_width, radius, 1.0)
             result = contactsim.press(
                 -(x**2) / (2 * radius), spacing=length / points, contact_modulus=1.0, mean_pressure=load / length
             )
@@ -49,9 +49,9 @@ def test_edges_of_a_wave_are_placed_to_a_hundredth_of_a_step(name):
         errors = []
         for ratio in np.linspace(0.2, 0.4, 7):
             heights = np.cos(2 * np.pi * (np.arange(points) + ratio) / points)
-            result = press(heights, ratio * analytic.full_contact_pressure(1.0, points, 1.0), name, tolerance=1e-6)
+            result = press(heights, ratio * reference.full_contact_pressure(1.0, points, 1.0), name, tolerance=1e-6)
             found = [relative_contact_area_subgrid(result.pressure, result.gap), result.relative_contact_area]
-            errors.append(points * np.abs(found - analytic.sinusoid_area(ratio)))
+            errors.append(points * np.abs(found - reference.sinusoid_area(ratio)))
         worst, counted = np.max(errors, axis=0)
         assert worst < 0.015 + 4 / points  # two edges; a coarse grid sees how the gap bends
         assert counted > 0.4
@@ -61,7 +61,7 @@ def test_cylinder_width_between_points_shows_the_neighbours_that_counting_hides(
     points, length = 2**12, 64.0
     x = np.arange(points) * length / points - length / 2
     for half_width in (0.5, 0.7, 0.9):
-        load = analytic.cylinder_load(half_width, 1.0, 1.0) / length
+        load = reference.cylinder_load(half_width, 1.0, 1.0) / length
         result = contactsim.press(
             -(x**2) / 2, spacing=length / points, contact_modulus=1.0, mean_pressure=load, tolerance=1e-5
         )
@@ -81,12 +81,12 @@ def indented(
     """
     along = [(np.arange(points) - points // 2 - start) / points for start in centre]
     heights = -(along[0][:, None] ** 2 + along[1] ** 2) / 2
-    load = analytic.sphere_load(contact_radius, 1.0, 1.0)
+    load = reference.sphere_load(contact_radius, 1.0, 1.0)
     result = contactsim.press(heights, spacing=1 / points, contact_modulus=1.0, mean_pressure=load, tolerance=1e-5)
     neighbours = 9.0336 / (1.5 * np.pi) / 3 * contact_radius**3
     areas = relative_contact_area_subgrid(result.pressure, result.gap), result.relative_contact_area
     radii = [np.sqrt(area / np.pi) / (1 - neighbours) for area in areas]
-    exact = analytic.sphere_pressure(0.0, contact_radius, 1.0, 1.0)
+    exact = reference.sphere_pressure(0.0, contact_radius, 1.0, 1.0)
     return *radii, result.pressure.max() / exact / (1 + 2 * neighbours)
 
 

@@ -7,16 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim import analytic
-from contactsim.elasticity import Layer
+from contactsim import reference
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.loading import LoadStep, approach, press, slide, through
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import Layer
 from contactsim.errors import SceneError
-from contactsim.interface import pose_interface
-from contactsim.laws import CohesiveZone, HardWall, NormalCohesiveZone
-from contactsim.loading import LoadStep, approach, press, slide, through
-from contactsim.pairing import ALIGNED, Windowed
-from contactsim.scene import Body, Scene
-from contactsim.superposition import superposed
-from contactsim.surface import Cylinder, Flat
+from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
+from contactsim.interface.pairing import ALIGNED, Windowed
+from contactsim.interface.superposition import superposed
+from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
 
 LAW = CohesiveZone(2.0, 0.7, 1.0, 0.8)
@@ -83,7 +83,7 @@ def test_the_tangent_is_the_derivative_of_the_traction():
 def test_a_flat_lattice_sums_to_the_exact_series():
     lattice, gap = 1.95, np.stack((np.linspace(-1.0, 4.0, 50), np.linspace(-7.0, 7.0, 50)))
     springs = Windowed(lattice, window=10.0).joined(LAW, np.zeros(50), 100.0)
-    cosines, sines = analytic.spring_sum(gap[1], lattice, LAW.tangential_length)
+    cosines, sines = reference.spring_sum(gap[1], lattice, LAW.tangential_length)
     opening = gap[0] / LAW.normal_length
     normal = LAW.work_of_separation / LAW.normal_length * opening * np.exp(-opening) * cosines
     tangential = LAW.tangential_work / LAW.tangential_length * np.exp(-opening) * sines
@@ -102,9 +102,9 @@ def test_a_flat_lattice_sums_to_the_exact_series():
     ],
 )
 def test_sums_of_springs_have_their_known_strength_and_fall(ratio, largest, fall):
-    sums = analytic.spring_sum(np.linspace(0, ratio, 2001), ratio)[1]
+    sums = reference.spring_sum(np.linspace(0, ratio, 2001), ratio)[1]
     assert sums.max() == pytest.approx(largest, rel=0.06)
-    assert analytic.steepest_fall(ratio) == pytest.approx(fall, rel=0.06)
+    assert reference.steepest_fall(ratio) == pytest.approx(fall, rel=0.06)
 
 
 def test_a_slide_by_whole_lattice_constants_changes_nothing():

@@ -10,10 +10,10 @@ import pytest
 import yaml
 
 from contactsim import provenance
-from contactsim.elasticity import HalfSpace, Layer
+from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.plan import Plan
 from contactsim.provenance import canonical
+from contactsim.study.plan import Plan
 
 CONFIG = Path(__file__).parents[1] / "config"
 SMOOTH = {
@@ -550,15 +550,15 @@ def edited(monkeypatch):
 @pytest.mark.parametrize(
     ("module", "expected", "runs"),
     [
-        ("contactsim.solvers.polonsky_keer", {"rough", "fig_3_3"}, {"rough"}),
-        ("contactsim.solvers.active_set", {"smooth", "fig_3_1"}, {"smooth"}),
-        ("contactsim.solvers.verlet", set(), set()),
+        ("contactsim.solvers.hard_wall.polonsky_keer", {"rough", "fig_3_3"}, {"rough"}),
+        ("contactsim.solvers.hard_wall.active_set", {"smooth", "fig_3_1"}, {"smooth"}),
+        ("contactsim.solvers.hard_wall.verlet", set(), set()),
         ("contactsim.grid", {"smooth", "rough", "fig_3_1", "fig_3_3"}, {"smooth", "rough"}),
-        ("contactsim.aggregate", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
-        ("contactsim.costs", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.analysis.aggregate", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.analysis.costs", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
         ("contactsim.figures.ch3", {"fig_3_1", "fig_3_3"}, set()),
         ("contactsim.figures.style", {"fig_3_1", "fig_3_3"}, set()),
-        ("contactsim.plan", set(), set()),
+        ("contactsim.study.plan", set(), set()),
     ],
 )
 def test_an_edit_of_a_module_changes_exactly_what_its_code_makes(folder, edited, module, expected, runs):

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from cases import navier
-from contactsim.elasticity import FreeLayer, HalfSpace, Layer
+from contactsim.elasticity.plane_strain import bonded_stiffness, both_faces
+from contactsim.elasticity.solids import FreeLayer, HalfSpace, Layer
+from contactsim.elasticity.symbol import Coupled
 from contactsim.errors import SceneError
-from contactsim.plane_strain import bonded_stiffness, both_faces
-from contactsim.symbols import Coupled
 
 RATIOS = (-0.9, 0.0, 0.25, 0.3, 0.49999, 0.5)
 X = np.concatenate([np.geomspace(1e-8, 1e6, 60), np.linspace(0.7, 3, 20)])

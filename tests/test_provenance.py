@@ -11,7 +11,7 @@ import pytest
 import contactsim
 from contactsim import provenance
 from contactsim.provenance import canonical, digest, imports_of, modules_used, source_digest, versions
-from contactsim.solvers import SOLVERS, module_of
+from contactsim.solvers.registry import SOLVERS, module_of
 
 SOURCE = Path(contactsim.__file__).parent
 MODULES = sorted(
@@ -43,18 +43,23 @@ def write(package, **texts):
 
 
 def test_marching_uses_what_it_imports_directly_or_not_and_no_figure_and_no_solver():
-    used = modules_used("contactsim.march")
-    assert {"contactsim.march", "contactsim.grid", "contactsim.measured", "contactsim.solvers.base"} <= set(used)
+    used = modules_used("contactsim.study.execute")
+    assert {
+        "contactsim.study.execute",
+        "contactsim.grid",
+        "contactsim.surfaces.profile",
+        "contactsim.solvers.base",
+    } <= set(used)
     assert not [name for name in used if "figures" in name]
     assert not set(map(module_of, SOLVERS)) & set(used)
-    assert "contactsim.aggregate" not in used
+    assert "contactsim.analysis.aggregate" not in used
     assert list(used) == sorted(used)
 
 
 def test_marching_with_a_solver_uses_that_one_only():
     solvers = set(map(module_of, SOLVERS))
     for module in solvers:
-        assert solvers & set(modules_used("contactsim.march", module)) == {module}
+        assert solvers & set(modules_used("contactsim.study.execute", module)) == {module}
 
 
 def test_other_packages_and_the_bare_package_are_no_modules_used():
@@ -74,12 +79,12 @@ def test_imports_of_every_form_and_at_any_depth_are_found(package):
     write(
         package,
         one="import contactsim.grid\nimport numpy.linalg\n",
-        two="from contactsim import one, SceneError\nfrom contactsim.solvers import base\n",
+        two="from contactsim import one, SceneError\nfrom contactsim.solvers.registry import base\n",
         three="def f():\n    if True:\n        from contactsim.two import one as other\n",
     )
     assert imports_of("contactsim.one") == {"contactsim.grid"}
     assert imports_of("contactsim.two") == {
-        *("contactsim", "contactsim.one", "contactsim.solvers", "contactsim.solvers.base")
+        *("contactsim", "contactsim.one", "contactsim.solvers.registry", "contactsim.solvers.base")
     }
     assert imports_of("contactsim.three") == {"contactsim.two"}
     assert {"contactsim.one", "contactsim.two", "contactsim.grid"} < set(modules_used("contactsim.three"))
@@ -109,22 +114,22 @@ def test_the_digest_changes_when_text_moves_from_one_module_to_another(package):
 
 
 def test_the_digest_does_not_depend_on_the_order_or_the_place_of_the_package(package, monkeypatch):
-    here = source_digest("contactsim.march", "contactsim.solvers.verlet")
-    assert here == source_digest("contactsim.solvers.verlet", "contactsim.march", "contactsim.grid")
+    here = source_digest("contactsim.study.execute", "contactsim.solvers.hard_wall.verlet")
+    assert here == source_digest("contactsim.solvers.hard_wall.verlet", "contactsim.study.execute", "contactsim.grid")
     package.rename(package.with_name("moved"))
     moved = package.with_name("moved")
     monkeypatch.setattr(provenance, "package_root", lambda: moved)
     forget()
-    assert source_digest("contactsim.march", "contactsim.solvers.verlet") == here
+    assert source_digest("contactsim.study.execute", "contactsim.solvers.hard_wall.verlet") == here
     assert len(here) == 16
     assert set(here) <= set("0123456789abcdef")
 
 
 def test_a_copy_of_the_package_has_its_digest(package, monkeypatch):
-    copied = source_digest("contactsim.march")
+    copied = source_digest("contactsim.study.execute")
     monkeypatch.setattr(provenance, "package_root", lambda: SOURCE)
     forget()
-    assert source_digest("contactsim.march") == copied
+    assert source_digest("contactsim.study.execute") == copied
 
 
 def test_settings_have_one_text_whatever_the_order_of_their_keys():

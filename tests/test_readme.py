@@ -16,28 +16,20 @@ import yaml
 
 import contactsim
 from conftest import ROOT
-from contactsim import draws, effect_survey
-from contactsim.claims import CLAIM_KEYS, CONDITION_KEYS
-from contactsim.config import REQUIRED, keys_of
-from contactsim.cost import CASE_KEYS
-from contactsim.figure_config import FIGURE_KEYS
-from contactsim.laws import EFFECTS
-from contactsim.plan import CONFIG_KEYS, TIER_KEYS, Plan
-from contactsim.priced import SETTING_KEYS
-from contactsim.schema import (
-    ACCURACY_KEYS,
-    AUTO_KEYS,
-    COMPANIONS,
-    KINDS,
-    MODULI,
-    PATH_KEYS,
-    SLIDE_KEYS,
-    STUDY_KEYS,
-)
-from contactsim.stability import STABILITY_KEYS
-from contactsim.study import Study
-from contactsim.tabulate import LAW_KEYS
-from contactsim.takes import FITTED, TAKES, needs
+from contactsim.analysis.claims import CLAIM_KEYS, CONDITION_KEYS
+from contactsim.analysis.reductions import FITTED, TAKES, needs
+from contactsim.evaluation.calibration import sampling
+from contactsim.evaluation.effects import survey
+from contactsim.evaluation.robustness.survey import STABILITY_KEYS
+from contactsim.evaluation.work_precision.case_config import CASE_KEYS
+from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
+from contactsim.interface.laws import EFFECTS
+from contactsim.study.figure_plan import FIGURE_KEYS
+from contactsim.study.keys import ACCURACY_KEYS, AUTO_KEYS, COMPANIONS, KINDS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
+from contactsim.study.law_table import LAW_KEYS
+from contactsim.study.plan import CONFIG_KEYS, TIER_KEYS, Plan
+from contactsim.study.reading import REQUIRED, keys_of
+from contactsim.study.study import Study
 from contactsim.variables import LOADS
 from test_bundle import PROJECT, SMALL, small_section
 from test_workflow import CYLINDER, Project
@@ -207,8 +199,8 @@ def test_every_link_leads_somewhere():
             STABILITY_KEYS,
             dict.fromkeys(LOADS),
         ),
-        *(ACCURACY_KEYS, AUTO_KEYS, draws.KEYS, draws.DRAW_KEYS, *draws.RANGES.values()),
-        *(effect_survey.KEYS, effect_survey.MAP_KEYS, effect_survey.AXIS_KEYS, effect_survey.PANEL_KEYS),
+        *(ACCURACY_KEYS, AUTO_KEYS, sampling.KEYS, sampling.DRAW_KEYS, *sampling.RANGES.values()),
+        *(survey.KEYS, survey.MAP_KEYS, survey.AXIS_KEYS, survey.PANEL_KEYS),
         *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     ],
 )
@@ -263,8 +255,8 @@ def test_the_settings_reference_explains_no_key_that_is_gone():
         *MODULI,
         *ACCURACY_KEYS,
         *AUTO_KEYS,
-        *draws.KEYS,
-        *effect_survey.KEYS,
+        *sampling.KEYS,
+        *survey.KEYS,
     }
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in KINDS.values():

@@ -14,12 +14,13 @@ import pytest
 from PIL import Image
 
 from conftest import ROOT
-from contactsim import dataset, report
-from contactsim.claims import CONDITION, NOT_REPRODUCED, REPRODUCED
-from contactsim.figures.claims import rounded
-from contactsim.gallery import VERDICTS
-from contactsim.plan import Plan
-from contactsim.rulegraph import HEIGHT, WIDTH, drawn
+from contactsim import dataset
+from contactsim.analysis.claims import CONDITION, NOT_REPRODUCED, REPRODUCED
+from contactsim.figures.diagnostics.claims import rounded
+from contactsim.publish import report
+from contactsim.publish.gallery import VERDICTS
+from contactsim.publish.rulegraph import HEIGHT, WIDTH, drawn
+from contactsim.study.plan import Plan
 
 pytestmark = pytest.mark.slow
 

@@ -9,10 +9,12 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from contactsim import aggregate, dataset
+from contactsim import dataset
+from contactsim.analysis import aggregate
 from contactsim.errors import SceneError
-from contactsim.figures import ch3, resolution, style
-from contactsim.plan import Plan
+from contactsim.figures import ch3, style
+from contactsim.figures.parts import resolution
+from contactsim.study.plan import Plan
 
 CONFIG = Path(__file__).parents[1] / "config"
 

@@ -10,9 +10,10 @@ import pytest
 from matplotlib.figure import Figure
 
 from contactsim import dataset
-from contactsim.adhesion import CRITERION, INTERACTING
-from contactsim.figures import ch5, rough_curves
-from contactsim.solvers.base import Status
+from contactsim.figures import ch5
+from contactsim.figures.parts import rough_curves
+from contactsim.observables.adhesion import CRITERION, INTERACTING
+from contactsim.status import Status
 
 ROUGH = (
     "rough_adhesive",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactsim.errors import SceneError
-from contactsim.roughness import rms_curvature, rms_gradient, rms_gradient_bonds, rms_height, spectrum
+from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_bonds, rms_height, spectrum
 
 
 def wave(points, mode=3):

@@ -8,7 +8,7 @@ import pytest
 import contactsim
 from cases import rough
 from conftest import ROOT
-from contactsim.plan import Plan
+from contactsim.study.plan import Plan
 
 POINTS, MODULUS = 4096, 1.0
 HEIGHTS = rough(POINTS, 0.2)
@@ -17,7 +17,7 @@ BODIES = {"half-space": {}, "layer": {"thickness": POINTS / 8, "poisson_ratio": 
 
 def pressed(heights, reduced_pressure, modulus=MODULUS, **body):
     """Press heights of unit spacing at p* = p/(ḡE*)."""
-    gradient = contactsim.roughness.rms_gradient(heights, 1.0)
+    gradient = contactsim.surfaces.statistics.rms_gradient(heights, 1.0)
     pressure = reduced_pressure * gradient * modulus
     return contactsim.press(heights, spacing=1.0, contact_modulus=modulus, mean_pressure=pressure, **body)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.wall import SAMPLE, grid_step
+from contactsim.contact.hard_wall import SAMPLE, grid_step
 
 
 def texture(points, period, along_both):

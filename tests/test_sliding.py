@@ -9,21 +9,22 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim import analytic, onset, peeling, sliding
-from contactsim.aggregate import combined
-from contactsim.branch import simulate_path
-from contactsim.elasticity import HalfSpace, Layer
-from contactsim.follow import INCREMENTS, Requested
-from contactsim.interface import InterfaceProblem, pose_interface
-from contactsim.laws import CohesiveZone
-from contactsim.loading import LoadPath, LoadStep, slide, through
-from contactsim.pairing import Windowed
-from contactsim.priced import solutions
-from contactsim.scene import Body, Scene
-from contactsim.solvers import solver
-from contactsim.surface import Cylinder, Flat
+from contactsim import reference
+from contactsim.analysis.aggregate import combined
+from contactsim.contact.cohesive import InterfaceProblem, pose_interface
+from contactsim.contact.loading import LoadPath, LoadStep, slide, through
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.evaluation.work_precision.knobs import solutions
+from contactsim.interface.laws import CohesiveZone
+from contactsim.interface.pairing import Windowed
+from contactsim.observables import friction, peeling, sliding
+from contactsim.paths.continuation import PathState
+from contactsim.paths.increments import INCREMENTS, Requested
+from contactsim.paths.record import simulate_path
+from contactsim.solvers.registry import solver
+from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
-from contactsim.walk import PathState
 
 LATTICE = 5000 / 2048
 RATIO = 0.45
@@ -70,7 +71,7 @@ FLATS = {"requested": Requested(), "adaptive": INCREMENTS["adaptive"](error=0.00
 
 
 def exact(modulus: float, work: float, slides: np.ndarray) -> np.ndarray:
-    return analytic.uniform_slide(slides, modulus / (2 * (1 + RATIO)) / 500.0, work, LATTICE)
+    return reference.uniform_slide(slides, modulus / (2 * (1 + RATIO)) / 500.0, work, LATTICE)
 
 
 @pytest.mark.parametrize("increments", ["requested", "adaptive"])
@@ -93,9 +94,9 @@ def test_flats_slide_as_one_degree_of_freedom_slips_included(modulus, work, incr
 def test_stick_slip_ends_where_the_body_is_stiffer_than_the_springs_soften(lattice, beside, slips):
     work = 0.1
     places = np.linspace(0.0, lattice, 20001)
-    sums = analytic.spring_sum(places, lattice)[1]
+    sums = reference.spring_sum(places, lattice)[1]
     steepest = places[np.argmin(np.gradient(sums, places))]
-    fall = analytic.steepest_fall(lattice)
+    fall = reference.steepest_fall(lattice)
     stiffness = beside * work * fall
     about = steepest + work / stiffness * np.interp(steepest, places, sums)
     increment = 2e-4
@@ -116,9 +117,9 @@ def test_flats_do_not_depend_on_the_mesh(points):
 def test_an_exact_slide_carries_what_the_springs_pull():
     slides = np.linspace(0, 12, 241)
     stiffness, strength = 0.05, 0.2
-    force = analytic.uniform_slide(slides, stiffness, strength, LATTICE)
+    force = reference.uniform_slide(slides, stiffness, strength, LATTICE)
     gap = slides - force / stiffness
-    np.testing.assert_allclose(force, strength * analytic.spring_sum(gap, LATTICE)[1], atol=1e-12)
+    np.testing.assert_allclose(force, strength * reference.spring_sum(gap, LATTICE)[1], atol=1e-12)
     assert np.all(np.diff(gap) > 0)
 
 
@@ -194,7 +195,7 @@ def test_a_slide_to_and_fro_is_antisymmetric_and_dissipates():
     _, _, slides, force = walked(scene, 256)
     first, second = slice(101, 301), slice(301, 501)
     np.testing.assert_allclose(-force[first], force[second], atol=1e-4 * force.max())
-    found = onset.slid(simulate_path(scene, solver("newton"), points=256, tolerance=1e-7))
+    found = friction.slid(simulate_path(scene, solver("newton"), points=256, tolerance=1e-7))
     assert float(found.loop_energy) > 100 * float(found.loop_energy_increment_error) > 0
     steps = np.diff(slides[first.start - 1 :])
     about = np.sum(steps * (force[first.start - 1 : -1] + force[first.start :]) / 2) * 1000.0
@@ -242,7 +243,7 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     assert np.isnan(slid[:20]).all()
     np.testing.assert_allclose(slid[20:], np.linspace(0, 11, 111), atol=1e-9)
     np.testing.assert_allclose(data.snapshot, [0.0, 4.0])
-    found = onset.slid(data)
+    found = friction.slid(data)
     told = found[[*sliding.EVENT, "event_periods"]].dropna("event")
     assert told.event.size == int(found.slips) >= 2
     assert float(found.first_periods) == pytest.approx(1.0, abs=0.15)
@@ -255,7 +256,7 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     before = data.friction_force.values[20:]
     largest = before[: np.flatnonzero(data.jump.values[20:] > 0)[0]].max()
     assert largest <= float(found.static_friction) <= 1.005 * largest
-    finer = onset.slid(dataset_of(0.0125)).static_friction
+    finer = friction.slid(dataset_of(0.0125)).static_friction
     assert abs(float(found.static_friction - finer)) <= float(found.static_friction_increment_error) < 1e-2 * largest
     assert 0 < float(found.onset_repulsive_length) < float(found.initial_repulsive_length)
     assert 0 < float(found.reattached) <= 1
@@ -284,11 +285,11 @@ def test_edges_lie_between_nodes_and_wrap_around():
     assert sliding.contact_ends(x - 100.0, x, 1.0) == (-32.5, 31.5)
 
 
-def line(slid: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01) -> onset.Slide:
+def line(slid: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01) -> friction.Slide:
     slid, force = np.array(slid, float), np.array(force, float)
     slipped = np.isin(np.arange(slid.size), after)
     wide = np.where(slipped | np.isin(np.arange(slid.size), np.array(after, int) - 1), width, 0.0)
-    return onset.Slide(slid, force, np.full(slid.size, np.nan), slipped, wide, np.arange(slid.size))
+    return friction.Slide(slid, force, np.full(slid.size, np.nan), slipped, wide, np.arange(slid.size))
 
 
 def test_the_onset_is_before_the_first_slip_or_at_the_first_maximum():
@@ -330,17 +331,17 @@ def test_peeling_at_one_edge_is_asymmetric():
 def test_a_force_is_averaged_over_whole_lattice_constants():
     slid = np.linspace(0, 10, 1001)
     wave = line(slid, 2 + np.sin(2 * np.pi * slid / 3.0))
-    mean, error = onset.average_force(wave, 3.0)
+    mean, error = friction.average_force(wave, 3.0)
     assert mean == pytest.approx(2.0, abs=1e-4)
     assert abs(mean - 2.0) <= error < 1e-3
-    assert np.isnan(onset.average_force(wave, 11.0)).all()
-    assert np.isnan(onset.average_force(line([0, 1, 0], [0, 1, 0]), 0.1)).all()
+    assert np.isnan(friction.average_force(wave, 11.0)).all()
+    assert np.isnan(friction.average_force(line([0, 1, 0], [0, 1, 0]), 0.1)).all()
     sawtooth = line([0, 2, 2, 4, 4, 6], [0, 2, 0, 2, 0, 2], after=(2, 4), width=0.0)
-    assert onset.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
+    assert friction.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
 
 
 def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
-    data = onset.slid(dataset_without_slips())
+    data = friction.slid(dataset_without_slips())
     assert float(data.slips) == 0
     assert np.isnan(data.event_slide).all()
     assert float(data.initial_repulsive_length) > 0
@@ -354,13 +355,13 @@ def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
 def test_a_fast_smooth_slide_is_no_slip(modulus, slips, increments, increment):
     scene, how = flat(modulus, 0.2, [0.0, 5.0], increment), INCREMENTS[increments]()
     data = simulate_path(scene, solver("newton"), points=16, tolerance=1e-7, increments=how)
-    assert (float(onset.slid(data).slips) > 0) == slips
+    assert (float(friction.slid(data).slips) > 0) == slips
 
 
 @pytest.mark.parametrize("increment", [0.1, 0.7, 11.0])
 def test_slips_are_found_one_by_one_whatever_the_increment(increment):
     scene = flat(70.0, 0.2, [0.0, 11.0], increment)
-    found = onset.slid(simulate_path(scene, solver("newton"), points=16, tolerance=1e-7))
+    found = friction.slid(simulate_path(scene, solver("newton"), points=16, tolerance=1e-7))
     slides = np.linspace(0.0, 11.0, 110001)
     drops = np.flatnonzero(np.diff(exact(70.0, 0.2, slides)) < -0.01)
     np.testing.assert_array_less(np.abs(found.event_slide - slides[drops + 1]), found.event_width + 2e-4)
@@ -372,12 +373,12 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
 def test_a_solver_without_predictions_sees_slips_in_increments_of_half_a_nanometre():
     scene = probe(path_of(0.0, [0.0, 11.0], 0.5))
     data = simulate_path(scene, solver("mass_weighted_verlet"), points=64, tolerance=1e-6)
-    assert float(onset.slid(data).slips) == 2
+    assert float(friction.slid(data).slips) == 2
 
 
 def test_a_frictionless_slide_has_no_force():
     scene = probe(path_of(0.0, [0.0, 3.0], 0.5), CohesiveZone(2.0))
-    data = onset.slid(simulate_path(scene, solver("newton"), points=128, tolerance=1e-7))
+    data = friction.slid(simulate_path(scene, solver("newton"), points=128, tolerance=1e-7))
     assert (data.friction_force == 0).all()
     assert np.isnan(data.static_friction)
 
@@ -404,5 +405,5 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
 def test_a_slide_is_priced_whole_with_its_slips():
     found = solutions(combined([(dataset(), {"member": 0})]))
     assert found.transforms.item() == dataset().transforms.sum().item()
-    assert found.static_friction.item() == onset.slid(dataset()).static_friction.item()
+    assert found.static_friction.item() == friction.slid(dataset()).static_friction.item()
     assert "event" not in found.dims

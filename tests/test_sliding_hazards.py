@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.hazards import first_line
-from contactsim.hazards.sliding import LATTICE, SLIDING, large_increments, many_cells_slid, wide_window
-from contactsim.path_verdicts import path_faults
-from contactsim.solvers import solver
-from contactsim.solvers.base import Status
-from contactsim.stability import judge
-from contactsim.verdicts import Outcome
+from contactsim.evaluation.robustness.judge_paths import path_faults
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.registry import first_line
+from contactsim.evaluation.robustness.sliding import LATTICE, SLIDING, large_increments, many_cells_slid, wide_window
+from contactsim.evaluation.robustness.survey import judge
+from contactsim.solvers.registry import solver
+from contactsim.status import Status
 
 SOLVERS = {"newton": {}, "mass_weighted_verlet": {"budget": 300}}
 EXACT = {"many_cells_slid", "fine_lattice", "wide_window"}

@@ -10,22 +10,24 @@ from scipy.optimize import nnls
 
 import contactsim
 from cases import ALL, FAST, ON_SURFACES, compliance, press, rough, wave
-from contactsim import analytic, loading
-from contactsim.elasticity import HalfSpace
+from contactsim import reference
+from contactsim.contact import loading
+from contactsim.contact.hard_wall import pose
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.explain import explain
-from contactsim.laws import HardWall
-from contactsim.measured import Profile, prepare
-from contactsim.roughness import rms_gradient
-from contactsim.scene import Body, Scene
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.solvers import SOLVERS, solver
-from contactsim.solvers.active_set import ActiveSet
-from contactsim.solvers.base import Status, require, solve
-from contactsim.solvers.continuation import BlockStiffness, Continuation
-from contactsim.surface import Flat
+from contactsim.interface.laws import HardWall
+from contactsim.solvers.base import require, solve
+from contactsim.solvers.hard_wall.active_set import ActiveSet
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
+from contactsim.solvers.registry import SOLVERS, solver
+from contactsim.status import Status
+from contactsim.surfaces.profile import Profile, prepare
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.shapes import Flat
+from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait
-from contactsim.wall import pose
 
 
 def assert_solved(result, tolerance=1e-3):
@@ -74,20 +76,20 @@ def test_solvers_agree_on_a_rough_line(name, hurst):
 @pytest.mark.parametrize("ratio", [1e-4, 1e-2, 0.3, 0.5, 0.9, 0.9999, 1.0, 1.001, 10.0])
 def test_westergaard_area_is_right_to_one_and_a_half_points(name, ratio):
     points = 256
-    full = analytic.full_contact_pressure(1.0, points, 1.0)
+    full = reference.full_contact_pressure(1.0, points, 1.0)
     result = press(wave(points), ratio * full, name, tolerance=1e-5)
     assert_solved(result, 1e-5)
-    assert abs(result.relative_contact_area - analytic.sinusoid_area(ratio)) <= 1.5 / points
+    assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
 
 
 @pytest.mark.parametrize("points", [64, 255, 1009, 8192])
 def test_westergaard_area_holds_on_every_grid_from_a_touch_to_full_contact(points):
-    full = analytic.full_contact_pressure(1.0, points, 1.0)
+    full = reference.full_contact_pressure(1.0, points, 1.0)
     for ratio in np.geomspace(1e-4, 0.9999, 25):
         # close to full contact the whole gap is below 1e-3 grid steps: the tolerance has to be tighter than that
         result = press(wave(points), ratio * full, tolerance=1e-6)
         assert_solved(result, 1e-6)
-        assert abs(result.relative_contact_area - analytic.sinusoid_area(ratio)) <= 1.5 / points
+        assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
 
 
 @pytest.mark.parametrize("name", FAST)
@@ -96,21 +98,21 @@ def test_cylinder_area_and_kappa_r_are_within_one_percent(name):
     x = np.arange(points) * length / points - length / 2
     heights = -(x**2) / (2 * radius)
     for ratio in (0.05, 0.1, 0.15, 0.2, 0.25):
-        load = analytic.cylinder_load(ratio * radius, radius, 1.0)
+        load = reference.cylinder_load(ratio * radius, radius, 1.0)
         result = contactsim.press(
             heights, spacing=length / points, contact_modulus=1.0, mean_pressure=load / length, solver=name
         )
         gradient = rms_gradient(heights, length / points, result.contact)
         kappa = result.relative_contact_area * gradient * length / load
-        assert kappa == pytest.approx(analytic.CYLINDER_KAPPA_R, rel=0.01)
-        peak = analytic.cylinder_pressure(0.0, ratio, radius, 1.0)
+        assert kappa == pytest.approx(reference.CYLINDER_KAPPA_R, rel=0.01)
+        peak = reference.cylinder_pressure(0.0, ratio, radius, 1.0)
         assert result.pressure.max() == pytest.approx(peak, rel=0.01)
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_complete_contact_is_exact(name):
     heights = rough(256)
-    flattened = analytic.complete_contact(heights, 256.0, 1.0)
+    flattened = reference.complete_contact(heights, 256.0, 1.0)
     mean = -flattened.min() * 1.001
     result = press(heights, mean, name, tolerance=1e-7)
     assert_solved(result, 1e-7)
@@ -124,9 +126,9 @@ def test_complete_contact_is_exact(name):
 @pytest.mark.parametrize("name", FAST)
 def test_pressure_field_of_a_wave_is_westergaards(name):
     points, ratio = 1024, 0.5
-    mean = ratio * analytic.full_contact_pressure(1.0, points, 1.0)
+    mean = ratio * reference.full_contact_pressure(1.0, points, 1.0)
     result = press(wave(points), mean, name, tolerance=1e-6)
-    exact = analytic.sinusoid_pressure(np.pi * np.arange(points) / points, ratio, mean)
+    exact = reference.sinusoid_pressure(np.pi * np.arange(points) / points, ratio, mean)
     # the square-root edge is met to within a point: error √(2/a) of the peak there, far less elsewhere
     assert np.sqrt(np.mean((result.pressure - exact) ** 2)) < 3e-3 * exact.max()
 
@@ -338,7 +340,7 @@ def test_tamaas_finds_the_same_solution_and_its_transforms_are_counted(load):
 
 
 def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypatch):
-    monkeypatch.setattr("contactsim.solvers.find_spec", lambda name: None)
+    monkeypatch.setattr("contactsim.solvers.registry.find_spec", lambda name: None)
     with pytest.raises(SceneError, match="pip install tamaas"):
         solver("tamaas")
     scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.press([1.0]))

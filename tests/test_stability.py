@@ -15,19 +15,20 @@ from matplotlib.figure import Figure
 
 from cases import ALL, ON_SURFACES
 from conftest import ROOT
-from contactsim import dataset, press, wall
+from contactsim import dataset, press
+from contactsim.contact import hard_wall
 from contactsim.errors import SceneError
-from contactsim.figures.render import render
-from contactsim.figures.stability import COLOURS, footer, refusals, short_reason, stability, taken
-from contactsim.hazards import HAZARDS
-from contactsim.hazards.cases import Case, made
-from contactsim.plan import Plan
-from contactsim.solvers import solver
+from contactsim.evaluation.robustness.cases import Case, made
+from contactsim.evaluation.robustness.judge_loads import faults
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.registry import HAZARDS
+from contactsim.evaluation.robustness.survey import gather, judge, read_settings, survey
+from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, taken
+from contactsim.figures.layout import render
 from contactsim.solvers.base import State
-from contactsim.stability import gather, judge, read_settings, survey
+from contactsim.solvers.registry import solver
+from contactsim.study.plan import Plan
 from contactsim.variables import VARIABLES
-from contactsim.verdicts import Outcome
-from contactsim.wall_verdicts import faults
 
 ON_PATHS = ("newton", "mass_weighted_verlet", "energy_minimisation")
 CASE = made(np.cos(2 * np.pi * np.arange(64) / 64) - 0.3)
@@ -96,7 +97,7 @@ def test_every_outcome_can_be_reached(case, method, outcome, reason):
 
 
 def test_a_wrong_answer_that_the_certificate_lets_pass_is_found_out(monkeypatch):
-    monkeypatch.setattr(wall.Certificate, "met", lambda self, tolerance: True)
+    monkeypatch.setattr(hard_wall.Certificate, "met", lambda self, tolerance: True)
     verdict = judge(CASE, Stuck(1.0))
     assert verdict.outcome is Outcome.WRONG
     assert "contact condition" in verdict.reason

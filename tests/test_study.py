@@ -6,12 +6,14 @@ from copy import deepcopy
 import numpy as np
 import pytest
 
-from contactsim import aggregate, dataset, march
-from contactsim.build import points_of, scene_of
+from contactsim import dataset
+from contactsim.analysis import aggregate
 from contactsim.errors import SceneError
 from contactsim.provenance import canonical
-from contactsim.solvers.active_set import NestedActiveSet
-from contactsim.study import Study
+from contactsim.solvers.hard_wall.active_set import NestedActiveSet
+from contactsim.study import execute
+from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.study import Study
 from contactsim.traits import Trait
 
 ROUGH = {
@@ -291,7 +293,7 @@ def test_what_may_be_varied_can_also_be_aggregated(vary, tmp_path):
     read, runs = study(section), []
     for number, run in enumerate(read.runs()):
         path, costs = tmp_path / f"{number}.nc", tmp_path / f"{number}.json"
-        march.run(run.settings, "source", path, costs)
+        execute.run(run.settings, "source", path, costs)
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     data = aggregate.aggregate(runs, read.settings, "source")
     ((name, values),) = vary.items()
@@ -640,7 +642,7 @@ def test_grids_are_aggregated_along_points_with_their_limit(tmp_path):
     read, runs = study(FINER), []
     for number, run in enumerate(read.runs()):
         path = tmp_path / f"{number}.nc"
-        march.run(run.settings, "source", path, tmp_path / f"{number}.json")
+        execute.run(run.settings, "source", path, tmp_path / f"{number}.json")
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     data = aggregate.aggregate(runs, read.settings, "source")
     assert data.points.values.tolist() == [64, 128, 256]
@@ -664,7 +666,7 @@ def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tm
     read, runs = study(section), []
     for number, run in enumerate(read.runs()):
         path = tmp_path / f"{number}.nc"
-        march.run(run.settings, "source", path, tmp_path / f"{number}.json")
+        execute.run(run.settings, "source", path, tmp_path / f"{number}.json")
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     assert ["normal_gap" in dataset.read(run["path"]) for run in runs[:2]] == [True, False]
     data = aggregate.aggregate(runs, read.settings, "source")

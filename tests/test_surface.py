@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from contactsim.errors import SceneError
-from contactsim.measured import Profile
-from contactsim.roughness import rms_gradient, rms_height, spectrum
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.surface import Cylinder, Flat, Sinusoid
-from contactsim.surfaces import Measured, Sampled
+from contactsim.surfaces.measured import Measured, Sampled
+from contactsim.surfaces.profile import Profile
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
+from contactsim.surfaces.statistics import rms_gradient, rms_height, spectrum
 
 THESIS = {"length": 160000.0, "rolloff_wavelength": 20000.0, "shortest_wavelength": 39.0625, "rms_gradient": 1e-3}
 

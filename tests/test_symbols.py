@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.elasticity import HalfSpace, Layer, relative_compliance
+from contactsim.elasticity.solids import HalfSpace, Layer, relative_compliance
+from contactsim.elasticity.symbol import Coupled, Normal
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
-from contactsim.symbols import Coupled, Normal
 
 BOTH, ONE = ("n", "t"), ("n",)
 LINE = Grid((64,), (50.0,))

@@ -20,14 +20,16 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from cases import refusal
-from contactsim import dataset, march, measured
-from contactsim.config import keys_of, read
+from contactsim import dataset
 from contactsim.errors import SceneError
-from contactsim.scans import UNITS
-from contactsim.solvers.base import Status
-from contactsim.study import Study
-from contactsim.surfaces import SURFACES, MeasuredSurface
-from contactsim.topography import DETREND, PERIODIC, Topography, prepare, read_topography
+from contactsim.status import Status
+from contactsim.study import execute
+from contactsim.study.reading import keys_of, read
+from contactsim.study.study import Study
+from contactsim.surfaces import profile
+from contactsim.surfaces.io import UNITS
+from contactsim.surfaces.measured import SURFACES, MeasuredSurface
+from contactsim.surfaces.topography import DETREND, PERIODIC, Topography, prepare, read_topography
 
 DY, DX = SPACING = (2.5, 0.5)
 HEIGHTS = np.array([[0.0, 1.5, -2.25, 3.0], [0.5, -1.0, 8.0, 4.0], [7.0, 6.0, 5.5, -9.0]])
@@ -730,7 +732,7 @@ def test_window_is_the_product_of_those_of_profiles() -> None:
     y, x = (np.where(np.arange(size) % 2, 1.0, -1.0) for size in (200, 50))
     result = prepared(np.outer(y, x), "none", "window")
     expected = np.outer(
-        *(measured.prepare(measured.Profile(line, 1.0, None), "none", "window").heights for line in (y, x))
+        *(profile.prepare(profile.Profile(line, 1.0, None), "none", "window").heights for line in (y, x))
     )
     np.testing.assert_allclose(result, expected, atol=1e-13)
     np.testing.assert_array_equal(result[20:180, 5:45], np.outer(y, x)[20:180, 5:45])
@@ -805,7 +807,7 @@ def test_a_measured_surface_whose_file_changes_makes_another_run(tmp_path: Path)
 def test_a_measured_surface_is_pressed_on_its_own_grid(tmp_path: Path) -> None:
     heights = np.random.default_rng(0).standard_normal((24, 16))
     (run,) = area(npy_file(tmp_path, heights)).runs()
-    march.run(run.settings, run.source, tmp_path / "run.nc", tmp_path / "run.json")
+    execute.run(run.settings, run.source, tmp_path / "run.nc", tmp_path / "run.json")
     data = dataset.read(tmp_path / "run.nc")
     assert data.status == Status.CONVERGED.value[0]
     assert (int(data.points), int(data.points_y), float(data.length), float(data.length_y)) == (30, 46, 15.0, 115.0)

@@ -10,15 +10,18 @@ import pytest
 
 from cases import refused
 from conftest import ROOT
-from contactsim import calibration, cost, dataset, draws, effect_survey, ladder, regression, trials
-from contactsim.config import tiered
-from contactsim.draws import read_draws
-from contactsim.figures import effect_maps as map_figure
-from contactsim.figures import overview
-from contactsim.figures import trials as trial_figure
-from contactsim.plan import Plan
-from contactsim.relations import LINE, PATH, as_relations
-from contactsim.stability import read_settings
+from contactsim import dataset
+from contactsim.error_control.scaling import LINE, PATH, as_relations
+from contactsim.evaluation.calibration import fit, measurement, sampling, validation
+from contactsim.evaluation.calibration.sampling import read_draws
+from contactsim.evaluation.effects import effect_cost, survey
+from contactsim.evaluation.robustness.survey import read_settings
+from contactsim.evaluation.work_precision import case_config
+from contactsim.figures.diagnostics import effect_maps as map_figure
+from contactsim.figures.diagnostics import overview
+from contactsim.figures.diagnostics import trials as trial_figure
+from contactsim.study.plan import Plan
+from contactsim.study.reading import tiered
 
 QUICK = {"trial": {"scenes": 2}, "errors": [0.05], "kinds": {"surface": None, "slide": None, "rough_path": None}}
 SETTINGS = read_draws(ROOT / "config", QUICK, "quick")
@@ -27,7 +30,9 @@ SETTINGS = read_draws(ROOT / "config", QUICK, "quick")
 @pytest.fixture(scope="module")
 def tried() -> dict[str, tuple]:
     """Trials of two lines and an asperity."""
-    return {f"{kind}_{count}": trials.trial(SETTINGS, kind, count) for kind, count in ((LINE, 0), (LINE, 1), (PATH, 0))}
+    return {
+        f"{kind}_{count}": validation.trial(SETTINGS, kind, count) for kind, count in ((LINE, 0), (LINE, 1), (PATH, 0))
+    }
 
 
 def test_a_trial_is_judged_by_a_finer_run_and_against_the_cheapest_setting(tried):
@@ -41,18 +46,18 @@ def test_a_trial_is_judged_by_a_finer_run_and_against_the_cheapest_setting(tried
 
 
 def test_a_trial_is_the_same_each_time_but_for_its_seconds(tried):
-    again, _ = trials.trial(SETTINGS, LINE, 0)
+    again, _ = validation.trial(SETTINGS, LINE, 0)
     assert again.identical(tried["line_0"][0])
 
 
 def test_errors_are_asked_for_by_turns():
     settings = read_draws(ROOT / "config", {}, "standard")
     for kind in settings["kinds"]:
-        asked = [trials.error_asked(settings, kind, count) for count in range(3)]
+        asked = [validation.error_asked(settings, kind, count) for count in range(3)]
         assert sorted(asked) == settings["errors"]
         backwards = settings | {"kinds": dict(reversed(settings["kinds"].items()))}
-        assert [trials.error_asked(backwards, kind, count) for count in range(3)] == asked
-    assert trials.names(SETTINGS) == ["line_0", "line_1", "path_0", "path_1"]
+        assert [validation.error_asked(backwards, kind, count) for count in range(3)] == asked
+    assert validation.names(SETTINGS) == ["line_0", "line_1", "path_0", "path_1"]
 
 
 def test_calibration_and_trial_have_different_scenes_of_the_same_ranges():
@@ -68,7 +73,7 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
         data.append(str(tmp_path / f"{name}.nc"))
         costs.append(str(tmp_path / f"{name}.json"))
     targets = {kind: str(tmp_path / f"trials.{kind}") for kind in ("png", "pdf", "csv")} | {"data": tmp_path / "all.nc"}
-    plan = trials.figure(SETTINGS, "quick")
+    plan = validation.figure(SETTINGS, "quick")
     trial_figure.render(plan, data, costs, targets)
     table = pd.read_csv(targets["csv"])
     assert list(table.met) == list(table.true_error <= table.asked)
@@ -79,13 +84,13 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
 def test_relations_measured_anew_have_the_form_of_the_packages():
     """Two scenes of each of two kinds: enough for the form, not for the values."""
     plan = {"kind": LINE, "drawn": {"ranges": SETTINGS["kinds"][LINE], "seed": 5, "scenes": 2}}
-    table = calibration.measured(plan)
+    table = measurement.measured(plan)
     assert set(table.knob) == {"points", "tolerance", "begun"}
-    found = as_relations(regression.fit(table))
+    found = as_relations(fit.fit(table))
     law = found.kinds[LINE].errors["points"]["relative_contact_area_subgrid"]
     assert law.coefficients["grid"] == 2.0
     assert 0 < found.kinds[LINE].begun < 1.2
-    assert "kinds:" in regression.as_text(table)
+    assert "kinds:" in fit.as_text(table)
 
 
 def test_a_straight_line_through_logarithms_is_found_again():
@@ -93,10 +98,10 @@ def test_a_straight_line_through_logarithms_is_found_again():
     grid = rng.uniform(-4, -1, 60)
     rows = pd.DataFrame({"kind": PATH, "knob": "increment", "one": 1.0, "grid": grid})
     rows["error_a"] = np.exp(-1.0 + 1.5 * grid)
-    found = regression._line(rows, "error_a", ("one", "grid"), {})
+    found = fit._line(rows, "error_a", ("one", "grid"), {})
     assert found["coefficients"]["grid"] == pytest.approx(1.5, rel=0.02)
     assert found["spread"] < 0.05
-    assert regression._line(rows[:3], "error_a", ("one", "grid"), {}) is None
+    assert fit._line(rows[:3], "error_a", ("one", "grid"), {}) is None
 
 
 @pytest.mark.parametrize(
@@ -114,17 +119,17 @@ def test_wrong_settings_of_trials_are_refused(over, key, allowed):
 
 
 def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overview(tmp_path):
-    assert draws.read_draws(tmp_path, {}, "quick") is None
-    assert effect_survey.read_maps(tmp_path, {}, "quick") is None
-    assert ladder.read_ladder(tmp_path, 0, {}, "quick") is None
-    assert cost.read_overview(tmp_path) is None
+    assert sampling.read_draws(tmp_path, {}, "quick") is None
+    assert survey.read_maps(tmp_path, {}, "quick") is None
+    assert effect_cost.read_ladder(tmp_path, 0, {}, "quick") is None
+    assert case_config.read_overview(tmp_path) is None
 
 
 READERS = {
     "stability": lambda file, over: read_settings(*tiered(file, over, "quick")),
-    "effects": lambda file, over: ladder.read_ladder(file.parent, 0, over, "quick"),
-    "trials": lambda file, over: draws.read_draws(file.parent, over, "quick"),
-    "effect_maps": lambda file, over: effect_survey.read_maps(file.parent, over, "quick"),
+    "effects": lambda file, over: effect_cost.read_ladder(file.parent, 0, over, "quick"),
+    "trials": lambda file, over: sampling.read_draws(file.parent, over, "quick"),
+    "effect_maps": lambda file, over: survey.read_maps(file.parent, over, "quick"),
 }
 
 
@@ -139,24 +144,22 @@ def test_a_tier_cannot_change_what_has_no_file_and_is_named_where_it_is_wrong(tm
 
 
 def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_path):
-    settings = effect_survey.read_maps(ROOT / "config", {}, "standard")
+    settings = survey.read_maps(ROOT / "config", {}, "standard")
     files = []
     for name, one in sorted(settings["maps"].items()):
         shape = [len(axis["values"]) for axis in one["axes"].values()]
-        data = dataset.described(
-            effect_survey.as_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape))
-        )
+        data = dataset.described(survey.as_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
         files.append(str(tmp_path / f"{name}.nc"))
         dataset.write(dataset.stamped(data, name, {}, "source"), files[-1])
     targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
-    map_figure.render(effect_survey.figure(settings, "quick"), files, targets)
+    map_figure.render(survey.figure(settings, "quick"), files, targets)
     assert set(pd.read_csv(targets["csv"])["map"]) == set(settings["maps"])
 
 
 def test_the_overview_shows_every_case_and_leaves_ensembles_out(tmp_path):
     plan = Plan.read(ROOT / "config", "quick")
-    cases = cost.read_cases(ROOT / "config", plan)
-    told = cost.overview(cost.read_overview(ROOT / "config"), cases, "quick")
+    cases = case_config.read_cases(ROOT / "config", plan)
+    told = case_config.overview(case_config.read_overview(ROOT / "config"), cases, "quick")
     tables = []
     for name, case in sorted(told["cases"].items()):
         rows = {

@@ -105,7 +105,7 @@ if "CONTACTSIM_TEST_AT" in os.environ:
 
     def record(*args, **options):
         made = make(*args, **options)
-        if made.name == "contactsim.loads":
+        if made.name == "contactsim.paths.pressures":
             reached(made.getMessage())
         return made
 

@@ -17,24 +17,25 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from contactsim import budget, dataset
-from contactsim.aggregate import combined, derived, of_states
-from contactsim.build import increments_of, points_of, scene_of
-from contactsim.choice import chosen
-from contactsim.compare import compared, is_within, summary
-from contactsim.config import load_yaml, whole
-from contactsim.confirm import reach
+from contactsim import dataset
+from contactsim.analysis.aggregate import combined, derived, of_states
+from contactsim.analysis.tiers import compared, is_within, summary
+from contactsim.contact.scene import Scene
+from contactsim.error_control.control import reach
+from contactsim.error_control.forecast import expectation, forecast_of
+from contactsim.error_control.neglect import without
+from contactsim.error_control.options import chosen
 from contactsim.errors import SceneError
+from contactsim.evaluation import budget
 from contactsim.explain import explain
-from contactsim.forecast import expectation, forecast_of
-from contactsim.march import asked_of, labelled, simulate
-from contactsim.negligible import without
-from contactsim.plan import Plan
-from contactsim.scene import Scene
-from contactsim.schema import COMPANIONS
-from contactsim.solvers import solver
-from contactsim.solvers.base import Status, solved
-from contactsim.study import Study
+from contactsim.solvers.registry import solver
+from contactsim.status import Status, is_solved
+from contactsim.study.execute import asked_of, labelled, simulate
+from contactsim.study.keys import COMPANIONS
+from contactsim.study.plan import Plan
+from contactsim.study.reading import load_yaml, whole
+from contactsim.study.scenes import increments_of, points_of, scene_of
+from contactsim.study.study import Study
 
 DRAWN = (".png", ".pdf", ".svg")
 
@@ -131,7 +132,7 @@ def run_scene(options: argparse.Namespace) -> None:
     if "accuracy" in data:
         sys.stdout.write(f"{_reached(data)}\n")
     sys.stdout.write(f"written to {target}\n")
-    failed = int((~solved(data.status)).sum())
+    failed = int((~is_solved(data.status)).sum())
     if failed:
         sys.exit(f"Error: {failed} of {data.status.size} load steps did not converge")
 

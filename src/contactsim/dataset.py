@@ -16,8 +16,7 @@ import xarray as xr
 from contactsim.errors import SceneError
 from contactsim.files import write_atomically
 from contactsim.provenance import canonical, versions
-from contactsim.solvers.base import Status
-from contactsim.validity import FLAGS
+from contactsim.status import FLAGS, Status
 from contactsim.variables import SUFFIXES, VARIABLES
 
 SETTINGS = {

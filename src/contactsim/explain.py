@@ -11,12 +11,12 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from contactsim.contact.scene import Scene
 from contactsim.dataset import SETTINGS
-from contactsim.follow import Increments
-from contactsim.laws import EFFECTS
-from contactsim.pairing import Pairing
-from contactsim.scene import Scene
-from contactsim.solvers import SOLVERS, installed, solver, solver_class
+from contactsim.interface.laws import EFFECTS
+from contactsim.interface.pairing import Pairing
+from contactsim.paths.increments import Increments
+from contactsim.solvers.registry import SOLVERS, installed, solver, solver_class
 from contactsim.traits import Trait
 
 COMPONENTS = {"n": "normal", "t": "tangential"}

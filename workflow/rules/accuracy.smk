@@ -1,6 +1,6 @@
 # What accuracy costs: one job a case and solver, timed, at most two at once.
 def case_params(wildcards):
-    return canonical(accuracy_case.job_plan(CASES[wildcards.case], wildcards.job))
+    return canonical(cases.job_plan(CASES[wildcards.case], wildcards.job))
 
 
 def case_files(ending, folder):
@@ -17,11 +17,11 @@ def case_study(ending, folder):
 
 @functools.cache
 def all_tiers():
-    return cost.every_tier(CONFIG, PLAN)
+    return case_config.every_tier(CONFIG, PLAN)
 
 
 def case_figure(wildcards):
-    return canonical(cost.figure_settings(CASES[wildcards.case], PLAN, all_tiers()))
+    return canonical(case_config.figure_settings(CASES[wildcards.case], PLAN, all_tiers()))
 
 
 rule price:
@@ -64,7 +64,7 @@ if OVERVIEW:
             pdf=RESULTS / "figures/overview.pdf",
             csv=RESULTS / "figures/overview.csv",
         log: RESULTS / "logs/figures/overview.log"
-        params: plan=canonical(cost.overview(OVERVIEW, CASES, PLAN.tier))
+        params: plan=canonical(case_config.overview(OVERVIEW, CASES, PLAN.tier))
         group: together("figures")
         message: f"overview: {RESULTS}/figures/overview.png"
         script: "../scripts/overview.py"

@@ -11,8 +11,8 @@ def bundle_titles():
 def bundle_data():
     data = {PLAN.dataset_name(name): PLAN.study_settings(name) for name in PLAN.studies}
     data |= {"stability": PLAN.map_settings()} if PLAN.stability else {}
-    data |= {"effects": ladder.plan(LADDER)} if LADDER else {}
-    return data | ({"trials": trials.figure(DRAWS, PLAN.tier)} if DRAWS else {})
+    data |= {"effects": effect_cost.plan(LADDER)} if LADDER else {}
+    return data | ({"trials": validation.figure(DRAWS, PLAN.tier)} if DRAWS else {})
 
 
 def bundle_places():
@@ -42,7 +42,7 @@ def bundle_params(wildcards):
             "data": {name: digest(settings) for name, settings in bundle_data().items()},
             "shown": digest(shown),
             "project": digest(project),
-            "source": source_digest("contactsim.bundle"),
+            "source": source_digest("contactsim.publish.bundle"),
         }
     )
 

@@ -6,9 +6,15 @@ import shlex
 import sys
 from pathlib import Path
 
-from contactsim import accuracy_case, calibration, cost, draws, effect_survey, gallery, ladder, outlook, report, standby, trials
+from contactsim import standby
+from contactsim.evaluation import resources
+from contactsim.evaluation.calibration import measurement, sampling, validation
+from contactsim.evaluation.effects import effect_cost
+from contactsim.evaluation.effects import survey as effect_survey
+from contactsim.evaluation.work_precision import case_config, cases
+from contactsim.publish import gallery, report
 from contactsim.errors import SceneError
-from contactsim.plan import Plan
+from contactsim.study.plan import Plan
 from contactsim.provenance import canonical, digest, source_digest
 
 try:
@@ -16,10 +22,10 @@ try:
         raise SceneError("--config", sorted(set(config) - {"tier"}), "tier=NAME")
     CONFIG = Path(workflow.basedir) / "config"
     PLAN = Plan.read(CONFIG, config.get("tier"))
-    CASES = cost.read_cases(CONFIG, PLAN)
-    LADDER = ladder.read_ladder(CONFIG, PLAN.seed, PLAN.effects, PLAN.tier)
-    DRAWS = draws.read_draws(CONFIG, PLAN.trials, PLAN.tier)
-    OVERVIEW = cost.read_overview(CONFIG) if CASES else None
+    CASES = case_config.read_cases(CONFIG, PLAN)
+    LADDER = effect_cost.read_ladder(CONFIG, PLAN.seed, PLAN.effects, PLAN.tier)
+    DRAWS = sampling.read_draws(CONFIG, PLAN.trials, PLAN.tier)
+    OVERVIEW = case_config.read_overview(CONFIG) if CASES else None
     MAPS = effect_survey.read_maps(CONFIG, PLAN.effect_maps, PLAN.tier)
 except SceneError as error:
     sys.exit(f"Error: {error}")
@@ -46,7 +52,7 @@ onstart:
     _runs = [(PLAN.run(*map(str, job.wildcards)), job.output.costs) for job in _jobs if job.rule.name == "run"]
     _runs = [(run, costs) for run, costs in _runs if PLAN.twin(run) is None]
     _rules = [job.rule.name for job in _jobs if job.rule.name != "run" and job.rule.output]
-    print(outlook.told(_runs, _rules, workflow.cores), file=sys.stderr)
+    print(resources.told(_runs, _rules, workflow.cores), file=sys.stderr)
     workflow.scheduler.job_rate_limiter = None  # else each job adds a timer that wakes the scheduler every second, for good
     if workflow.local_exec and sys.platform == "linux":  # elsewhere forks are not safe
         stand_by()

@@ -33,6 +33,6 @@ if MAPS:
         input: of_the_standard_tier, maps=[RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
         output: RESULTS / "effect_maps/effect_maps.yaml"
         log: RESULTS / "logs/effect_maps/freeze.log"
-        params: plan=canonical(MAPS), source=source_digest("contactsim.effect_survey")
-        message: "maps, to be put in the place of src/contactsim/effect_maps.yaml: {output}"
+        params: plan=canonical(MAPS), source=source_digest("contactsim.evaluation.effects.survey")
+        message: "maps, to be put in the place of src/contactsim/error_control/effect_maps.yaml: {output}"
         script: "../scripts/freeze_maps.py"

@@ -6,7 +6,7 @@ if LADDER:
             data=RESULTS / "datasets/effects.nc",
             costs=RESULTS / "costs/effects.json",
         log: RESULTS / "logs/datasets/effects.log"
-        params: plan=canonical(ladder.plan(LADDER))
+        params: plan=canonical(effect_cost.plan(LADDER))
         threads: timed_threads()
         group: together("timed")
         message: "effects: every rung measured"
@@ -22,7 +22,7 @@ if LADDER:
             pdf=RESULTS / "figures/effects.pdf",
             csv=RESULTS / "figures/effects.csv",
         log: RESULTS / "logs/figures/effects.log"
-        params: plan=canonical(ladder.figure(LADDER, PLAN.tier))
+        params: plan=canonical(effect_cost.figure(LADDER, PLAN.tier))
         group: together("figures")
         message: f"effects: {RESULTS}/figures/effects.png"
         script: "../scripts/effects_figure.py"

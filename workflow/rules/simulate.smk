@@ -24,16 +24,16 @@ def run_outlook(wildcards):
 
 
 def run_memory(wildcards, attempt):
-    return outlook.memory_asked(*run_outlook(wildcards), attempt)
+    return resources.memory_asked(*run_outlook(wildcards), attempt)
 
 
 def run_minutes(wildcards, attempt):
-    return outlook.minutes_asked(*run_outlook(wildcards), attempt)
+    return resources.minutes_asked(*run_outlook(wildcards), attempt)
 
 
 def run_group(wildcards):
     name = together("runs")(wildcards)
-    return name if name and outlook.is_short(*run_outlook(wildcards)) else None
+    return name if name and resources.is_short(*run_outlook(wildcards)) else None
 
 
 def decide_params(wildcards):

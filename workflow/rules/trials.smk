@@ -2,11 +2,11 @@
 if DRAWS:
 
     def trial_params(wildcards):
-        return canonical(trials.plan(DRAWS, wildcards.kind, int(wildcards.number)))
+        return canonical(validation.plan(DRAWS, wildcards.kind, int(wildcards.number)))
 
 
     def relation_params(wildcards):
-        return canonical(calibration.plan(DRAWS, wildcards.kind))
+        return canonical(measurement.plan(DRAWS, wildcards.kind))
 
 
     rule trial:
@@ -24,15 +24,15 @@ if DRAWS:
 
     rule trials:
         input:
-            data=[RESULTS / f"trials/{name}.nc" for name in trials.names(DRAWS)],
-            costs=[RESULTS / f"costs/trials/{name}.json" for name in trials.names(DRAWS)],
+            data=[RESULTS / f"trials/{name}.nc" for name in validation.names(DRAWS)],
+            costs=[RESULTS / f"costs/trials/{name}.json" for name in validation.names(DRAWS)],
         output:
             data=RESULTS / "datasets/trials.nc",
             png=RESULTS / "figures/trials.png",
             pdf=RESULTS / "figures/trials.pdf",
             csv=RESULTS / "figures/trials.csv",
         log: RESULTS / "logs/figures/trials.log"
-        params: plan=canonical(trials.figure(DRAWS, PLAN.tier))
+        params: plan=canonical(validation.figure(DRAWS, PLAN.tier))
         group: together("figures")
         message: f"trials: {RESULTS}/figures/trials.png"
         script: "../scripts/trials.py"
@@ -53,6 +53,6 @@ if DRAWS:
         input: of_the_standard_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
-        params: source=source_digest("contactsim.regression")
-        message: "relations, to be put in the place of src/contactsim/relations.yaml: {output}"
+        params: source=source_digest("contactsim.evaluation.calibration.fit")
+        message: "relations, to be put in the place of src/contactsim/error_control/scaling.yaml: {output}"
         script: "../scripts/relations.py"

@@ -2,7 +2,8 @@
 
 import json
 
-from contactsim import aggregate, costs, dataset
+from contactsim import dataset
+from contactsim.analysis import aggregate, costs
 from contactsim.files import write_text
 from contactsim.joblog import logged
 

@@ -3,8 +3,8 @@
 import json
 from pathlib import Path
 
-from contactsim import bundle
 from contactsim.joblog import logged
+from contactsim.publish import bundle
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

@@ -2,7 +2,7 @@
 
 import json
 
-from contactsim.figures.claims import render_claims
+from contactsim.figures.diagnostics.claims import render_claims
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])

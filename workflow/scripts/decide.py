@@ -2,9 +2,9 @@
 
 import json
 
+from contactsim.error_control.neglect import decide
 from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.negligible import decide
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

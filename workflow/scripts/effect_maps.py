@@ -2,7 +2,7 @@
 
 import json
 
-from contactsim.figures.effect_maps import render
+from contactsim.figures.diagnostics.effect_maps import render
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])

@@ -2,7 +2,7 @@
 
 import json
 
-from contactsim.figures.render import render
+from contactsim.figures.layout import render
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])

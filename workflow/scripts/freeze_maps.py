@@ -3,7 +3,7 @@
 import json
 
 from contactsim import dataset
-from contactsim.effect_survey import as_text
+from contactsim.evaluation.effects.survey import as_text
 from contactsim.files import write_text
 from contactsim.joblog import logged
 

@@ -3,9 +3,9 @@
 import json
 from pathlib import Path
 
-from contactsim import gallery
 from contactsim.joblog import logged
-from contactsim.plan import Plan
+from contactsim.publish import gallery
+from contactsim.study.plan import Plan
 
 logged(snakemake.log[0])
 target = Path(snakemake.output[0])

@@ -3,8 +3,8 @@
 import json
 
 from contactsim import dataset
+from contactsim.evaluation.robustness.survey import survey
 from contactsim.joblog import logged
-from contactsim.stability import survey
 
 logged(snakemake.log[0])
 dataset.write(survey(**json.loads(snakemake.params.plan)), snakemake.output[0])

@@ -3,7 +3,7 @@
 import json
 
 from contactsim import dataset
-from contactsim.effect_survey import measure
+from contactsim.evaluation.effects.survey import measure
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])

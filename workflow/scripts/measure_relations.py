@@ -4,7 +4,7 @@ import json
 
 from threadpoolctl import threadpool_limits
 
-from contactsim.calibration import measured
+from contactsim.evaluation.calibration.measurement import measured
 from contactsim.files import write_text
 from contactsim.joblog import logged
 

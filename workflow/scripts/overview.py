@@ -2,7 +2,7 @@
 
 import json
 
-from contactsim.figures.overview import render
+from contactsim.figures.diagnostics.overview import render
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])

@@ -5,10 +5,10 @@ import json
 from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
-from contactsim.cost import read_cases
+from contactsim.evaluation.work_precision.case_config import read_cases
 from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.plan import Plan
+from contactsim.study.plan import Plan
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

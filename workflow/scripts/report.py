@@ -3,10 +3,10 @@
 import json
 from pathlib import Path
 
-from contactsim import report, rulegraph
 from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.plan import Plan
+from contactsim.publish import report, rulegraph
+from contactsim.study.plan import Plan
 
 logged(snakemake.log[0])
 settings, target = json.loads(snakemake.params.plan), Path(snakemake.output[0])

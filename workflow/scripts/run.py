@@ -2,9 +2,9 @@
 
 import json
 
+from contactsim.error_control.neglect import run
 from contactsim.files import write_text
 from contactsim.joblog import logged
-from contactsim.negligible import run
 
 logged(snakemake.log[0])
 plan, files = json.loads(snakemake.params.plan), [snakemake.output.data, snakemake.output.costs]

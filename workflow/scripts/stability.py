@@ -3,8 +3,8 @@
 import json
 
 from contactsim import dataset
+from contactsim.evaluation.robustness.survey import gather
 from contactsim.joblog import logged
-from contactsim.stability import gather
 
 logged(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

@@ -2,7 +2,7 @@
 
 import json
 
-from contactsim.figures.trials import render
+from contactsim.figures.diagnostics.trials import render
 from contactsim.joblog import logged
 
 logged(snakemake.log[0])

@@ -6,7 +6,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import analytic, dataset
+from contactsim import dataset, reference
 from contactsim.figures import style
 
 
@@ -20,8 +20,8 @@ def fig_2_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     works = {"normal": law["work_of_separation"], "tangential": law["work_of_separation"] * law["work_ratio"]}
     rows = []
     for panel, name, other, along, sign, strength, peak in (
-        (axes[0], "normal", "tangential", "opening", "n", analytic.normal_strength, 1.0),
-        (axes[1], "tangential", "normal", "slip_gap", "t", analytic.tangential_strength, 2**-0.5),
+        (axes[0], "normal", "tangential", "opening", "n", reference.normal_strength, 1.0),
+        (axes[1], "tangential", "normal", "slip_gap", "t", reference.tangential_strength, 2**-0.5),
     ):
         fixed, unit = f"{other}_gap", works[name] / lengths[name]
         subscript = {"n": "t", "t": "n"}[sign]

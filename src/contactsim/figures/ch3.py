@@ -11,9 +11,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import analytic, ensemble
-from contactsim.figures import factors, notation, resolution, style
+from contactsim import reference
+from contactsim.analysis import ensemble
+from contactsim.figures import notation, style
 from contactsim.figures.maps import of_dataset, panels
+from contactsim.figures.parts import factors, resolution
 
 FREE_OF_NEIGHBOURS = 0.25
 """Largest c/R at which a cylinder or sphere at L/R = 4 does not feel its neighbours."""
@@ -88,7 +90,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
         style.grid_error(last, contact, one, "kappa_r", color=style.CONTACT, **look)
         style.grid_error(last, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
-    persson = analytic.persson_area(dense)
+    persson = reference.persson_area(dense)
     left.plot(dense, persson, color=style.EXACT, lw=0.8)
     middle.plot(dense, persson / dense, color=style.EXACT, lw=0.8)
     for panel in (middle, right):
@@ -132,7 +134,7 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
             style.with_errors(middle, x, one, name, color=color, **look)
             style.grid_error(right, x, one, name, color=color, **look)
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
-    persson = analytic.persson_area(dense)
+    persson = reference.persson_area(dense)
     left.plot(dense, persson, color=style.EXACT, lw=0.8)
     middle.plot(dense, persson / dense, color=style.EXACT, lw=0.8)
     for value, color in ((kappa, style.WHOLE), (kappa_r, style.CONTACT)):
@@ -175,7 +177,7 @@ def fig_3_5(
 ) -> pd.DataFrame:
     """Proportionality factors of lines over those of surfaces (thesis Fig. 3.5); ratio: the thesis's, of κ_r."""
     rows = []
-    smooth = analytic.CYLINDER_KAPPA_R / analytic.SPHERE_KAPPA_R
+    smooth = reference.CYLINDER_KAPPA_R / reference.SPHERE_KAPPA_R
     colours = resolution.QUANTITIES
     for panel, lines, name in zip(axes[:2], (coarse, line), ("equal", "own"), strict=True):
         loads = np.intersect1d(lines.reduced_pressure, surface.reduced_pressure)
@@ -225,7 +227,7 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     for value in data.hurst.values:
         one, look = data.sel(hurst=value), style.hurst(value) | {"linestyle": "none"}
         style.with_errors(axes, one.reduced_pressure, one, "kappa", color="#888888", **look)
-    axes.plot(dense, analytic.persson_area(dense) / dense, color=style.EXACT, lw=0.8, ls="-.")
+    axes.plot(dense, reference.persson_area(dense) / dense, color=style.EXACT, lw=0.8, ls="-.")
     axes.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}_{\mathrm{fit}}$")
     axes.set_ylim(top=axes.get_ylim()[1] * 1.22)
     lines = {"fit to all $H$, of the area": ("all", "area"), "of its logarithm": ("all", "logarithm")}

@@ -14,13 +14,14 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import analytic
-from contactsim.adhesion import LEGS
-from contactsim.build import elastic
-from contactsim.fields import inside
-from contactsim.figures import asperities, stress, style
-from contactsim.figures import load_curves as curves
+from contactsim import reference
+from contactsim.elasticity.subsurface import inside
+from contactsim.figures import style
+from contactsim.figures.parts import asperities, stress
+from contactsim.figures.parts import load_curves as curves
 from contactsim.grid import Array, Grid
+from contactsim.observables.adhesion import LEGS
+from contactsim.study.scenes import elastic
 
 APPROACHING = -5.0
 """Approach (nm), before the contact is closed, at which fields are kept."""
@@ -64,14 +65,14 @@ def fig_4_4(
     cases = [
         (left, rf"$\varphi_n={work:g}$ N/m", [data.sel(work_of_separation=work)], works[work], "-") for work in works
     ]
-    reference = (right, "reference", [data.sel(work_of_separation=REFERENCE_WORK)], works[REFERENCE_WORK], "-")
+    shown = (right, "reference", [data.sel(work_of_separation=REFERENCE_WORK)], works[REFERENCE_WORK], "-")
     others = [
         (right, r"$\nu=0.45$", soft, style.WHOLE, "--"),
         (right, r"$w/R=0.08$", [close], style.PAIRS, ":"),
         (right, r"$h/R=0.8$", [thick], style.EXACT, "-."),
     ]
     rows = []
-    for panel, words, parts, color, line in [*cases, reference, *others]:
+    for panel, words, parts, color, line in [*cases, shown, *others]:
         sizes = asperities.sizes(parts)
         look = {"color": color, "ls": line, "marker": "o", "ms": 3, "mfc": "white", "lw": 1.0, "elinewidth": 0.8}
         panel.errorbar(sizes.work_ratio, sizes.size_ratio, sizes.error, label=words, **look)
@@ -187,9 +188,9 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
                 first * (dense / works[0]) ** slope,
                 ":",
             ),
-            "JKR, half-space": (curves.normalised(analytic.cylinder_pull_off(dense, radius, modulus), body), "-"),
+            "JKR, half-space": (curves.normalised(reference.cylinder_pull_off(dense, radius, modulus), body), "-"),
             "rigid": (
-                curves.normalised(analytic.rigid_cylinder_pull_off(dense, radius, curves.normal_length(body)), body),
+                curves.normalised(reference.rigid_cylinder_pull_off(dense, radius, curves.normal_length(body)), body),
                 (0, (6, 3)),
             ),
         }

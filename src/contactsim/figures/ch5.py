@@ -14,10 +14,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from contactsim.adhesion import CRITERION, INTERACTING, LEGS
-from contactsim.ensemble import converged, relative_change
-from contactsim.figures import interfaces, style, thicknesses
-from contactsim.figures import rough_curves as rough
+from contactsim.analysis.ensemble import converged, relative_change
+from contactsim.figures import style
+from contactsim.figures.parts import interfaces, thicknesses
+from contactsim.figures.parts import rough_curves as rough
+from contactsim.observables.adhesion import CRITERION, INTERACTING, LEGS
 
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_bond", "reduced_pressure_contact")
 SHOWN, COVERED, CLOSE_UP = 0.12, 0.3, 0.05

@@ -13,11 +13,11 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import analytic, dataset
-from contactsim.adhesion import repulsive_length
+from contactsim import dataset, reference
 from contactsim.figures import ch2, style
-from contactsim.figures import slide_curves as curves
-from contactsim.sliding import EVENT
+from contactsim.figures.parts import slide_curves as curves
+from contactsim.observables.adhesion import repulsive_length
+from contactsim.observables.sliding import EVENT
 
 LATTICES = (1.0, 1.5, 2.0, 2.44, 4.88)
 """Lattice constants, over δt, whose sums of springs Fig. 6.3c shows."""
@@ -36,7 +36,7 @@ def fig_6_3(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     shown = ch2.fig_2_2(data, axes[:2])
     places = np.linspace(0.0, 1.0, 401)
     for lattice, colour in style.shades(LATTICES).items():
-        total = analytic.spring_sum(places * lattice, lattice)[1]
+        total = reference.spring_sum(places * lattice, lattice)[1]
         axes[2].plot(places, total, color=colour, lw=1.2, label=rf"$l/\delta_t={lattice:g}$")
         rows = {"component": "tangential", "fixed_gap": 0.0, "gap": places * lattice, "traction": total}
         shown = pd.concat([shown, pd.DataFrame(rows | {"lattice_constant": lattice})])
@@ -83,8 +83,8 @@ def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
             law["tangential_length"],
             body["thickness"],
         )
-        strength = analytic.tangential_strength(work, length, 0.0)
-        fall = analytic.steepest_fall(known["pairing"]["lattice_constant"], length) * work / length**2
+        strength = reference.tangential_strength(work, length, 0.0)
+        fall = reference.steepest_fall(known["pairing"]["lattice_constant"], length) * work / length**2
         critical = 2 * (1 + body["poisson_ratio"]) * thickness * fall / strength
         ratio, scale = one.counter_body_youngs_modulus.values / strength, 1 / (float(one.length) * curves.MODULUS)
         for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):

@@ -20,8 +20,9 @@ from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 from contactsim.errors import SceneError, is_number
 from contactsim.figures import style
 from contactsim.grid import Array
-from contactsim.observables import touching
-from contactsim.solvers.base import Result, Status
+from contactsim.observables.contact import touching
+from contactsim.solvers.base import Result
+from contactsim.status import Status
 
 PIXELS = 512
 """Most pixels along a side: what three panels beside each other can show."""

@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contactsim.elasticity import FreeLayer
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import FreeLayer
 from contactsim.figures import style
-from contactsim.scene import Body, Scene
 from contactsim.traits import Trait
 
 ELASTIC, RIGID = "#cfe3d4", "#d9d9d9"

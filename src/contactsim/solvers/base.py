@@ -9,48 +9,16 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import Protocol
 
 import numpy as np
-import xarray as xr
 
+from contactsim.contact.hard_wall import Certificate, Scale, WallProblem
+from contactsim.contact.scene import Scene
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.scene import Scene
+from contactsim.status import Status
 from contactsim.traits import Trait
-from contactsim.wall import Certificate, Scale, WallProblem
-
-
-class Status(Enum):
-    """How a solution ended; the number is stored in datasets, the sentence explains it."""
-
-    CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
-    BUDGET = (1, "not converged: the budget of iterations is spent")
-    NON_FINITE = (2, "failed: a value that is not finite appeared")
-    PULLED_OFF = (3, "no equilibrium: the load pulls the bodies apart")
-    BROKEN_OFF = (4, "not tried: the path broke off before")
-    INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
-
-    @property
-    def sentence(self) -> str:
-        """What the status means."""
-        return self.value[1]
-
-    @property
-    def solved(self) -> bool:
-        """Whether there is a solution, or one interpolated between solutions."""
-        return self in (Status.CONVERGED, Status.INTERPOLATED)
-
-
-def sentence(number: int) -> str:
-    """What the number of a status means."""
-    return next(status.sentence for status in Status if status.value[0] == number)
-
-
-def solved(numbers: xr.DataArray) -> xr.DataArray:
-    """Whether numbers of a status stand for solutions, bool."""
-    return numbers.isin([status.value[0] for status in Status if status.solved])
 
 
 @dataclass(frozen=True)
@@ -102,7 +70,7 @@ class Result:
     """One solved load step.
 
     pressure (n,) or (ny, nx), GPa, never negative; gap likewise, nm; approach, nm (see
-    `contactsim.loading`); mean_pressure, GPa; seconds: of CPU, apart from the record because it is not reproducible.
+    `contactsim.contact.loading`); mean_pressure, GPa; seconds: of CPU, apart from the record because it is not reproducible.
     """
 
     pressure: Array = field(repr=False)

@@ -1,0 +1,1 @@
+"""Datasets of studies: aggregation, statistics, fits and claims."""

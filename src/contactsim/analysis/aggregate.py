@@ -1,0 +1,201 @@
+"""From the runs of a study to one dataset: ensemble means, standard errors, grid errors and fits.
+
+Unconverged solutions are left out of means and fits, and counted. The grid error is the change of the mean on halving
+the number of points, over the members for which both were computed: for a first-order quantity it bounds the error
+that remains, for a higher order generously so. The tolerance error is the change on solving far more tightly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset, reference
+from contactsim.analysis import grid_convergence
+from contactsim.analysis.ensemble import converged, on_all_grids
+from contactsim.analysis.fits import fits
+from contactsim.observables.adhesion import AREAS, SUMMARY, summarised
+from contactsim.observables.contact import proportionality
+from contactsim.observables.friction import slid
+from contactsim.observables.hysteresis import CYCLE, cycled
+from contactsim.observables.linearity import AREA_LOAD, related
+from contactsim.observables.peeling import ONSET, THRESHOLD
+from contactsim.variables import ERRORS, LOADS
+
+APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
+"""What stays with the runs."""
+
+AVERAGED = (
+    "relative_contact_area",
+    "relative_contact_area_subgrid",
+    "kappa",
+    "kappa_r",
+    "kappa_r_bond",
+    "rms_gradient_contact",
+    "rms_gradient_contact_bond",
+    "reduced_pressure_contact",
+    "mean_gap",
+)
+AVERAGED_STATES = (
+    "mean_pressure",
+    "normalised_pressure",
+    "relative_repulsive_area",
+    "relative_interacting_area",
+    "gradient_ratio_repulsive",
+    "gradient_ratio_interacting",
+    "mean_gap",
+)
+"""What is averaged over members state by state, of paths with smooth laws."""
+ROUND = {
+    False: ("half_width_exact", reference.cylinder_rms_gradient),
+    True: ("contact_radius_exact", reference.sphere_rms_gradient),
+}
+"""Size of the contact of a cylinder, or of a sphere, and the exact gradient in it."""
+
+
+def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
+    """One dataset of a study: dims (varied keys, member, load).
+
+    runs: path, coordinates, member, companion and error of each; settings: of the study; source: digest of the code.
+    """
+    fine = _read([run for run in runs if not run["companion"]])
+    if "step" in fine.dims:
+        return dataset.stamped(dataset.described(_paths(fine, runs)), settings["title"], settings, source)
+    if "contact_ratio" in fine.dims:
+        radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
+        size, gradient = ROUND["length_y" in fine]
+        fine[size] = fine.contact_ratio * radius
+        fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[size], radius)
+    data = fine.merge(_ensemble(fine))
+    for suffix, other in _others(runs):
+        data = data.merge(_change(fine, other, suffix))
+    if "points" in fine.dims and grid_convergence.is_doubled(fine.points):
+        data = data.merge(_limits(fine))
+    if settings["fit_limits"] is not None:
+        data = data.merge(fits(fine, settings["fit_limits"]))
+    return dataset.stamped(dataset.described(data), settings["title"], settings, source)
+
+
+def load_name(data: xr.Dataset) -> str:
+    """The dimension along which the load varies."""
+    return next(name for name in LOADS if name in data.dims)
+
+
+def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
+    """Datasets of runs, each with its place among the varied keys and members, as one, with κ and κ_r."""
+    for dim in ("step", "event"):  # paths of a study may differ in length, and in how often they slip
+        longest = max((data.sizes.get(dim, 0) for data, _ in parts), default=0)
+        if any(data.sizes.get(dim, longest) < longest for data, _ in parts):
+            parts = [(data.reindex({dim: np.arange(longest)}), place) for data, place in parts]
+    places = [
+        data.drop_vars([*APART, *place], errors="ignore").expand_dims({name: [at] for name, at in place.items()})
+        for data, place in parts
+    ]
+    data = xr.combine_by_coords(places, combine_attrs="drop", join="outer", compat="no_conflicts")
+    for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
+        if (data[name] == data[name].values.flat[0]).all():
+            data[name] = data[name].values.flat[0]
+    return data if "step" in data.dims else derived(data)
+
+
+def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
+    """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
+    smooth = "line_load" in fine  # else a hard wall pressed through given approaches
+    made, names = (of_states, AVERAGED_STATES) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
+    data = made(fine)
+    if data.member.size > 1:
+        data = data.merge(_ensemble(data, names))
+    for suffix, other in _others(runs):
+        other = made(other)
+        same = data.sel(member=other.member)
+        known = [name for name in (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET, *THRESHOLD) if name in other and name in same]
+        data = data.assign({f"{name}{suffix}": abs(same[name] - other[name]).max("member") for name in known})
+        if data.member.size > 1 or not smooth:
+            data = data.merge(_change(data, other, suffix, names))
+    return data
+
+
+def _of_contacts(data: xr.Dataset) -> xr.Dataset:
+    """States of a hard wall with their pressure over the modulus, and what their curve amounts to."""
+    return related(data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus))
+
+
+def of_states(data: xr.Dataset) -> xr.Dataset:
+    """States of smooth laws as parts of the whole, and what their paths amount to."""
+    data = cycled(summarised(data))
+    data = slid(data) if "slid" in data else data
+    ratios = {name: data[length] / data.length for name, length in AREAS.items()}
+    for part in ("repulsive", "interacting"):
+        ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
+    return related(data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus}))
+
+
+def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
+    """What errors are measured by, as far as there is such: suffix and dataset."""
+    for error in ERRORS:
+        others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
+        if others:
+            yield f"_{error}_error", _read(others)
+
+
+def _read(runs: list[dict]) -> xr.Dataset:
+    return combined([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs])
+
+
+def derived(data: xr.Dataset) -> xr.Dataset:
+    """Loads on their own at a hard wall, with κ, κ_r, the reduced pressure in contact and the size of a round one."""
+    area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
+
+    def kappa(gradient: xr.DataArray) -> xr.DataArray:
+        """κ with that gradient."""
+        return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
+
+    data = data.assign(
+        kappa_r=kappa(data.rms_gradient_contact),
+        kappa_r_bond=kappa(data.rms_gradient_contact_bond),
+        reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
+    )
+    if "reduced_pressure" in data.dims:
+        data["kappa"] = area / data.reduced_pressure
+    if "contact_ratio" in data.dims and "length_y" in data:
+        data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
+    elif "contact_ratio" in data.dims:
+        data["half_width"] = area * data.length / 2
+    return data
+
+
+def _ensemble(data: xr.Dataset, names: Sequence[str] = AVERAGED) -> xr.Dataset:
+    found = {}
+    for name in names:
+        if name in data:
+            values = converged(data[name], data)
+            count = values.notnull().sum("member")
+            found[f"{name}_mean"] = values.mean("member")
+            spread = values.std("member", ddof=1) if data.member.size > 1 else values.mean("member") * np.nan
+            found[f"{name}_standard_error"] = spread / np.sqrt(count)
+    return xr.Dataset(found)
+
+
+def _change(fine: xr.Dataset, coarse: xr.Dataset, suffix: str, names: Sequence[str] = AVERAGED) -> xr.Dataset:
+    """How far the means move between two datasets, over the members that both have."""
+    same = fine.sel(member=coarse.member)
+    return xr.Dataset(
+        {
+            f"{name}{suffix}": abs((converged(same[name], same) - converged(coarse[name], coarse)).mean("member"))
+            for name in names
+            if name in fine
+        }
+    )
+
+
+def _limits(data: xr.Dataset) -> xr.Dataset:
+    """Means on three grids, extrapolated: NAME_limit, _order and _spread, and standard errors of the first two."""
+    found = {}
+    for name in AVERAGED:
+        if name in data:
+            ends = grid_convergence.jackknifed(grid_convergence.extrapolated, on_all_grids(data, name))
+            kept = ends.drop_vars("spread_standard_error")
+            found |= {f"{name}_{kind}": values for kind, values in kept.items()}
+    return xr.Dataset(found)

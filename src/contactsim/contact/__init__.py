@@ -1,0 +1,1 @@
+"""Scenes, load paths, and the problem that a scene poses."""

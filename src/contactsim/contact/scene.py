@@ -1,0 +1,132 @@
+"""A scene: everything physical and nothing numerical.
+
+Two bodies face each other, aligned on one periodic grid. Only the sum of their heights and the sum of their
+compliances matter, so a rigid body is absent rather than stiff. Which components exist and what a solver must be able
+to do (the traits) follow from what the scene lists. Bodies alike in all do not slip against each other, nor do
+half-spaces that keep their volume: there a law that reads the tangential gap has none to read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, reduce
+
+import numpy as np
+
+from contactsim.contact.loading import LoadPath
+from contactsim.elasticity.solids import Elasticity
+from contactsim.errors import SceneError
+from contactsim.grid import Array
+from contactsim.interface.laws import HardWall, Law
+from contactsim.interface.pairing import ALIGNED, Pairing
+from contactsim.surfaces.shapes import Surface
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class Body:
+    """A surface on an elastic solid; elasticity None is rigid: absent, not stiff."""
+
+    surface: Surface
+    elasticity: Elasticity | None = None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Two bodies, the effects at their interface, and what is done to them."""
+
+    lower: Body
+    upper: Body
+    effects: tuple[HardWall | Law, ...]
+    path: LoadPath
+    pairing: Pairing = ALIGNED
+
+    def __post_init__(self) -> None:
+        if not self.elasticities:
+            raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
+        if not self.effects:
+            raise SceneError("effects", self.effects, "at least one, which resists overlap")
+        for step in self.path.steps if Trait.WALL in self.traits else ():
+            if step.control is Trait.MEAN_PRESSURE and step.value < 0:
+                raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
+        for side in ("lower", "upper") if "t" in self.components else ():
+            body = getattr(self, side).elasticity
+            if body is not None and body.poisson_ratio is None:
+                allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
+                raise SceneError("poisson_ratio", None, allowed)
+        if self.sliding and "t" not in self.components:
+            raise SceneError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
+        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
+        lengths = self.lower.surface.lengths, self.upper.surface.lengths
+        if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
+            raise SceneError("length", lengths, "the same periods for both surfaces")
+
+    @property
+    def elasticities(self) -> tuple[Elasticity, ...]:
+        """The bodies that give way."""
+        return tuple(body.elasticity for body in (self.lower, self.upper) if body.elasticity is not None)
+
+    @property
+    def sliding(self) -> bool:
+        """Whether the bodies are moved along each other."""
+        return Trait.SLIDE in self.path.traits
+
+    @cached_property
+    def slips(self) -> bool:
+        """Whether something moves the surfaces along each other: a slide, or normal tractions.
+
+        Those of like bodies do not, nor those of ν = 1/2.
+        """
+        if self.sliding:
+            return True
+        alike = self.lower.elasticity == self.upper.elasticity
+        return not alike and any(body.couples for body in self.elasticities)
+
+    @cached_property
+    def acting(self) -> tuple[HardWall | Law, ...]:
+        """The effects as they act: without a slip, exactly, laws without their coupling."""
+        if self.slips:
+            return self.effects
+        return tuple(effect.without_coupling() for effect in self.effects)
+
+    @cached_property
+    def components(self) -> tuple[str, ...]:
+        """Displacement components that exist: those that an effect reads or exerts."""
+        used = reduce(frozenset.union, (effect.reads | effect.exerts for effect in self.acting))
+        return tuple(component for component in ("n", "t") if component in used)
+
+    @cached_property
+    def exerted(self) -> tuple[str, ...]:
+        """Components in which an effect exerts traction: the unknowns; those only read are derived from them."""
+        used = reduce(frozenset.union, (effect.exerts for effect in self.acting))
+        return tuple(component for component in ("n", "t") if component in used)
+
+    @cached_property
+    def traits(self) -> frozenset[Trait]:
+        """What a solver must accept: the union over effects, bodies, path and dimension."""
+        parts = [effect.traits for effect in self.acting] + [body.traits for body in self.elasticities]
+        dimension = {1: Trait.LINE, 2: Trait.SURFACE}[len(self.lengths)]
+        return frozenset({dimension}).union(self.path.traits, *parts)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Period in each direction, x last (nm)."""
+        return self.upper.surface.lengths
+
+    @property
+    def length(self) -> float:
+        """Period along x (nm)."""
+        return self.lengths[-1]
+
+    @property
+    def contact_modulus(self) -> float:
+        """Of the pair, 1/E* = Σ 1/E_i* (GPa)."""
+        return 1.0 / sum(1.0 / body.contact_modulus for body in self.elasticities)
+
+    def compliance(self, wavenumber: Array) -> Array:
+        """Sum of the bodies' compliances at each |q| (rad/nm), nm/GPa."""
+        return sum(body.compliance(wavenumber) for body in self.elasticities)
+
+    def heights(self, points: int) -> Array:
+        """Sum of both surfaces' heights, each positive towards the other, `points` along x, (n,) or (ny, nx), nm."""
+        return self.upper.surface.heights(points) + self.lower.surface.heights(points)

@@ -1,0 +1,1 @@
+"""Elastic bodies: displacement from traction."""

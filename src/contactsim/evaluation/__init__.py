@@ -1,0 +1,1 @@
+"""The package measured: cost, robustness, calibration."""

@@ -1,0 +1,1 @@
+"""Scaling relations of error and cost: measured, fitted, validated."""

@@ -1,0 +1,1 @@
+"""What each effect costs, and what neglecting it changes."""

@@ -1,0 +1,108 @@
+"""What effects cost: one scene with more and more of them, each rung measured alone.
+
+Unknowns, transforms and the status of every step are reproducible; seconds and memory are kept apart.
+"""
+
+from __future__ import annotations
+
+import tracemalloc
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.contact.scene import Scene
+from contactsim.errors import SceneError
+from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim.solvers.registry import module_of, solver
+from contactsim.status import is_solved
+from contactsim.study.execute import asked_of, simulate
+from contactsim.study.reading import Key, mapping, overlaid, read, size, text, tiered, whole
+from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.study import Study
+
+KEYS = {
+    "title": Key(text, "a line of text"),
+    "caption": Key(text, "text"),
+    "size": Key(size, "width and height in inches"),
+    "repeats": Key(whole(1), "how often each rung is timed, 1 or more", 1),
+    "scene": Key(mapping, "keys of a study that all rungs share"),
+    "rungs": Key(mapping, "a mapping from names to a title and the keys of a study that a rung adds"),
+}
+
+
+def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
+    """Settings of the ladder: how it is shown; name, title and run of each rung; None without effects.yaml."""
+    given = tiered(Path(folder) / "effects.yaml", over, tier)
+    if given is None:
+        return None
+    section, file = given
+    settings = read(section, KEYS, file)
+    rungs = []
+    for name, rung in settings["rungs"].items():
+        if not isinstance(rung, dict):
+            raise SceneError(f"rungs.{name}", rung, "a mapping of keys of a study", file)
+        study = Study.read(name, {"title": name} | overlaid(settings["scene"], rung), file, seed)
+        runs = study.runs()
+        if len(runs) != 1:
+            raise SceneError(f"rungs.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
+        rungs.append({"name": name, "title": study.settings["title"], "run": runs[0].settings})
+    return settings | {"rungs": rungs}
+
+
+def plan(settings: dict) -> dict:
+    """What the measurement depends on."""
+    modules = sorted({module_of(rung["run"]["solver"]["kind"]) for rung in settings["rungs"]})
+    shown = {key: settings[key] for key in ("repeats", "rungs")}
+    return {"settings": shown, "source": computing_digest("contactsim.evaluation.effects.effect_cost", *modules)}
+
+
+def figure(settings: dict, tier: str) -> dict:
+    """What the figure depends on."""
+    titles = {rung["name"]: rung["title"] for rung in settings["rungs"]}
+    shown = {key: settings[key] for key in ("title", "caption", "size")}
+    code, data = source_digest("contactsim.figures.diagnostics.effects"), digest(plan(settings))
+    settings = {"settings": shown, "titles": titles, "repeats": settings["repeats"], "tier": tier}
+    return settings | {"source": code, "data": data}
+
+
+def measure(settings: dict) -> tuple[xr.Dataset, dict]:
+    """All rungs: what is reproducible as a dataset along `rung`, and CPU seconds and peak megabytes of each."""
+    rows, spent = [], {}
+    for rung in settings["rungs"]:
+        name = rung["name"]
+        scene, options = scene_of(rung["run"]), _options(rung["run"])
+        runs = [simulate(scene, **options) for _ in range(settings["repeats"])]
+        tracemalloc.start()
+        try:
+            simulate(scene, **options)
+            peak = tracemalloc.get_traced_memory()[1] / 1e6
+        finally:
+            tracemalloc.stop()
+        data = runs[0]
+        rows.append(
+            {
+                "rung": name,
+                "components": " ".join(scene.components),
+                "unknowns": _unknowns(scene, options["points"]),
+                "transforms": float(data.transforms.sum()),
+                "unconverged": int((~is_solved(data.status)).sum()),
+                "steps": data.status.size,
+            }
+        )
+        spent[name] = {"seconds": min(float(run.seconds.sum()) for run in runs), "megabytes": peak}
+    columns = {name: ("rung", np.array([row[name] for row in rows])) for name in rows[0] if name != "rung"}
+    data = xr.Dataset(columns, {"rung": [row["rung"] for row in rows]})
+    return dataset.described(data), spent
+
+
+def _options(run: dict) -> dict:
+    """How a run is simulated."""
+    common = {"points": points_of(run, scene_of(run).upper.surface), "tolerance": run["tolerance"]}
+    return common | {"method": solver(**run["solver"])} | asked_of(run)
+
+
+def _unknowns(scene: Scene, points: int) -> int:
+    """Real unknowns of one step."""
+    return points * len(scene.exerted)

@@ -1,0 +1,185 @@
+"""Maps of what leaving an effect out changes, measured: the scene of each, and the settings that it varies.
+
+A map varies some settings of one scene, as they are or as ratios of settings. What is measured becomes the file that
+`contactsim.error_control.effect_maps` reads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+import yaml
+
+from contactsim import dataset
+from contactsim.contact.simplification import LEFT_OUT
+from contactsim.error_control.effect_maps import change, product, value_at
+from contactsim.error_control.scaling import FILE as RELATIONS
+from contactsim.errors import SceneError, is_number
+from contactsim.grid import Array
+from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim.solvers.registry import USUAL, module_of
+from contactsim.study.keys import comparable, some_of
+from contactsim.study.reading import Key, listed, mapping, number, pair, read, size, text, tiered
+from contactsim.study.study import Study
+
+KEYS = {
+    "title": Key(text, "a line of text"),
+    "caption": Key(text, "text"),
+    "size": Key(size, "width and height in inches"),
+    "maps": Key(mapping, "a mapping from names to maps"),
+    "panels": Key(listed(mapping), "a list of mappings with map, across, up and at"),
+}
+MAP_KEYS = {
+    "title": Key(text, "a line of text"),
+    "leave_out": Key(some_of(LEFT_OUT), f"a list from {', '.join(LEFT_OUT)}"),
+    "of": Key(listed(text), "a list of quantities"),
+    "scene": Key(mapping, "the keys of a study with one run"),
+    "axes": Key(mapping, "a mapping from names to a key of the scene and its values"),
+}
+AXIS_KEYS = {
+    "key": Key(text, "a key of the scene, such as body.poisson_ratio"),
+    "per": Key(listed(text), "a list of keys whose product it is counted in", []),
+    "values": Key(listed(number), "a list of values"),
+}
+PANEL_KEYS = {
+    "map": Key(text, "the name of a map"),
+    "across": Key(text, "an axis of the map"),
+    "up": Key(text, "an axis of the map"),
+    "at": Key(mapping, "a mapping from the other axes to one of their values", {}),
+    "conditions": Key(mapping, "a mapping from words to where they are written, across and up", {}),
+}
+PLACE = Key(pair, "where the words are written: two parts of the panel, across and up")
+
+
+def read_maps(folder: str | Path, over: dict, tier: str) -> dict | None:
+    """Settings of effect_maps.yaml, with what a tier changes; None without that file."""
+    given = tiered(Path(folder) / "effect_maps.yaml", over, tier)
+    if given is None:
+        return None
+    section, file = given
+    settings = read(section, KEYS, file)
+    settings["maps"] = {name: _map(name, one, file) for name, one in settings["maps"].items()}
+    settings["panels"] = [
+        _panel(panel, count, settings["maps"], file) for count, panel in enumerate(settings["panels"])
+    ]
+    return settings
+
+
+def _map(name: str, section: object, file: str) -> dict:
+    """A map as read: what it is of, and axes that its scene has, down to the scenes of each of their values."""
+    prefix = f"maps.{name}"
+    one = read(section, MAP_KEYS, file, prefix)
+    one["axes"] = {axis: read(given, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, given in one["axes"].items()}
+    if not one["axes"]:
+        raise SceneError(f"{prefix}.axes", {}, "at least one axis", file)
+    for axis, given in one["axes"].items():
+        head, _, tail = given["key"].partition(".")
+        if head not in one["scene"] or (tail and not isinstance(one["scene"][head], dict)):
+            raise SceneError(f"{prefix}.axes.{axis}.key", given["key"], "a key of the map's scene", file)
+        for key in given["per"]:
+            if not is_number(value_at(one["scene"], key)):
+                raise SceneError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
+    first = {axis: given["values"][0] for axis, given in one["axes"].items()}
+    for axis, given in one["axes"].items():
+        for value in given["values"]:
+            runs = _study(one, first | {axis: value}, name, file).runs()
+    if len(runs) != 1:
+        raise SceneError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
+    known = comparable(runs[0].settings["effects"])
+    for quantity in one["of"]:
+        if quantity not in known:
+            raise SceneError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
+    return one
+
+
+def _panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
+    """A panel as read: every axis of its map is across, up, or at a value of its own."""
+    prefix = f"panels.{count}"
+    panel = read(section, PANEL_KEYS, file, prefix)
+    if panel["map"] not in maps:
+        raise SceneError(f"{prefix}.map", panel["map"], f"one of {', '.join(maps)}", file)
+    axes = maps[panel["map"]]["axes"]
+    named = [panel["across"], panel["up"], *panel["at"]]
+    if sorted(named) != sorted(axes):
+        raise SceneError(prefix, named, f"each axis of the map once: {', '.join(axes)}", file)
+    panel["conditions"] = read(
+        panel["conditions"], dict.fromkeys(panel["conditions"], PLACE), file, f"{prefix}.conditions"
+    )
+    for axis, value in panel["at"].items():
+        if value not in axes[axis]["values"]:
+            raise SceneError(f"{prefix}.at.{axis}", value, f"one of {axes[axis]['values']}", file)
+    return panel
+
+
+def plan(settings: dict, name: str) -> dict:
+    """What the measurement of one map depends on."""
+    code = computing_digest("contactsim.evaluation.effects.survey", *(module_of(usual) for usual in USUAL.values()))
+    return {"name": name, "map": settings["maps"][name], "source": digest(code, RELATIONS.read_text(encoding="utf-8"))}
+
+
+def figure(settings: dict, tier: str) -> dict:
+    """What the figure of all maps depends on."""
+    shown = {key: settings[key] for key in ("title", "caption", "size", "panels")}
+    titles = {name: one["title"] for name, one in settings["maps"].items()}
+    data = digest([plan(settings, name) for name in settings["maps"]])
+    return {
+        "settings": shown,
+        "titles": titles,
+        "tier": tier,
+        "source": source_digest("contactsim.figures.diagnostics.effect_maps"),
+        "data": data,
+    }
+
+
+def measure(name: str, settings: dict) -> xr.Dataset:
+    """One map: the largest relative change of its quantities, at every place; infinite where a path has no solution."""
+    axes, known = settings["axes"], {}
+    errors = np.empty([len(axis["values"]) for axis in axes.values()])
+    for place in np.ndindex(errors.shape):
+        values = {axis: given["values"][k] for (axis, given), k in zip(axes.items(), place, strict=True)}
+        run = _study(settings, values, name, "effect_maps.yaml").runs()[0].settings
+        errors[place] = change(run, settings["leave_out"], settings["of"], known)
+    return as_dataset(settings, errors)
+
+
+def as_dataset(settings: dict, errors: Array) -> xr.Dataset:
+    """A map's changes with the values of its axes."""
+    axes = {axis: given["values"] for axis, given in settings["axes"].items()}
+    return dataset.described(xr.Dataset({"change_without": (list(axes), errors)}, axes))
+
+
+def _study(settings: dict, values: Mapping[str, float], name: str, file: str) -> Study:
+    """The study of one run at one place of a map."""
+    section = settings["scene"]
+    for axis, value in values.items():
+        given = settings["axes"][axis]
+        section = _with(section, given["key"], value * product(section, given["per"]))
+    return Study.read(name, {"title": name} | section, file, 0)
+
+
+def _with(section: dict, key: str, value: float) -> dict:
+    """A section with a dotted key set."""
+    head, _, tail = key.partition(".")
+    return section | {head: _with(section[head], tail, value) if tail else value}
+
+
+def as_text(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
+    """The maps as the package keeps them."""
+    told = {}
+    for name, data in maps.items():
+        one = settings["maps"][name]
+        scene = one["scene"]
+        told[name] = {
+            "leave_out": one["leave_out"],
+            "of": one["of"],
+            "surface": scene["surface"]["kind"],
+            "effects": scene["effects"],
+            "bodies": [scene[part]["kind"] for part in ("body", "counter_body") if part in scene],
+            "axes": one["axes"],
+            "change": [float(f"{value:.3g}") for value in data.change_without.values.ravel()],
+        }
+    head = "# What leaving effects out changes, measured by `snakemake freeze_maps`; see contactsim/effect_survey.py\n"
+    return head + yaml.safe_dump(told, sort_keys=False, width=120, default_flow_style=None)

@@ -1,0 +1,1 @@
+"""Hard cases, and how every solver stands up to them."""

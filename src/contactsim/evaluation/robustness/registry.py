@@ -1,0 +1,26 @@
+"""Cases that get harder: from severity 0 to 100, and what is right at each.
+
+A hazard is a function of its severity that returns a case: heights and a load, or a scene of smooth laws and a path
+through it; and, where it is known, the right answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from contactsim.evaluation.robustness.adhesive import ADHESIVE
+from contactsim.evaluation.robustness.cases import Case
+from contactsim.evaluation.robustness.lines import LINES
+from contactsim.evaluation.robustness.path_cases import PathCase
+from contactsim.evaluation.robustness.rough import ROUGH
+from contactsim.evaluation.robustness.sliding import SLIDING
+from contactsim.evaluation.robustness.surfaces import SURFACES
+
+HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
+    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ROUGH, *SLIDING)
+}
+
+
+def first_line(hazard: str) -> str:
+    """What gets harder, in a sentence: the first line of the hazard's docstring."""
+    return HAZARDS[hazard].__doc__.splitlines()[0]

@@ -1,0 +1,1 @@
+"""Work-precision studies: error against cost for every solver."""

@@ -1,0 +1,202 @@
+"""What accuracy costs: cases and the page of all of them as their files give them, and what their figures depend on.
+
+`contactsim.evaluation.work_precision.cases` solves them; `contactsim.evaluation.work_precision.error_cost` makes errors and costs of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from contactsim.analysis.reductions import quantities
+from contactsim.contact.cohesive import check_tolerance
+from contactsim.error_control.forecast import forecast
+from contactsim.error_control.options import size_of
+from contactsim.errors import SceneError
+from contactsim.evaluation.work_precision.cases import REFERENCE, Case, job_plan
+from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
+from contactsim.provenance import digest, source_digest
+from contactsim.solvers.base import require
+from contactsim.solvers.registry import SOLVERS, solver_class
+from contactsim.study.plan import RESERVED, Plan
+from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
+from contactsim.traits import Trait
+
+PRICED = (*SingleLoads.quantities, *WholeSlide.quantities)
+CASE_KEYS = {
+    "title": Key(text, "a line of text"),
+    "caption": Key(text, "text"),
+    "size": Key(size, "width and height in inches"),
+    "study": Key(text, "the name of a study"),
+    "vary": Key(mapping, "a mapping from keys that the study varies to lists of some of their values", {}),
+    "load": Key(listed(number), "a list of the study's loads", None),
+    "members": Key(whole(1), "a whole number, 1 or more", 1),
+    "quantities": Key(listed(choice(PRICED)), f"a list from {', '.join(PRICED)}"),
+    "settled": Key(mapping, "a value of each knob, at which the others are turned"),
+    "reference": Key(mapping, "the value of each knob in the references"),
+    "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
+    "levels": Key(mapping, "from a knob to the errors at which solvers are compared"),
+    "repeats": Key(whole(1), "how often each setting is timed, 1 or more", 1),
+    "thesis_members": Key(whole(1), "the thesis's own number of members, 1 or more", None),
+    "thesis_increment": Key(positive, "the thesis's own increment, a positive number", None),
+}
+OVERVIEW_KEYS = {name: CASE_KEYS[name] for name in ("title", "caption", "size")}
+
+
+def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
+    """The cases of accuracy.yaml at the plan's tier, by name; none without that file."""
+    file = Path(folder) / "accuracy.yaml"
+    if not file.exists():
+        return {}
+    tiers = load_yaml(file)
+    if plan.tier not in tiers:
+        raise SceneError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
+    if not isinstance(tiers[plan.tier], dict):
+        raise SceneError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
+    return {name: _case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
+
+
+def read_overview(folder: str | Path) -> dict | None:
+    """Settings of the page that shows all cases; None without overview.yaml."""
+    file = Path(folder) / "overview.yaml"
+    return read(load_yaml(file), OVERVIEW_KEYS, file) if file.exists() else None
+
+
+def overview(settings: dict, cases: dict[str, Case], tier: str) -> dict:
+    """What the page that shows all cases depends on, beside their tables."""
+    shown = {
+        name: {"title": case.settings["title"].rpartition(": ")[2], "quantity": case.settings["quantities"][0]}
+        for name, case in cases.items()
+    }
+    return {
+        "settings": settings,
+        "cases": shown,
+        "tier": tier,
+        "source": source_digest("contactsim.figures.diagnostics.overview"),
+    }
+
+
+def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
+    target = f"accuracy_{name}"
+    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED, *plan.studies, *plan.figures):
+        allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
+        raise SceneError(plan.tier, name, allowed, file)
+    prefix = f"{plan.tier}.{name}"
+    settings = read(section, CASE_KEYS, file, prefix)
+    if settings["study"] not in plan.studies:
+        raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
+    study = plan.studies[settings["study"]]
+    if study.settings["accuracy"] is not None:
+        raise SceneError(f"{prefix}.study", study.name, "a study whose knobs can be turned, without an accuracy", file)
+    kind = kind_of(study)
+    if kind is None:
+        raise SceneError(f"{prefix}.study", study.name, "a study of loads, or of a path of smooth laws", file)
+    for key in {*settings["solvers"]} - {*SOLVERS}:
+        raise SceneError(f"{prefix}.solvers", key, f"one of {', '.join(sorted(SOLVERS))}", file)
+    settings |= read_turned(settings, kind, file, prefix)
+    _check_known(settings, study, kind, file, prefix)
+    case = Case(name, settings, _narrowed(study, settings["vary"], file, f"{prefix}.vary"))
+    if case.default not in settings["solvers"]:
+        allowed = f"{case.default}, the study's own, among them: the measure of others"
+        raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
+    for job in (REFERENCE, *settings["solvers"]):
+        for setting in case.turned(job):
+            _check_setting(case, job, setting, file, prefix)
+    return case
+
+
+def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: str) -> None:
+    """Build the scenes of a job at one setting, so that nothing impossible is found out by the job."""
+    try:
+        for run in case.study_at(setting, job).runs():
+            scene = scene_of(run.settings)
+            scene.upper.surface.check(setting.points)
+            require(solver_class(case.solved_by(job))(), scene)
+            if Trait.SMOOTH in scene.traits:
+                check_tolerance(setting.tolerance)
+    except SceneError as error:
+        if error.key == "solver":
+            raise SceneError(f"{prefix}.solvers", job, error.allowed, file) from error
+        turned = REFERENCE if job == REFERENCE else f"solvers.{job}"
+        raise error.within(file, f"{prefix}.{turned if error.key == setting.knob else 'settled'}") from error
+
+
+def _check_known(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
+    """Loads and quantities are the study's own, and there is nothing that its kind has no use for."""
+    for key, why in kind.without.items():
+        if settings.get(key) is not None:
+            raise SceneError(f"{prefix}.{key}", settings[key], why, file)
+    if settings["load"] is None and "load" not in kind.without:
+        raise SceneError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
+    own = [name for name in kind.quantities if name in quantities(study)]
+    for key, known in (("load", study.settings["load"]["values"]), ("quantities", own)):
+        for value in settings[key] or ():
+            if value not in known:
+                raise SceneError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
+
+
+def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
+    """The study of some of its varied values."""
+    for key, values in vary.items():
+        known = study.settings["vary"].get(key)
+        if known is None:
+            allowed = f"a key that the study varies: {', '.join(study.settings['vary']) or 'none'}"
+            raise SceneError(f"{prefix}.{key}", values, allowed, file)
+        if not isinstance(values, list) or not values or any(value not in known for value in values):
+            raise SceneError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, known))}", file)
+    return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
+
+
+def every_tier(folder: str | Path, plan: Plan) -> dict[str, Plan]:
+    """The plans of all tiers; plan: that of its tier, which is not read again."""
+    tiers = load_yaml(Path(folder) / "tiers.yaml")
+    return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
+
+
+def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
+    """What the figure of a case depends on: settings, jobs and their digests, the study's, and where its marks are.
+
+    The marks are each tier's value of each knob, and the thesis's as far as it is known. tiers: from `every_tier`.
+    """
+    studies = {tier: own.studies[case.study.name].settings for tier, own in tiers.items()}
+    shared = ("points", "tolerance", "members")
+    marks = {tier: {knob: own[knob] for knob in shared} | case.kind.turns(own) for tier, own in studies.items()}
+    thesis = {knob: case.settings[f"thesis_{knob}"] for knob in ("members", "increment")}
+    thesis |= {"points": case.study.settings["thesis_points"]}
+    return {
+        "settings": case.settings,
+        "jobs": case.jobs(),
+        "digests": [job_plan(case, job) for job in case.jobs()],
+        "marks": marks | {"thesis": {knob: value for knob, value in thesis.items() if value}},
+        "tier": plan.tier,
+        "default": case.default,
+        "selection": case.selection,
+        "expected": [[f"{value:.6g}" for value in one] for one in expected(case)],
+        "loads": case.kind.loads(case.study, case.settings["load"]),
+        "units": case.kind.units(case.study),
+        "surface": Trait.SURFACE in scene_of(case.study.runs()[0].settings).traits,
+        "source": source_digest("contactsim.figures.diagnostics.accuracy"),
+        "study": digest(plan.study_settings(case.study.name)),
+    }
+
+
+def expected(case: Case) -> list[list[float]]:
+    """Of every setting of the study's own solver, work and units of time that it is forecast to take.
+
+    NaN of what was not measured.
+    """
+    found = []
+    for setting in case.turned(case.default):
+        try:
+            settings = [run.settings for run in case.study_at(setting, case.default).runs()]
+            runs = [forecast(one) for one in settings]
+        except SceneError:
+            found.append([float("nan")] * 2)
+        else:
+            total = size_of(scene_of(settings[0]), setting.points)
+            found.append([sum(one.transforms for one in runs) * total, sum(one.units for one in runs)])
+    return found

@@ -1,0 +1,1 @@
+"""Figures about the package: accuracy, cost, robustness."""

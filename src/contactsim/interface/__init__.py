@@ -1,0 +1,1 @@
+"""What acts between surfaces: traction from gap."""

@@ -1,0 +1,182 @@
+"""What is read off a state of smooth laws, and off a path through such states.
+
+Loads are forces per unit thickness (N/m), compression positive (Eq. 4.2). Contact is `repulsive` where the normal gap
+is negative, to a fraction of a node, or `interacting` where the traction exceeds a part of the laws' strength. A path
+is cut into loading and unloading where the approach turns first, and second.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.grid import Array
+from contactsim.status import is_solved
+
+INTERACTING = {
+    "interacting_length_tenth": 1e-1,
+    "interacting_length_hundredth": 1e-2,
+    "interacting_length_thousandth": 1e-3,
+    "interacting_length_millionth": 1e-6,
+}
+"""Parts of the strength beyond which two surfaces interact."""
+CRITERION = "interacting_length_hundredth"
+"""The one of Chapter 5, where it says no more than that the threshold approaches zero."""
+AREAS = {"relative_repulsive_area": "repulsive_length", "relative_interacting_area": CRITERION}
+"""Parts of the period, and the lengths that they come from."""
+OPENINGS, PULLS = np.linspace(-3.0, 12.0, 61), np.linspace(-6.0, 1.0, 71)
+"""Edges of histograms: gaps in the laws' length, normal tractions in their strength; the ends hold what lies beyond."""
+FINAL = {
+    "final_repulsive_length": "repulsive_length",
+    "final_interacting_length": CRITERION,
+    "final_load": "line_load",
+    "final_repulsive_load": "repulsive_load",
+    "final_adhesive_load": "adhesive_load",
+    "final_pressure": "largest_pressure",
+    "final_pull": "largest_pull",
+    "final_slip": "slip",
+}
+"""What is read at the largest approach, and of which number of a state."""
+LEVEL = 1e-6
+"""Changes of approach (nm) that do not turn a path."""
+LEGS = ("loading", "unloading")
+SUMMARY = (
+    "pull_off_load_loading",
+    "pull_off_load_unloading",
+    "pull_off_approach_loading",
+    "pull_off_approach_unloading",
+    "largest_jump_loading",
+    "largest_jump_unloading",
+    *FINAL,
+)
+"""What a path amounts to; the slip only where a law reads the tangential gap."""
+
+
+def repulsive_length(gap: Array, spacing: float) -> float:
+    """Length, nm, over which the normal gap (n,), nm, is negative; its ends lie between nodes, to second order."""
+    after = np.concatenate((gap[1:], gap[:1]))
+    inside, crossing = (gap < 0) & (after < 0), (gap < 0) != (after < 0)
+    ends = np.minimum(gap, after)[crossing]
+    return float(spacing * (np.count_nonzero(inside) + (ends / (ends - np.maximum(gap, after)[crossing])).sum()))
+
+
+def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
+    """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
+
+    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; repulsive_length,
+    lengths for `INTERACTING`, mean_gap, smallest_gap, nm; largest_pressure and largest_pull: normal traction at its
+    largest, GPa; overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, of springs
+    that to the nearest site, over the laws' lengths.
+    """
+    spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
+    size = np.abs(traction[0]) / problem.strength
+    repulsive = gap[0] < 0
+    mean, pull = -float(traction[0].mean()), float(np.maximum(traction[0], 0.0).mean())
+    smallest, pushed, pulled = float(gap[0].min()), -float(traction[0].min()), float(traction[0].max())
+    numbers = {
+        "line_load": mean * length,
+        "repulsive_load": (mean + pull) * length,
+        "adhesive_load": pull * length,
+        "mean_pressure": mean,
+        "mean_gap": float(gap[0].mean()),
+        "repulsive_length": repulsive_length(gap[0], spacing),
+        "smallest_gap": smallest,
+        "largest_pressure": max(pushed, 0.0),
+        "largest_pull": max(pulled, 0.0),
+        "overclosure": max(-smallest, 0.0) / problem.reach,
+    }
+    numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
+    if len(gap) > 1:
+        slip = float(np.abs(problem.offset(gap)).max(where=repulsive, initial=0.0))
+        numbers["slip"] = slip / problem.law.tangential_length
+    for row in range(1, len(traction)):
+        numbers["friction_force"] = float(traction[row].mean() * length)
+    return numbers
+
+
+def gradients(square: Array, problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
+    """Rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
+
+    square: local mean squares of the slopes (n,), as of `contactsim.surfaces.statistics.local_squares`. NaN without contact.
+    """
+    chosen = {
+        "rms_gradient_repulsive": square[gap[0] < 0],
+        "rms_gradient_interacting": square[np.abs(traction[0]) > INTERACTING[CRITERION] * problem.strength],
+    }
+    found = {name: float(np.sqrt(values.mean())) if values.size else np.nan for name, values in chosen.items()}
+    return found | {"rms_gradient": float(np.sqrt(square.mean()))}
+
+
+def histograms(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, Array]:
+    """Share of the points by normal gap, bins of `OPENINGS`, and by normal traction, bins of `PULLS`."""
+    kinds = {
+        "normal_gap_share": (gap[0] / problem.reach, OPENINGS),
+        "normal_traction_share": (traction[0] / problem.strength, PULLS),
+    }
+    return {
+        name: np.histogram(np.clip(values, edges[0], edges[-1]), edges)[0] / values.size
+        for name, (values, edges) in kinds.items()
+    }
+
+
+def pull_off(approach: Array, load: Array) -> dict[str, float]:
+    """Largest pull (N/m) and its approach (nm) on loading, then on unloading; NaN where a leg does not pass it.
+
+    approach, load: (step,), NaN where there is no solution. A leg that begins or ends with its largest pull does not
+    pass it; one that ends without a solution, as a load that pulls the bodies apart does, passes it. The increments
+    leave an `_increment_error` of each: of the approach one increment, of the pull its change to the nearer of the two
+    states beside it, which at a jump is the one that has not jumped.
+    """
+    found = {}
+    for name, leg in zip(LEGS, legs(approach), strict=True):
+        part = slice(max(leg.start - 1, 0), leg.stop)  # from the turn on
+        pull, places = -load[part], approach[part]
+        best = 0 if np.isnan(pull).all() else int(np.nanargmax(pull))
+        known = 0 < best < pull.size - 1 and pull[best] > 0
+        beside = [other for other in (best - 1, best + 1) if known]
+        found[f"pull_off_load_{name}"] = float(pull[best]) if known else np.nan
+        found[f"pull_off_approach_{name}"] = float(places[best]) if known else np.nan
+        for what, values in (("load", pull), ("approach", places)):
+            changes = [abs(float(values[best] - values[other])) for other in beside]
+            found[f"pull_off_{what}_{name}_increment_error"] = min(changes, default=np.nan)
+    return found
+
+
+def legs(approach: Array) -> tuple[slice, slice]:
+    """The steps of loading, as long as the approach grows, and of unloading, until it grows again; approach (step,)."""
+    changes = np.diff(approach)
+    back = np.flatnonzero(changes < -LEVEL)
+    turn = int(back[0]) + 1 if back.size else approach.size
+    again = np.flatnonzero(changes[turn:] > LEVEL)
+    return slice(0, turn), slice(turn, turn + int(again[0]) + 1 if again.size else approach.size)
+
+
+def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
+    """Largest jump (nm) on loading and on unloading, zero where there is none; NaN where there is no such leg."""
+    parts = zip(LEGS, (jump[part] for part in legs(approach)), strict=True)
+    return {
+        f"largest_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts
+    }
+
+
+def summarised(data: xr.Dataset) -> xr.Dataset:
+    """A study of paths with what its curves amount to (`SUMMARY`); states that did not converge are left out."""
+    names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
+
+    def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
+        """What one path amounts to, in the order of `names`."""
+        found = pull_off(approach, load) | largest_jumps(approach, jump)
+        return tuple(found[name] for name in names)
+
+    converged = is_solved(data.status)
+    columns = xr.apply_ufunc(
+        per_path,
+        *(data.approach, data.line_load.where(converged), data.jump.where(converged)),
+        input_core_dims=[["step"]] * 3,
+        output_core_dims=[[]] * len(names),
+        vectorize=True,
+    )
+    last = data.approach.argmax("step")
+    final = {name: data[of].where(converged).isel(step=last) for name, of in FINAL.items() if of in data}
+    return data.assign(dict(zip(names, columns, strict=True)) | final)

@@ -1,0 +1,108 @@
+"""What is read off states of sliding contacts, and off their slips.
+
+A slip is a jump of the surface along a slide, known by the states on both sides of it, a few thousandths of a nanometre
+of the slide apart. Trailing is the edge that the upper body, sliding along x, moves away from; positions are those of
+the undeformed upper surface, from its highest point. A contact whose gap is zero to rounding all over, as of flats, has
+no length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+
+from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.grid import Array
+from contactsim.observables.adhesion import repulsive_length
+from contactsim.paths.continuation import Leap
+
+EVENT = (
+    "event_step",
+    "event_slide",
+    "event_width",
+    "event_force_before",
+    "event_force_after",
+    "event_length_before",
+    "event_length_after",
+    "event_released_energy",
+    "event_slip",
+)
+"""What is told of each slip, in the order in which they come."""
+TOUCHING = 1e-4
+"""Mean gap, nm, within which surfaces touch all over, and neither overlap nor are apart."""
+
+
+def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array) -> dict[str, float]:
+    """Numbers of one state on a slide: gap (2, n), nm; displacement (exerted, m).
+
+    slid, nm; contact_trailing, contact_leading: outermost edges of what is under repulsion, nm, NaN without;
+    contact_slip: mean tangential gap where surfaces are closest, nm; elastic_energy of the bodies, nJ/m.
+    """
+    close = gap[0] <= gap[0].min() + problem.law.reach
+    weighted = problem.balanced(np.zeros_like(displacement), displacement) * problem.weights
+    trailing, leading = contact_ends(gap[0], problem.shape[0], problem.grid.spacing[0])
+    return {
+        "slid": problem.slid,
+        "contact_trailing": trailing,
+        "contact_leading": leading,
+        "contact_slip": float(gap[1, close].mean()),
+        "elastic_energy": 0.5 * float(np.vdot(displacement, weighted).real) * problem.grid.lengths[0],
+    }
+
+
+def contact_ends(gap: Array, shape: Array, spacing: float) -> tuple[float, float]:
+    """First and last place with a negative gap (n,), between nodes, nm from where the undeformed `shape` is least.
+
+    NaN where there is none; minus and plus half a period where there is contact all over.
+    """
+    count = gap.size
+    middle = int(np.argmin(shape))
+    here = np.roll(gap, count // 2 - middle)
+    inside = np.flatnonzero(here < 0)
+    if not inside.size:
+        return np.nan, np.nan
+    ends = []
+    for place, beside in ((inside[0], inside[0] - 1), (inside[-1], inside[-1] + 1)):
+        share = 0.5 if not 0 <= beside < count else here[place] / (here[place] - here[beside])
+        ends.append((place + (beside - place) * share - count // 2) * spacing)
+    return float(ends[0]), float(ends[1])
+
+
+def slip_numbers(problem: InterfaceProblem, leap: Leap, step: int) -> dict[str, float]:
+    """Numbers of one slip (`EVENT`), by the step during which it came.
+
+    event_width: of the slide between both sides, nm; event_slip: how far the contact slipped, nm; the energy, nJ/m, is
+    what the bodies release, of which the interface keeps a part.
+    """
+    sides = []
+    for at, state in ((leap.left, leap.before), (leap.step, leap.after)):
+        here = problem.at(at)
+        numbers = slide_observables(here, state.gap, state.displacement)
+        numbers["force"] = (
+            float(state.traction[1:].mean() * problem.grid.lengths[0]) if len(state.traction) > 1 else 0.0
+        )
+        numbers["length"] = repulsive_length(state.gap[0], problem.grid.spacing[0])
+        if abs(state.gap[0].mean()) <= TOUCHING:
+            numbers["length"] = np.nan
+        sides.append(numbers)
+    before, after = sides
+    return {
+        "event_step": step,
+        "event_slide": leap.step.slid,
+        "event_width": abs(leap.step.slid - leap.left.slid),
+        "event_force_before": before["force"],
+        "event_force_after": after["force"],
+        "event_length_before": before["length"],
+        "event_length_after": after["length"],
+        "event_released_energy": before["elastic_energy"] - after["elastic_energy"],
+        "event_slip": abs(after["contact_slip"] - before["contact_slip"]),
+    }
+
+
+def slips_of(slips: Sequence[Mapping[str, float]]) -> xr.Dataset:
+    """Slips along dimension `event`; one of NaN where there is none."""
+    rows = slips or [dict.fromkeys(EVENT, np.nan)]
+    found = {name: ("event", np.array([row[name] for row in rows], float)) for name in EVENT}
+    return xr.Dataset(found, {"event": np.arange(len(rows))})

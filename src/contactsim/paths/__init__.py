@@ -1,0 +1,1 @@
+"""From one load step to the next."""

@@ -1,0 +1,159 @@
+"""A path through states of smooth laws, as a dataset: numbers at every step, fields at some."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset, status
+from contactsim.contact.cohesive import InterfaceProblem, pose_interface
+from contactsim.contact.scene import Scene
+from contactsim.grid import Array
+from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
+from contactsim.observables.sliding import slide_observables, slip_numbers, slips_of
+from contactsim.paths.continuation import PathState
+from contactsim.paths.increments import Increments, Requested
+from contactsim.solvers.cohesive.base import PathSolver
+from contactsim.study.scenes import increments_of
+from contactsim.surfaces.statistics import local_squares
+from contactsim.traits import Trait
+
+logger = logging.getLogger(__name__)
+
+GAPS = ("normal_gap", "tangential_gap")
+DISPLACEMENTS = ("normal_displacement", "tangential_displacement")
+TRACTIONS = ("normal_traction", "tangential_traction")
+BINS = {"normal_gap_share": ("normal_gap_bin", OPENINGS), "normal_traction_share": ("normal_traction_bin", PULLS)}
+"""Dimension of each histogram, and the edges of its bins."""
+LINES = 40
+"""About how many lines a path writes into its log."""
+
+
+def simulate_path(
+    scene: Scene,
+    method: PathSolver,
+    *,
+    points: int,
+    tolerance: float,
+    threads: int = 1,
+    increments: Increments | None = None,
+    snapshots: Sequence[float] | None = None,
+    keep_fields: bool = True,
+) -> xr.Dataset:
+    """Follow a scene's load path and return one dataset with dimension `step`.
+
+    tolerance: in parts of the laws' strength; increments: of `follow.INCREMENTS`, as requested where None; snapshots:
+    slides (nm) of a path that slides, else approaches (nm) or mean pressures (GPa), whose first steps near them keep
+    histograms and, unless told not to, fields; NaN where there is no solution.
+    """
+    heights, steps = scene.heights(points), scene.path.steps
+    problem = pose_interface(scene, heights, tolerance, threads)
+    kept = {scene.path.nearest(value) for value in snapshots or ()}
+    slopes: dict[int, Array] = {}
+    rows, slips, fields, begin, total, marks = [], [], {}, time.process_time(), 0.0, [0.0]
+    for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
+        total += state.transforms
+        marks.append(time.process_time() - begin)
+        rows.append(_numbers(scene, state, slopes))
+        slips += [slip_numbers(problem, leap, count) for leap in state.leaps if leap.step.held]
+        if count in kept:
+            fields[count] = _fields(problem.at(state.step), state, keep_fields)
+        if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
+            spent = time.process_time() - begin
+            logger.info(
+                "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s%s",
+                *(count + 1, len(steps), state.step.text, state.residual, total, spent),
+                spent / (count + 1) * (len(steps) - count - 1),
+                state.status.sentence,
+                f"; jumped {state.jump:.3g} nm" if state.jump else "",
+            )
+    data = _collected(scene, problem, rows, fields)
+    if scene.sliding:
+        data = dataset.described(data.merge(slips_of(slips)))
+    for words in status.told(data):
+        logger.warning("beyond what the model describes: %s of the states", words)
+    return data.assign(seconds=("step", np.diff(marks)))
+
+
+def options(settings: dict) -> dict:
+    """Increments, and what is kept at which states, of a run's settings."""
+    return {"increments": increments_of(settings)} | {name: settings[name] for name in ("snapshots", "keep_fields")}
+
+
+def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
+    """What a step says: its datum, observables, how it was found; slopes: squares by grid, kept for later steps."""
+    problem, (gap, traction) = state.problem, state.fields()
+    zone = status.process_zone(scene.contact_modulus, problem.strength, problem.reach)
+    if state.points not in slopes:
+        slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
+    approach = problem.approach
+    if approach is None:
+        approach = problem.yielded - float(state.displacement[0, 0].real)
+    numbers = {
+        "approach": approach,
+        **state_observables(problem, gap, traction),
+        **gradients(slopes[state.points], problem, gap, traction),
+        "process_zone_step": problem.grid.spacing[0] / zone,
+    }
+    if scene.sliding:
+        numbers = {"friction_force": 0.0} | numbers | slide_observables(problem, gap, state.displacement)
+        numbers["slid"] = state.step.slid if state.step.held else np.nan
+    return numbers | {
+        "beyond": status.beyond(numbers),
+        "residual": state.residual,
+        "status": state.status.value[0],
+        "solved_points": state.points,
+        "jump": state.jump,
+        "iterations": state.iterations,
+        "transforms": state.transforms,
+    }
+
+
+def _fields(problem: InterfaceProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
+    """Histograms and, if kept, gap, traction and displacement by component, each (n,), read on the whole grid."""
+    if state.points < problem.grid.size:
+        state = replace(state, problem=problem, displacement=problem.refined(state.displacement), found=None)
+    gap, traction = state.fields()
+    kept = histograms(problem, gap, traction)
+    if keep_fields:
+        moved = problem.field(state.displacement)
+        if problem.load is not None:  # its uniform mode is the gap's, approach included
+            moved[0] += problem.yielded - state.displacement[0, 0].real
+        parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
+        kept |= {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
+    return kept if state.status.solved else {name: np.full_like(row, np.nan) for name, row in kept.items()}
+
+
+def _collected(
+    scene: Scene, problem: InterfaceProblem, rows: list[dict], fields: dict[int, dict[str, Array]]
+) -> xr.Dataset:
+    heights = -problem.shape[0]
+    kinds = {"status": np.int8, "beyond": np.int8, "iterations": np.int32, "solved_points": np.int32}
+    variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
+    coordinates = {}
+    if fields:
+        for name in next(iter(fields.values())):
+            across = BINS[name][0] if name in BINS else "x"
+            variables[name] = (("snapshot", across), np.stack([one[name] for one in fields.values()]))
+        coordinates = {"snapshot": np.array([scene.path.steps[count].value for count in fields])}
+        coordinates |= {name: (edges[1:] + edges[:-1]) / 2 for name, edges in BINS.values()}
+        if GAPS[0] in variables:
+            variables["heights"] = ("x", heights)
+            coordinates["x"] = np.arange(heights.size) * scene.length / heights.size
+    variables |= {
+        "points": heights.size,
+        "length": scene.length,
+        "approach_first_touch": -float(heights.max()),
+        "contact_modulus": scene.contact_modulus,
+        "control": scene.path.steps[0].control.name.lower(),
+        "strength": sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits),
+    }
+    if scene.sliding:
+        lattice = problem.lattice_constant
+        variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan
+    return dataset.described(xr.Dataset(variables, coordinates))

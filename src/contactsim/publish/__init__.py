@@ -1,0 +1,1 @@
+"""Report, gallery and bundle of all results."""

@@ -1,0 +1,201 @@
+"""All results of a tier as one folder, ready to deposit.
+
+It holds the files themselves, a README.md written from the datasets, the sums by which each file can be checked, and
+an RO-Crate, that is, what the folder holds in a form that archives read. Nothing in it says when or where it was made,
+so two bundles of the same results are the same byte for byte. It appears under its name only when it is complete; an
+older one is taken away first.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.errors import SceneError
+from contactsim.provenance import digest
+from contactsim.publish.ro_crate import CITATION, RO_CRATE, author_name, crate, read_citation
+
+README, SUMS, METADATA = "README.md", "SHA256SUMS", "ro-crate-metadata.json"
+
+KINDS = {
+    "datasets": "results, netCDF-4",
+    "costs": "what every solution took",
+    "figures": "figure; csv: the numbers in it",
+    "claims": "what the thesis states, each with its verdict",
+    "config": "the settings",
+    "examples": "how to use the datasets without contactsim",
+    "report.html": "all figures and verdicts on one page",
+    "environment.txt": "all packages, with their versions",
+    CITATION: "how to cite this",
+    "LICENSE": "what may be done with this",
+    README: "what there is",
+    SUMS: "the sums of all other files",
+    METADATA: "what there is, for machines",
+}
+"""What a file or the files of a folder are."""
+
+WITHOUT_VALUES = {
+    "x": ("nm", "position along x: as many points as `points`, evenly over `length`, from 0"),
+    "y": ("nm", "position along y: as many points as `points_y`, evenly over `length_y`, from 0"),
+}
+"""Unit and meaning of dimensions that a dataset may leave without a variable of their name."""
+
+
+@dataclass(frozen=True)
+class Held:
+    """What a dataset holds: title, digest of its settings, versions, sizes; of each variable dims, unit and meaning."""
+
+    title: str
+    settings: str
+    versions: dict[str, str]
+    sizes: dict[str, int]
+    dims: dict[str, tuple[str, ...]]
+    words: dict[str, tuple[str, str]]
+
+    @classmethod
+    def of(cls, data: xr.Dataset) -> Held:
+        """Of a dataset as it was read."""
+        dims = {str(name): tuple(map(str, item.dims)) for name, item in data.variables.items()}
+        words = {str(name): _words(item) for name, item in data.variables.items()}
+        settings, made = digest(dataset.settings_of(data)), json.loads(data.attrs["versions"])
+        return cls(data.attrs["title"], settings, made, dict(data.sizes), dims, words)
+
+
+def _words(item: xr.Variable) -> tuple[str, str]:
+    """Unit and meaning of a variable; of flags with what each stands for."""
+    text = item.attrs["long_name"]
+    flags = item.attrs.get("flag_values", item.attrs.get("flag_masks"))
+    if flags is not None:
+        pairs = zip(flags, item.attrs["flag_meanings"].split(), strict=True)
+        text += ": " + ", ".join(f"{value} {meaning}" for value, meaning in pairs)
+    return item.attrs["units"], text
+
+
+def make(plan: Mapping, files: Mapping[str, str | Path], target: str | Path) -> None:
+    """Make the bundle `target`, in one move.
+
+    plan: tier, titles by name of a dataset, figure or chapter, and digests of what made each dataset; files: by their
+    place in the bundle, where they lie now.
+    """
+    target = Path(target)
+    unfinished = target.with_name(f".{target.name}.tmp")
+    shutil.rmtree(unfinished, ignore_errors=True)
+    if target.exists():
+        os.replace(target, unfinished)
+        shutil.rmtree(unfinished)
+    try:
+        for place, path in files.items():
+            _copy(Path(path), unfinished / place)
+        _describe(plan, sorted(files), unfinished)
+        os.replace(unfinished, target)
+    finally:
+        shutil.rmtree(unfinished, ignore_errors=True)
+
+
+def _copy(path: Path, place: Path) -> None:
+    place.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        shutil.copyfile(path, place)
+    except OSError as error:
+        raise SceneError("bundle", path, f"a file that can be read ({error.strerror})") from error
+
+
+def _describe(plan: Mapping, places: Sequence[str], folder: Path) -> None:
+    """Write README, metadata and sums into a folder that holds all else."""
+    citation = read_citation(folder / CITATION)
+    held = {place: Held.of(dataset.read(folder / place)) for place in places if place.endswith(".nc")}
+    about = {place: about_file(place, plan["titles"]) for place in [*places, README, SUMS, METADATA]}
+    (folder / README).write_text(readme(plan, citation, held, about), encoding="utf-8")
+    sums = {place: _sum(folder / place) for place in [*places, README]}
+    listed = {place: {"description": text} for place, text in about.items() if place != METADATA}
+    for place, value in sums.items():
+        listed[place] |= {"sha256": value, "contentSize": str((folder / place).stat().st_size)}
+    for place, one in held.items():
+        listed[place] |= {"variableMeasured": sorted(one.dims)}
+    crate(citation, f"tier {plan['tier']}", digest(plan), listed).metadata.write(folder)
+    sums[METADATA] = _sum(folder / METADATA)
+    (folder / SUMS).write_text("".join(f"{sums[place]}  {place}\n" for place in sorted(sums)), encoding="utf-8")
+
+
+def _sum(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def about_file(place: str, titles: Mapping[str, str]) -> str:
+    """What a file is: its kind, and the title of what it shows if it has one."""
+    path = Path(place)
+    title = titles.get(path.stem.removesuffix("_at_equal_error"))
+    kind = KINDS[path.parts[0]]
+    return f"{title} ({kind})" if title and len(path.parts) > 1 else kind
+
+
+def readme(plan: Mapping, citation: Mapping, held: Mapping[str, Held], about: Mapping[str, str]) -> str:
+    """The README.md of a bundle: how to check, cite and make it, and every dataset, dimension, variable and file."""
+    tier, names = plan["tier"], ", ".join(map(author_name, citation["authors"]))
+    made = sorted({f"{name} {version}" for one in held.values() for name, version in one.versions.items()})
+    parts = [
+        f"# {citation['title']}: results of the tier {tier}",
+        f"By {names}; version {citation['version']}, {citation['date-released']}; licence {citation['license']}. "
+        f"How to cite: `{CITATION}`. `{METADATA}` lists all files for machines (RO-Crate {RO_CRATE}).",
+        "## Check it",
+        f"In this folder, `sha256sum -c --quiet {SUMS}` names every file that is not as it was, and no other.",
+        "## Use it",
+        "The datasets are netCDF-4, with a unit and a long name on every variable; xarray and every other reader of "
+        "netCDF opens them. `python examples/reanalyse.py .` counts contact by another definition and fits another "
+        "law, with numpy and xarray alone.",
+        "Lengths are in nm, moduli and pressures in GPa, loads of lines in N/m; a ratio has unit 1. A gap above zero "
+        "is open, a normal traction above zero pulls, a load above zero presses.",
+        "## Make it again",
+        f"In a copy of contactsim {citation['version']}, with `config/` and `environment.txt` as they are here:",
+        f"```sh\nmake bundle TIER={tier}\n```",
+        "Datasets then come out byte for byte the same, at one number of threads; `costs/` holds times, which do not, "
+        "and names the single runs, which are not here. The digest of code and settings is "
+        f"`{digest(plan)}`; that of each dataset stands with it. Made with {', '.join(made)}.",
+        "## Datasets",
+        *(_dataset(place, one, plan["data"][Path(place).stem]) for place, one in sorted(held.items())),
+        "## Dimensions",
+        _table(("dimension", "unit", "meaning"), _dimensions(held.values())),
+        "## Variables",
+        _table(("variable", "unit", "meaning"), _variables(held.values())),
+        "## Files",
+        _table(("file", "what it is"), [(f"`{place}`", text) for place, text in sorted(about.items())]),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def _dataset(place: str, held: Held, made: str) -> str:
+    """A dataset's section: title, digests, sizes, and its variables by their dimensions."""
+    by_dims: dict[tuple[str, ...], list[str]] = {}
+    for name, dims in held.dims.items():
+        by_dims.setdefault(dims, []).append(f"`{name}`")
+    rows = [(", ".join(dims) or "–", ", ".join(names)) for dims, names in sorted(by_dims.items())]
+    sizes = ", ".join(f"{name} {count}" for name, count in held.sizes.items())
+    words = f"{held.title}. Code and settings: `{made}`; settings alone: `{held.settings}`. Sizes: {sizes}."
+    return f"### `{place}`\n\n{words}\n\n{_table(('dimensions', 'variables'), rows)}"
+
+
+def _dimensions(held: Iterable[Held]) -> list[tuple[str, ...]]:
+    """Each dimension, its unit and its meaning."""
+    known = WITHOUT_VALUES | {"": ("1", "number")}
+    found = {(name, *one.words.get(name, known.get(name, known[""]))) for one in held for name in one.sizes}
+    return [(f"`{name}`", *words) for name, *words in sorted(found)]
+
+
+def _variables(held: Iterable[Held]) -> list[tuple[str, ...]]:
+    """Each variable, its unit and its meaning; in several rows where datasets differ in it."""
+    found = {(name, *words) for one in held for name, words in one.words.items()}
+    return [(f"`{name}`", *words) for name, *words in sorted(found)]
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)

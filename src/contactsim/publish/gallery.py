@@ -1,0 +1,196 @@
+"""All figures on one page: what each shows, what came of the statements about it, with which error, at what cost.
+
+A statement belongs to the figures and tables that its source names. Errors and costs are those of the datasets that a
+figure shows; nothing here is typed twice.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+from PIL import Image
+
+from contactsim import dataset
+from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.figures.diagnostics.claims import compared, rounded
+from contactsim.figures.layout import errors_told
+from contactsim.provenance import digest, source_digest
+from contactsim.study.plan import Plan
+
+VERDICTS = (REPRODUCED, CONDITION, NOT_REPRODUCED, NOT_DECIDABLE)
+ACROSS = 3
+"""Pictures side by side."""
+WIDTH, COLOURS = 760, 128
+"""Of a small picture: pixels across, and colours."""
+NAMED = re.compile(r"(Fig|Table)s?\.? ((?:\d\.\d+[a-d]?(?:, | and )?)+)")
+"""Figures and tables in the source of a statement."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One figure: name, title, caption, the studies whose data it shows, and the digest of all that they depend on."""
+
+    name: str
+    title: str
+    caption: str
+    studies: tuple[str, ...]
+    data: str
+
+
+def entries(plan: Plan) -> dict[str, list[Entry]]:
+    """By chapter, the figures that show datasets or laws, in the order of the config."""
+    found: dict[str, list[Entry]] = {}
+    for name, figure in plan.figures.items():
+        data = plan.figure_settings(name)["data"]
+        own = Entry(name, figure.settings["title"], figure.settings["caption"], tuple(figure.studies), data)
+        found.setdefault(figure.chapter, []).append(own)
+    return found
+
+
+def named_in(source: str) -> set[str]:
+    """Names of the figures and tables that the source of a statement names."""
+    found = [(kind, number) for kind, numbers in NAMED.findall(source) for number in re.findall(r"\d\.\d+", numbers)]
+    return {f"{kind.lower()}_{number.replace('.', '_')}" for kind, number in found}
+
+
+def verdicts(folder: Path, chapters: Sequence[str]) -> pd.DataFrame:
+    """Every statement with its verdict, as `claims` wrote them, with its chapter as first column."""
+    tables = [pd.DataFrame(columns=["chapter", "source", "verdict"])]
+    tables += [pd.read_csv(folder / "claims" / f"{chapter}.csv").assign(chapter=chapter) for chapter in chapters]
+    every = pd.concat(tables[1:] or tables, ignore_index=True)
+    return every[["chapter", *every.columns.drop("chapter")]]
+
+
+def of_figure(every: pd.DataFrame, name: str) -> pd.DataFrame:
+    """The statements whose source names a figure or table."""
+    return every[every["source"].map(lambda source: name in named_in(source)).astype(bool)]
+
+
+def counted(own: pd.DataFrame) -> dict[str, int]:
+    """How many of these statements came to which verdict."""
+    return {verdict: int((own.verdict == verdict).sum()) for verdict in VERDICTS}
+
+
+def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
+    """One row a figure: its place, how many statements came to which verdict, its data's errors, CPU seconds, digest.
+
+    Errors are those of its own study, the first. folder: of the tier's results; every: all statements, from `verdicts`;
+    others: by name the titles of figures that belong to no chapter, of which nothing more is told.
+    """
+    rows = []
+    for chapter, own in entries(plan).items():
+        for entry in own:
+            paths = [plan.dataset_name(study) for study in entry.studies]
+            told = errors_told(dataset.read(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
+            seconds = sum(pd.read_csv(folder / "costs" / f"{path}.csv").seconds.sum() for path in paths)
+            place = {"chapter": chapter, "figure": entry.name, "title": entry.title}
+            found = counted(of_figure(every, entry.name))
+            rows.append(place | found | {"errors": "; ".join(told), "seconds": round(seconds, 1), "data": entry.data})
+    rows += [{"chapter": "", "figure": name, "title": title} for name, title in others.items()]
+    return pd.DataFrame(rows)
+
+
+def markdown(rows: pd.DataFrame, pictures: str) -> str:
+    """The gallery as it stands in the README: pictures side by side, below each its verdicts, errors and run time.
+
+    rows: from `table`; pictures: the folder of the small pictures, from the README.
+    """
+    cells = [_cell(row, pictures) for row in rows.to_dict("records")]
+    lines = [cells[place : place + ACROSS] for place in range(0, len(cells), ACROSS)]
+    return "\n".join(["<table>", *(f"<tr>{''.join(line)}</tr>" for line in lines), "</table>"]) + "\n"
+
+
+def counts(every: pd.DataFrame) -> str:
+    """How many statements of each chapter came to which verdict, as a table in Markdown; every: from `verdicts`."""
+    lines = [f"| chapter | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 1) + "|"]
+    for chapter, own in [*every.groupby("chapter"), ("all", every)]:
+        cells = map(str, counted(own).values())
+        lines.append(f"| {str(chapter).removeprefix('ch')} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def verdict_page(every: pd.DataFrame, tier: str) -> str:
+    """Every statement by verdict, those not reproduced first, as a page in Markdown; every: from `verdicts`."""
+    parts = [f"# Every statement, and what came of it at the {tier} tier\n", counts(every)]
+    parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
+    for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED):
+        parts += [
+            f"## {verdict.capitalize()}\n",
+            "| thesis | statement | compared | expected | found | why this band |",
+        ]
+        parts[-1] += "\n|---|---|---|---|---|---|"
+        parts += [_statement(row) for row in every[every.verdict == verdict].to_dict("records")]
+        parts.append("")
+    return "\n".join(parts)
+
+
+def _statement(row: Mapping) -> str:
+    texts = {key: "" if isinstance(value, float) else str(value).replace("|", "\\|") for key, value in row.items()}
+    found = " ± ".join(rounded(row["value"], row["ensemble_error"], row["grid_error"]))
+    if texts["condition"]:
+        numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
+        found += f"; {texts['condition']}: {' ± '.join(rounded(*numbers))}"
+    cells = (
+        texts["source"],
+        texts["statement"],
+        compared(texts["measure"]),
+        texts["expected"],
+        found,
+        texts["because"],
+    )
+    return f"| {' | '.join(cells)} |"
+
+
+def _cell(row: Mapping, pictures: str) -> str:
+    name, title = row["figure"], row["title"]
+    counted = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
+    told = ["; ".join(counted)] * bool(counted)
+    told += [row["errors"]] * (isinstance(row["errors"], str) and row["errors"] != "")
+    told += [f"{duration(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
+    picture = f'<a href="{pictures}/{name}.png"><img src="{pictures}/{name}.png" width="260" alt="{title}"></a>'
+    width = f"{100 // ACROSS}%"
+    return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(told)}</sub></td>'
+
+
+def duration(seconds: float) -> str:
+    """Seconds as read in a text: to the second below two minutes, else to the minute."""
+    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
+
+
+def settings(plan: Plan, others: Mapping[str, str]) -> dict:
+    """What the gallery depends on, beside the files it is made of; others: as `table` takes them."""
+    data = [plan.figure_settings(name) for name in plan.figures]
+    data += [plan.claims_settings(chapter) for chapter in plan.claims]
+    source = source_digest("contactsim.publish.gallery")
+    return {"tier": plan.tier, "others": dict(others), "source": source, "data": digest(data)}
+
+
+def make(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> None:
+    """Small pictures of all figures, their table, all verdicts, and pages of both in Markdown, into a folder.
+
+    folder: of the tier's results; others: as `table` takes them.
+    """
+    shutil.rmtree(target, ignore_errors=True)  # a figure that is gone leaves no picture
+    target.mkdir(parents=True)
+    every = verdicts(folder, list(plan.claims))
+    rows = table(plan, folder, every, others)
+    for name in rows.figure:
+        small(folder / "figures" / f"{name}.png", target / f"{name}.png")
+    every.to_csv(target / "verdicts.csv", index=False)
+    (target / "verdicts.md").write_text(verdict_page(every, plan.tier), encoding="utf-8")
+    (target / "gallery.md").write_text(markdown(rows, "docs/gallery"), encoding="utf-8")
+    (target / "counts.md").write_text(counts(every), encoding="utf-8")
+    rows.to_csv(target / "gallery.csv", index=False)  # last: with it the gallery is whole
+
+
+def small(source: Path, target: Path, width: int = WIDTH) -> None:
+    """A picture scaled to so many pixels across, in few colours."""
+    with Image.open(source) as picture:
+        height = round(picture.height * width / picture.width)
+        scaled = picture.convert("RGB").resize((width, height), Image.Resampling.LANCZOS)
+        scaled.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)

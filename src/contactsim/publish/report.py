@@ -1,0 +1,226 @@
+"""All that a tier found, on one page that needs nothing else: verdicts first, then figures, prices, hazards, effects.
+
+The page is a template filled with what lies in the results: statements with their verdicts, pictures, what the datasets
+say of their grids and errors, what their runs cost. Pictures are part of the file: it can be sent and opened anywhere.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+import jinja2
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+from PIL import Image
+
+from contactsim import dataset
+from contactsim.figures.diagnostics.claims import compared, rounded
+from contactsim.figures.layout import footer_text
+from contactsim.figures.sketch import sketch
+from contactsim.provenance import digest, source_digest, versions
+from contactsim.publish import gallery
+from contactsim.publish.gallery import VERDICTS, Entry, duration, named_in
+from contactsim.publish.rulegraph import drawn
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import points_of, scene_of
+
+TEMPLATE = Path(__file__).with_name("report.html")
+SKETCH = (4.6, 2.9), 160
+"""Size in inches and dots an inch of a sketch."""
+COLOURS, FINE = 256, 2
+"""Colours of a picture on the page, and how many of its pixels go into one of the page's."""
+SECTION = 2000
+"""Points that show a section of a surface."""
+MARKS = dict(zip(VERDICTS, ("yes", "condition", "no", "open"), strict=True))
+"""How a verdict is called in the style sheet."""
+HIDDEN = ("name", "title", "tier", "seed")
+"""Settings that a table of settings leaves out: they stand elsewhere."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture as part of the page: its bytes as text, and its size on it."""
+
+    source: str
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A figure on the page: what it is, its picture, and how many statements about it came to which verdict."""
+
+    entry: Entry
+    picture: Picture
+    verdicts: dict[str, int]
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A study on the page: title, what its dataset tells of itself, cost, settings, and its scene drawn."""
+
+    title: str
+    told: str
+    cost: str
+    settings: dict[str, str]
+    sketch: Picture
+
+
+def settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]], rules: str) -> dict:
+    """What the page depends on, beside the files that it is made of.
+
+    others: by group and name, all other figures; rules: the text of the workflow's rules.
+    """
+    data = [gallery.settings(plan, {}), {study: plan.study_settings(study) for study in plan.studies}]
+    shown = {group: {name: _titled(one) for name, one in figures.items()} for group, figures in others.items()}
+    source = digest(source_digest("contactsim.publish.report"), TEMPLATE.read_text(encoding="utf-8"), rules)
+    made = {"tier": plan.tier, "others": shown, "order": list(shown), "data": digest(data), "source": source}
+    used = {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas")}
+    return made | {"versions": {"Python": platform.python_version()} | versions() | used}
+
+
+def _titled(settings: Mapping) -> dict[str, str]:
+    return {key: settings[key] for key in ("title", "caption")}
+
+
+def found(plan: Plan, settings: Mapping, folder: Path) -> dict:
+    """All that the page shows, but for the rules.
+
+    settings: from the function of that name; folder: of the tier's results.
+    """
+    every = gallery.verdicts(folder, list(plan.claims))
+    return {
+        "tier": plan.tier,
+        "seed": plan.seed,
+        "data": settings["data"],
+        "marks": MARKS,
+        "counts": _counts(every),
+        "statements": _statements(every, plan),
+        "chapters": _chapters(plan, folder, every),
+        "studies": {name: _study(plan, folder, name) for name in plan.studies},
+        "own": {_chapter(chapter): _studies_of(plan, chapter) for chapter in plan.chapters.values()},
+        "others": _others(settings, folder),
+        "together": {name: _chapter(figure.chapter) for name, figure in plan.figures.items()},
+        "versions": settings["versions"],
+    }
+
+
+def render(shown: Mapping, rules: str) -> str:
+    """The page as HTML; shown: from `found`; rules: the graph of rules as dot."""
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
+    page = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
+    return page.render(shown, rules=drawn(rules, shown["together"]))
+
+
+def _chapter(name: str) -> str:
+    return f"Chapter {name.removeprefix('ch')}"
+
+
+def _studies_of(plan: Plan, chapter: str) -> list[str]:
+    return [study for study, own in plan.chapters.items() if own == chapter]
+
+
+def _counts(every: pd.DataFrame) -> dict[str, dict[str, int]]:
+    """By chapter, and over all, how many statements came to which verdict."""
+    if every.empty:
+        return {}
+    parts = {_chapter(chapter): own for chapter, own in every.groupby("chapter")} | {"all": every}
+    return {name: gallery.counted(own) for name, own in parts.items()}
+
+
+def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
+    """Each statement as its row is read: with numbers rounded, figures named, and what its data cost."""
+    rows = []
+    for row in every.to_dict("records"):
+        numbers = ("value", "ensemble_error", "grid_error")
+        texts = {key: "" if isinstance(value, float) else value for key, value in row.items()}
+        texts |= dict(zip(("found", "ensemble", "grid"), rounded(*(row[name] for name in numbers)), strict=True))
+        texts["measure"] = compared(texts["measure"])
+        if texts["condition"]:
+            texts["there"] = " ± ".join(rounded(*(row[f"condition_{name}"] for name in numbers)))
+        texts["figures"] = sorted(named_in(row["source"]) & set(plan.figures))
+        texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies
+        texts["statement"] = texts["statement"].replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*")
+        rows.append(texts)
+    return rows
+
+
+def _chapters(plan: Plan, folder: Path, every: pd.DataFrame) -> dict[str, list[Shown]]:
+    """By chapter, its figures."""
+    found = {}
+    for chapter, entries in gallery.entries(plan).items():
+        shown = []
+        for entry in entries:
+            verdicts = gallery.counted(gallery.of_figure(every, entry.name))
+            shown.append(Shown(entry, _picture(folder, entry.name), verdicts))
+        found[_chapter(chapter)] = shown
+    return found
+
+
+def _study(plan: Plan, folder: Path, name: str) -> Solved:
+    """What the page tells of a study."""
+    data = dataset.read(folder / "datasets" / f"{plan.dataset_name(name)}.nc")
+    costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(name)}.csv")
+    drawn_scene = _sketch(plan.studies[name].runs()[0].settings)
+    return Solved(data.attrs["title"], footer_text(data, costs), _cost(costs), _settings(data), drawn_scene)
+
+
+def _cost(costs: pd.DataFrame) -> str:
+    runs, transforms, memory = costs.run.nunique(), costs.transforms.sum(), costs.memory_mib.max()
+    time = duration(costs.seconds.sum())
+    return f"{runs} runs, {transforms:.3g} transforms, {time} of CPU time, at most {memory:.0f} MiB"
+
+
+def _settings(data: xr.Dataset) -> dict[str, str]:
+    """The settings of a dataset that say something, as text; of its loads no more than the ends."""
+    found = dataset.settings_of(data)
+    if len(found["load"]["values"]) > 20:
+        values = found["load"]["values"]
+        found["load"] |= {"values": f"{len(values)} from {values[0]:g} to {values[-1]:g}"}
+    kept = {key: value for key, value in found.items() if key not in HIDDEN and value not in (None, {}, [])}
+    return {key: json.dumps(value, ensure_ascii=False).replace('"', "") for key, value in sorted(kept.items())}
+
+
+def _sketch(run: dict) -> Picture:
+    """The scene of a run, drawn."""
+    size, dots = SKETCH
+    figure, file = Figure(figsize=size, layout="constrained"), io.BytesIO()
+    scene = scene_of(run)
+    surface = scene.upper.surface
+    enough = max(SECTION, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
+    points = points_of(run, surface)
+    sketch(scene, points if surface.points else min(points, enough), figure.subplots())
+    figure.savefig(file, format="png", dpi=dots)
+    return _embedded(file)
+
+
+def _picture(folder: Path, name: str) -> Picture:
+    return _embedded(folder / "figures" / f"{name}.png")
+
+
+def _embedded(source: Path | io.BytesIO) -> Picture:
+    """A picture as part of the page, in as many colours as a drawing needs."""
+    file = io.BytesIO()
+    with Image.open(source) as picture:
+        few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+        few.save(file, format="png")
+        width, height = picture.width // FINE, picture.height // FINE
+    return Picture("data:image/png;base64," + base64.b64encode(file.getvalue()).decode(), width, height)
+
+
+def _others(settings: Mapping, folder: Path) -> dict[str, list[dict]]:
+    """By group, the figures that belong to no chapter."""
+    groups = {group: settings["others"][group] for group in settings["order"]}
+    return {
+        group: [{"name": name, "picture": _picture(folder, name), **figures[name]} for name in sorted(figures)]
+        for group, figures in groups.items()
+        if figures
+    }

@@ -1,0 +1,1 @@
+"""Solvers of contact with smooth laws."""

@@ -1,0 +1,107 @@
+"""Equilibrium of laws that have a potential, as a minimum of the energy: another route to the same states.
+
+The variables are the Fourier coefficients times √(K + k0), K the stiffness and k0 the laws' largest tangent: in them
+the energy curves about equally in all directions, and a limited-memory quasi-Newton method (L-BFGS-B, ACM Trans. Math.
+Softw. 23, 550, doi:10.1145/279232.279236) needs as many steps on a fine grid as on a coarse one. It goes downhill from
+where it starts, so past the end of a branch it finds what the overdamped flow finds unless there are several minima
+below. Where rounding of the energy stops its line search it starts anew.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize
+
+from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.grid import Array
+from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
+from contactsim.status import Status
+
+
+@dataclass(frozen=True)
+class EnergyMinimisation:
+    """Limited-memory quasi-Newton minimisation.
+
+    memory: pairs of steps and gradients remembered; budget: most steps; restarts: most new starts where rounding or a
+    bad memory has stopped it.
+    """
+
+    memory: int = 20
+    budget: int = 5000
+    restarts: int = 5
+    fields = 80
+    predicts = False
+    trusted = 0.0
+    accepts = SMOOTH_PATHS
+
+    def transforms(self, points: int) -> float:
+        """Real transforms of a step and unknown component."""
+        return 2.0
+
+    def begin_walk(self) -> None:
+        """Nothing is kept."""
+
+    def near(self, problem: InterfaceProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
+        """The minimum below a guess."""
+        return self.flow(problem, guess)
+
+    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+        """The minimum below a state."""
+        descent = _Descent(problem)
+        place, count = descent.variables(start), 0
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is reported
+            for _ in range(self.restarts + 1):
+                options = {"maxiter": self.budget - count, "maxfun": 2 * self.budget, "maxcor": self.memory}
+                found = minimize(
+                    descent, place, jac=True, method="L-BFGS-B", callback=descent.stop, options=options | NEVER
+                )
+                place, count = found.x, count + found.nit
+                displacement = descent.displacement(place)
+                gap = problem.gap(displacement)
+                traction = problem.traction(gap)
+                worst = problem.size(problem.residual(displacement, traction))
+                status = Status.PULLED_OFF if apart(problem, gap) else judged(worst, problem)
+                if status is not Status.BUDGET or count >= self.budget or not found.nit:
+                    break
+            distance = moved(problem, displacement - start)
+        return Equilibrium(displacement, gap, traction, status, worst, distance, count)
+
+
+NEVER = {"ftol": 0.0, "gtol": 0.0}
+"""Nothing but the residual, or a failure, ends a descent."""
+
+
+class _Descent:
+    """The energy and its gradient in the variables of the module's text."""
+
+    def __init__(self, problem: InterfaceProblem) -> None:
+        self._problem = problem
+        self._count = np.sqrt(problem.weights)
+        self._root = np.sqrt(problem.supported.diagonal + problem.softening)
+        self._residual, self._gap = np.full(problem.unknowns, np.inf), np.zeros_like(problem.shape)
+
+    def variables(self, displacement: Array) -> Array:
+        """The real variables of a displacement (1, m)."""
+        return np.ravel(displacement * (self._root * self._count)).view(float)
+
+    def displacement(self, variables: Array) -> Array:
+        """The displacement (1, m), coefficients."""
+        return variables.view(complex).reshape(self._root.shape) / (self._root * self._count)
+
+    def __call__(self, variables: Array) -> tuple[float, Array]:
+        """Energy and gradient."""
+        problem, displacement = self._problem, self.displacement(variables)
+        self._gap = problem.gap(displacement)
+        self._residual = problem.residual(displacement, problem.traction(self._gap))
+        slope = np.ravel(self._residual * (self._count / self._root)).view(float)
+        return problem.energy(displacement, self._gap), slope
+
+    def stop(self, variables: Array) -> None:
+        """End the descent at the tolerance, or where the load has pulled the bodies apart."""
+        problem = self._problem
+        mean_square = float((np.abs(self._residual) ** 2 * problem.weights).sum())  # at most the largest square
+        near = np.sqrt(mean_square) <= problem.tolerance * problem.strength
+        if (near and problem.size(self._residual) <= problem.tolerance) or apart(problem, self._gap):
+            raise StopIteration

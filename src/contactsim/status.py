@@ -1,0 +1,78 @@
+"""How a solution ended, and how far it is within what its model describes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+
+import numpy as np
+import xarray as xr
+
+
+class Status(Enum):
+    """How a solution ended; the number is stored in datasets, the sentence explains it."""
+
+    CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
+    BUDGET = (1, "not converged: the budget of iterations is spent")
+    NON_FINITE = (2, "failed: a value that is not finite appeared")
+    PULLED_OFF = (3, "no equilibrium: the load pulls the bodies apart")
+    BROKEN_OFF = (4, "not tried: the path broke off before")
+    INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
+
+    @property
+    def sentence(self) -> str:
+        """What the status means."""
+        return self.value[1]
+
+    @property
+    def solved(self) -> bool:
+        """Whether there is a solution, or one interpolated between solutions."""
+        return self in (Status.CONVERGED, Status.INTERPOLATED)
+
+
+def status_sentence(number: int) -> str:
+    """What the number of a status means."""
+    return next(status.sentence for status in Status if status.value[0] == number)
+
+
+def is_solved(numbers: xr.DataArray) -> xr.DataArray:
+    """Whether numbers of a status stand for solutions, bool."""
+    return numbers.isin([status.value[0] for status in Status if status.solved])
+
+
+LIMITS = {
+    "overclosure": (3.0, "overlap over the laws' length"),
+    "slip": (2.0, "slip under repulsion over the laws' length"),
+    "process_zone_step": (0.2, "grid spacing over the process zone"),
+    "rms_gradient": (0.45, "rms slope"),
+}
+"""Largest value of each number, and what it is.
+
+Overlap: the laws' repulsion grows no faster than any; slip: beyond it shear kills the repulsion of a coupled law. At a
+fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %, at more it jumps from point to point. Slopes: half
+of the square, a tenth, is what small slopes leave out.
+"""
+FLAGS = {name: 1 << place for place, name in enumerate(LIMITS)}
+"""Bits of `beyond`, one for each limit."""
+
+
+def process_zone(contact_modulus: float, strength: float, reach: float) -> float:
+    """Length e²E*δn²/φn (nm) over which tractions fall, from E* (GPa), strength φn/(e δn) (GPa) and reach δn (nm)."""
+    return float(np.e * contact_modulus * reach / strength)
+
+
+def beyond(numbers: Mapping[str, float]) -> int:
+    """Which limits a state's numbers are beyond, as bits of `FLAGS`; a number that does not exist is within."""
+    return sum(FLAGS[name] for name, (limit, _) in LIMITS.items() if numbers.get(name, 0.0) > limit)
+
+
+def told(data: xr.Dataset) -> list[str]:
+    """In words, what the states of a dataset are beyond, how far and how many of them; empty if nothing is."""
+    found = []
+    flags = data.beyond.fillna(0).astype(int)
+    for name, (limit, words) in LIMITS.items():
+        share = float(((flags & FLAGS[name]) > 0).mean())
+        if share:
+            part = "all" if share == 1 else f"{100 * share:.2g} %"
+            found.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {part}")
+    return found

@@ -1,0 +1,1 @@
+"""From the config to scenes, runs and the plan of the workflow."""

@@ -1,0 +1,126 @@
+"""A figure as the config gives it: what it shows and how, checked against the function that draws it."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from contactsim.analysis.claims import selection
+from contactsim.analysis.ensemble import widened
+from contactsim.errors import SceneError
+from contactsim.provenance import module_path
+from contactsim.study.law_table import read_law
+from contactsim.study.reading import Key, listed, mapping, number, positive, read, size, text, whole
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
+from contactsim.traits import Trait
+
+LEAST_WIDTH = 2.8
+"""Inches that a panel needs for its labels and legend."""
+FIELDS = "fields"
+"""First argument of a figure's function that draws the fields of one load of a surface."""
+
+FIGURE_KEYS = {
+    "study": Key(text, "the name of a study of this chapter, or left out with a `law`", None),
+    "law": Key(mapping, "a mapping with `effect`, its options and the gaps drawn, instead of a study", None),
+    "beside": Key(listed(text), "names of further studies of this chapter", []),
+    "title": Key(text, "a line of text"),
+    "caption": Key(text, "text"),
+    "size": Key(size, "width and height in inches"),
+    "panels": Key(whole(1), "number of axes side by side", 1),
+    "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
+    "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
+    "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
+    "film": Key(positive, "frames a second, for a film through the snapshots of the study beside the figure", None),
+}
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure: name, chapter, its settings as read, and apart from them the columns to compare, not drawn."""
+
+    name: str
+    chapter: str
+    settings: dict
+    compare: list[str]
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Endings of its files."""
+        return ("png", "pdf", "csv") if self.settings["film"] is None else ("png", "pdf", "csv", "gif")
+
+    @property
+    def studies(self) -> list[str]:
+        """The studies whose data it shows; none where it shows a law by itself."""
+        return [study for study in (self.settings["study"], *self.settings["beside"]) if study is not None]
+
+
+def read_figure(name: str, section: object, file: Path, studies: dict[str, Study]) -> Figure:
+    """Check a figure's section of a chapter's config against the chapter's studies and the function that draws it."""
+    prefix = f"figures.{name}"
+    settings = read(section, FIGURE_KEYS, file, prefix)
+    if settings["size"][0] < LEAST_WIDTH * settings["panels"]:
+        raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
+    if (settings["study"] is None) == (settings["law"] is None):
+        both = {key: settings[key] for key in ("study", "law")}
+        raise SceneError(prefix, both, "exactly one of study and law", file)
+    if settings["law"] is not None:
+        settings["law"] = read_law(settings["law"], file, f"{prefix}.law")
+    for key, named in (("study", [settings["study"]]), ("beside", settings["beside"])):
+        for study in set(named) - {*studies, None}:
+            raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
+    dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
+    settings["select"] = selection(settings["select"], dims, file, f"{prefix}.select")
+    if settings["film"] is not None:
+        shown = studies[settings["study"]].settings if dims else {}
+        if not (shown.get("slide") and shown["snapshots"]) or shown["vary"]:
+            allowed = "left out, but for one slide, nothing of it varied, with snapshots"
+            raise SceneError(f"{prefix}.film", settings["film"], allowed, file)
+    _check_function(name, settings, studies, file, prefix)
+    compare = settings.pop("compare")
+    return Figure(name, file.stem, settings, compare)
+
+
+def _check_function(name: str, settings: dict, studies: dict[str, Study], file: Path, prefix: str) -> None:
+    """Refuse a figure without a function, or whose function wants other datasets or other values of the thesis."""
+    known = _functions(f"contactsim.figures.{file.stem}")
+    if name not in known:
+        raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
+    wanted = [argument.arg for argument in known[name].args[:-1]]  # the last are the axes
+    given = [settings["study"] or "a law", *settings["beside"]]
+    if len(given) != len(wanted):
+        allowed = f"so many that with {given[0]} they are those that the function draws: {', '.join(wanted)}"
+        raise SceneError(f"{prefix}.beside", settings["beside"], allowed, file)
+    if wanted[0] == FIELDS and settings["study"] is None:
+        raise SceneError(f"{prefix}.law", settings["law"], "a study, whose fields the function draws", file)
+    if wanted[0] == FIELDS:
+        _check_map(settings, studies[settings["study"]], file, prefix)
+    keywords = [argument.arg for argument in known[name].kwonlyargs]
+    numbers = dict.fromkeys(keywords, Key(number, "a value of the thesis, a number"))
+    read(settings["reference"], numbers, file, f"{prefix}.reference")
+
+
+def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
+    """Refuse a map of what has no fields, of a line, and of more than one load of one member."""
+    first, load = study.runs()[0], study.settings["load"]
+    if FIELDS not in study.settings["keep"] or Trait.SURFACE not in scene_of(first.settings).traits:
+        raise SceneError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
+    places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
+    places = [place | {load["name"]: value} for place in places for value in load["values"]]
+    for dim, (least, largest) in settings["select"].items():
+        low, high = widened(least, largest)
+        places = [place for place in places if low <= place[dim] <= high]
+    if len(places) != 1:
+        allowed = f"what leaves one load of one member to draw; this leaves {len(places)}"
+        raise SceneError(f"{prefix}.select", settings["select"], allowed, file)
+
+
+@cache
+def _functions(module: str) -> dict[str, ast.arguments]:
+    """The public functions of a module, with their arguments; read, not imported, since matplotlib takes a second."""
+    path = module_path(module)
+    tree = ast.parse(path.read_text(encoding="utf-8")) if path else ast.Module([], [])
+    public = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
+    return {node.name: node.args for node in public}

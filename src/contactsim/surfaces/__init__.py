@@ -1,0 +1,1 @@
+"""Shapes, random roughness and measured heights: no mechanics."""

@@ -1,0 +1,170 @@
+"""Rough heights drawn at random: self-affine, along a line or over a surface.
+
+The random numbers of mode k do not depend on the number of points, so a finer grid samples the same heights. The power
+spectrum of Eq. 3.10 fixes the mean power of each mode. The text leaves open whether amplitudes are that value with
+random phases ("fixed") or Gaussian with that variance ("gaussian", the default, which is what "a Gaussian height
+distribution" means); the result is then scaled so that the rms gradient or the rms height of this very profile is the
+one asked for, the gradient being that of the band-limited profile itself, not of its differences on a grid.
+"""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from contactsim.errors import SceneError
+from contactsim.grid import Array, Grid
+from contactsim.surfaces.shapes import Smooth, check_dimensions, check_length
+
+AMPLITUDES = ("gaussian", "fixed")
+
+
+def generator(seed: int, *labels: object) -> np.random.Generator:
+    """Random numbers for one realisation, the same on every machine: SeedSequence([seed, *labels]).
+
+    Labels that are not whole numbers enter through a digest of their JSON form.
+    """
+    words = [label if isinstance(label, int) else _word(label) for label in labels]
+    return np.random.default_rng(np.random.SeedSequence([seed, *words]))
+
+
+def _word(label: object) -> int:
+    return int.from_bytes(hashlib.sha256(json.dumps(label).encode()).digest()[:8], "big")
+
+
+@dataclass(frozen=True)
+class SelfAffine(Smooth):
+    """Random heights with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
+
+    The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
+    rolloff_wavelength, shortest_wavelength: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
+    over a surface being the root of the mean of both squared slopes added; rng: draws the modes, two numbers each,
+    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); smoothed: waves shorter than this are
+    then left out, nm.
+    """
+
+    length: float
+    hurst: float
+    rolloff_wavelength: float
+    shortest_wavelength: float
+    rms_gradient: float | None = None
+    rms_height: float | None = None
+    amplitudes: str = "gaussian"
+    dimensions: int = 1
+    smoothed: float | None = None
+    rng: np.random.Generator = field(kw_only=True)
+
+    def __post_init__(self) -> None:
+        check_length(self.length)
+        check_dimensions(self.dimensions)
+        if not 0 <= self.hurst <= 1:
+            raise SceneError("hurst", self.hurst, "a number from 0 to 1")
+        if not 0 < self.rolloff_wavelength <= self.length:
+            raise SceneError("rolloff_wavelength", self.rolloff_wavelength, f"above 0 nm, at most {self.length} nm")
+        if not 0 < self.shortest_wavelength < self.rolloff_wavelength:
+            allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm"
+            raise SceneError("shortest_wavelength", self.shortest_wavelength, allowed)
+        if (self.rms_gradient is None) == (self.rms_height is None):
+            given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
+            raise SceneError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
+        for name, unit in (("rms_gradient", ""), ("rms_height", " in nm")):
+            value = getattr(self, name)
+            if value is not None and not (np.isfinite(value) and value > 0):
+                raise SceneError(name, value, f"a positive, finite number{unit}")
+        if self.smoothed is not None and not self.shortest_wavelength < self.smoothed < self.rolloff_wavelength:
+            ends = f"above the shortest wavelength {self.shortest_wavelength} nm, below the roll-off wavelength"
+            allowed = f"{ends} {self.rolloff_wavelength} nm, or left out"
+            raise SceneError("smoothed", self.smoothed, allowed)
+        if self.amplitudes not in AMPLITUDES:
+            raise SceneError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
+
+    @property
+    def modes(self) -> int:
+        """Most waves in the period along any direction: their wavelength is strictly above the shortest (Eq. 3.10).
+
+        In two dimensions the waves with |k| up to `modes` are kept, all others are zero. That is the disc of the
+        highest mode along the axes, so oblique waves between its wavelength and the shortest are left out.
+        """
+        return _waves(self.length, self.finest)
+
+    @property
+    def finest(self) -> float:
+        """Wavelength above which there are waves, nm."""
+        return max(self.shortest_wavelength, self.smoothed or 0.0)
+
+    @cached_property
+    def coefficients(self) -> Array:
+        """Complex Fourier coefficients of the modes with |k| up to `modes`, half of them along x, nm.
+
+        Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
+        """
+        if self.smoothed is None:
+            return self._drawn(self.modes)
+        modes = self.modes
+        half = self._drawn(_waves(self.length, self.shortest_wavelength))[..., : modes + 1]
+        if self.dimensions == 2:
+            half = np.concatenate((half[: modes + 1], half[half.shape[0] - modes :]))
+        *y, x = self._mode_numbers(modes)
+        return half * (self._wavenumber(*y, x) <= 2 * np.pi / self.length * modes * (1 + 1e-12))
+
+    def _drawn(self, modes: int) -> Array:
+        """Coefficients of all waves up to `modes`, of the size that is asked for; the same each time."""
+        *y, x = self._mode_numbers(modes)
+        q = self._wavenumber(*y, x)
+        drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
+        drawn &= q <= 2 * np.pi / self.length * modes * (1 + 1e-12)
+        order = np.lexsort([*(k[drawn] for k in y), x[drawn], np.max(np.abs([x, *y]), axis=0)[drawn]])
+        normal = copy.deepcopy(self.rng).standard_normal((order.size, 2)) @ np.array([1, 1j])
+        if self.amplitudes == "fixed":
+            normal /= np.abs(normal)
+        half = np.zeros(x.shape, complex)
+        places = tuple(index[order] for index in np.nonzero(drawn))
+        rolloff = 2 * np.pi / self.rolloff_wavelength
+        half[places] = np.maximum(q[places] / rolloff, 1.0) ** (-(self.dimensions + 2 * self.hurst) / 2) * normal
+        if y:  # along x = 0 waves of both signs of y are kept
+            half[:, 0] += np.conj(np.roll(half[::-1, 0], 1))
+        if self.rms_height is None:
+            return half * (self.rms_gradient / _rms(half, q))
+        return half * (self.rms_height / _rms(half))
+
+    def _mode_numbers(self, modes: int) -> list[Array]:
+        """Whole numbers of waves in the period for each coefficient, along y first."""
+        along = np.arange(modes + 1)
+        across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
+        return list(np.meshgrid(*across, along, indexing="ij"))
+
+    def _wavenumber(self, *numbers: Array) -> Array:
+        """|q| (rad/nm) of modes."""
+        return 2 * np.pi / self.length * np.sqrt(sum(k**2.0 for k in reversed(numbers)))
+
+    @property
+    def gradient(self) -> float:
+        """Rms gradient of this very profile: the one asked for, or what follows from its rms height."""
+        if self.rms_gradient is not None and self.smoothed is None:
+            return self.rms_gradient
+        return _rms(self.coefficients, self._wavenumber(*self._mode_numbers(self.modes)))
+
+    def heights(self, points: int) -> Array:
+        """Heights with zero mean, shape (points,) or (points, points), nm."""
+        self.check(points)
+        grid = Grid((points,) * self.dimensions, self.lengths)
+        half = np.zeros(grid.half_shape, complex)
+        half[grid.low_modes(self.modes)] = self.coefficients
+        return grid.backward(half)
+
+
+def _waves(length: float, finest: float) -> int:
+    """Most waves in a period whose wavelength is strictly above the finest."""
+    return int(np.ceil(length / finest * (1 - 1e-12))) - 1
+
+
+def _rms(half: Array, factor: Array | float = 1.0) -> float:
+    """Root of the mean square of a real field, each wave times a factor, from its half-complex coefficients."""
+    twice = np.full(half.shape[-1], 2.0)
+    twice[0] = 1.0
+    return float(np.sqrt(np.sum(twice * factor**2 * np.abs(half) ** 2)))
