@@ -21,9 +21,9 @@ from contactsim.figures.layout import render
 from contactsim.files import write_text
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import scene_of
+from support.places import ROOT
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of processes that tests start; of this one, see below
-ROOT = Path(__file__).parents[1]
 FILES = (("datasets", ".nc"), ("costs", ".csv"))
 
 

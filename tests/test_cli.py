@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import contactsim
-from conftest import ROOT
 from contactsim import cli, dataset
 from contactsim.contact import loading
 from contactsim.contact.scene import Body, Scene
@@ -12,6 +11,7 @@ from contactsim.elasticity.solids import HalfSpace
 from contactsim.figures import maps
 from contactsim.interface.laws import HardWall
 from contactsim.surfaces.shapes import Flat, Sinusoid
+from support.places import ROOT
 
 SCENE = """
 surface: {kind: sinusoid, length: 1000.0, amplitude: 5.0}

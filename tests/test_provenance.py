@@ -79,12 +79,12 @@ def test_imports_of_every_form_and_at_any_depth_are_found(package):
     write(
         package,
         one="import contactsim.grid\nimport numpy.linalg\n",
-        two="from contactsim import one, SceneError\nfrom contactsim.solvers.registry import base\n",
+        two="from contactsim import one, SceneError\nfrom contactsim.solvers import base\n",
         three="def f():\n    if True:\n        from contactsim.two import one as other\n",
     )
     assert imports_of("contactsim.one") == {"contactsim.grid"}
     assert imports_of("contactsim.two") == {
-        *("contactsim", "contactsim.one", "contactsim.solvers.registry", "contactsim.solvers.base")
+        *("contactsim", "contactsim.one", "contactsim.solvers", "contactsim.solvers.base")
     }
     assert imports_of("contactsim.three") == {"contactsim.two"}
     assert {"contactsim.one", "contactsim.two", "contactsim.grid"} < set(modules_used("contactsim.three"))

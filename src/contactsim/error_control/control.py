@@ -25,6 +25,7 @@ from contactsim.error_control.options import SAFETY, chosen, coarser, left_open,
 from contactsim.error_control.scaling import MEASURES, ORDERS, SECOND, Kind, kind_of, relations
 from contactsim.grid import Array
 from contactsim.solvers.registry import solver
+from contactsim.status import is_solved
 from contactsim.study.execute import asked_of, keep, names_of, simulate
 from contactsim.study.keys import is_smooth
 from contactsim.study.scenes import scene_of

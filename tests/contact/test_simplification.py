@@ -1,0 +1,129 @@
+"""What a scene is asked to leave out is left out, and what that costs is measured."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import yaml
+
+from contactsim import cli, dataset
+from contactsim.analysis import aggregate
+from contactsim.contact.simplification import LEFT_OUT, left_out
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.errors import SceneError
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.study import execute
+from contactsim.study.study import Study
+from support.smooth import LAYER, scene_of
+
+SCENE = scene_of(CohesiveZone(2.0, 0.5, 1.5, 2.0))
+ASPERITY = {
+    "title": "Asperity",
+    "surface": {"kind": "cylinder", "radius": 25000.0, "length": 10000.0},
+    "body": {"kind": "layer", "youngs_modulus": 70.0, "poisson_ratio": 0.1, "thickness": 5000.0},
+    "effects": ["cohesive_zone"],
+    "cohesive_zone": {"work_of_separation": 2.0},
+    "vary": {"cohesive_zone.work_ratio": [0.0, 1.0]},
+    "path": {"approach": [-8.0, 0.0], "increment": 0.5},
+    "points": 128,
+    "tolerance": 1.0e-7,
+    "leave_out": ["coupling"],
+    "whole": {"members": 1},
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "effect", "body"),
+    [
+        ("coupling", NormalCohesiveZone(2.0, 1.5), LAYER),
+        ("friction", CohesiveZone(2.0, 0.0, 1.5, 2.0), LAYER),
+        ("height", SCENE.effects[0], HalfSpace(LAYER.contact_modulus, LAYER.poisson_ratio)),
+        ("compressibility", SCENE.effects[0], replace(LAYER, poisson_ratio=0.5)),
+    ],
+)
+def test_each_changes_one_thing_of_a_scene(name, effect, body):
+    less = left_out(SCENE, [name])
+    assert less.effects == (effect,)
+    assert less.lower.elasticity == body
+    assert less.upper == SCENE.upper
+    assert left_out(less, [name]) == less
+
+
+def test_all_of_them_together_in_any_order_leave_a_normal_scene():
+    found = [left_out(SCENE, names) for names in itertools.permutations(LEFT_OUT)]
+    assert all(less == found[0] for less in found)
+    assert found[0].components == found[0].exerted == ("n",)
+    assert set(LEFT_OUT) == {"friction", "height", "compressibility", "coupling", "second_body", "short_waves"}
+
+
+def test_an_effect_that_no_variant_has_is_refused_and_one_that_some_have_is_not():
+    for names in (["friction", "coupling"], ["coupling", "friction"]):
+        assert Study.read("asperity", ASPERITY | {"leave_out": names}, "ch9.yaml", 1).runs()
+    deep = {"body": {"kind": "half_space", "youngs_modulus": 70.0, "poisson_ratio": 0.1}, "leave_out": ["height"]}
+    with pytest.raises(SceneError, match=r"leave_out: got 'height'; allowed: effects that the study has"):
+        Study.read("asperity", ASPERITY | deep, "ch9.yaml", 1)
+
+
+def test_what_is_left_out_is_explained(tmp_path, capsys):
+    file = tmp_path / "scene.yaml"
+    section = {name: value for name, value in ASPERITY.items() if name not in ("whole", "title", "vary")}
+    file.write_text(yaml.safe_dump(section | {"leave_out": ["height"]}), encoding="utf-8")
+    cli.main(["explain", str(file)])
+    told = capsys.readouterr().out
+    assert "height: as the study asks" in told
+    assert "HalfSpace" in told
+
+
+def test_a_wall_on_a_path_has_the_error_of_what_is_left_out(tmp_path):
+    wall = {"effects": ["hard_wall"], "path": {"approach": [0.0, 3.0], "increment": 1.0}, "leave_out": ["height"]}
+    given = {name: value for name, value in ASPERITY.items() if name not in ("cohesive_zone", "vary")}
+    study = Study.read("asperity", given | wall | {"tolerance": 1e-3}, "ch9.yaml", 1)
+    data = _aggregated(study, tmp_path)
+    assert (data.normalised_pressure_left_out_error > 0).any()
+
+
+def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path):
+    study = Study.read("asperity", ASPERITY, "ch9.yaml", 1)
+    assert [run.error for run in study.runs()] == ["", "", "left_out", "left_out"]
+    assert ["leave_out" in run.settings for run in study.runs()] == [True, True, False, False]
+    data = _aggregated(study, tmp_path)
+    assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
+    error = data.pull_off_load_loading_left_out_error
+    files = [tmp_path / f"{run.variant}_left_out.nc" for run in study.runs() if run.companion]
+    whole = [aggregate.summarised(dataset.read(file)).pull_off_load_loading for file in files]
+    assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
+    assert (error > 5).all()
+
+
+def test_runs_with_nothing_left_out_measure_nothing_where_nothing_is():
+    section = {name: value for name, value in ASPERITY.items() if name != "leave_out"}
+    with pytest.raises(SceneError, match=r"whole: got .*; allowed: none, for the study has no leave_out"):
+        Study.read("asperity", section, "ch9.yaml", 1)
+
+
+def _aggregated(study, folder):
+    """All runs of a study, made, as one dataset."""
+    listed = []
+    for run in study.runs():
+        path = folder / f"{run.variant}_{run.error}.nc"
+        execute.run(run.settings, run.source, path, path.with_suffix(".json"))
+        place = {"coordinates": run.coordinates, "member": run.member, "companion": run.companion, "error": run.error}
+        listed.append({"path": path} | place)
+    return aggregate.aggregate(listed, study.settings | {"tier": "quick", "name": "asperity"}, "abc")
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"leave_out": ["height", "rain"]}, "leave_out"),
+        ({"whole": {"members": 2}}, "whole.members"),
+        ({"leave_out": ["coupling", "coupling"]}, "leave_out"),
+    ],
+)
+def test_what_cannot_be_left_out_is_refused_with_its_key(changes, key):
+    with pytest.raises(SceneError) as caught:
+        Study.read("asperity", ASPERITY | changes, "ch9.yaml", 1)
+    assert (caught.value.file, caught.value.key) == ("ch9.yaml", f"studies.asperity.{key}")

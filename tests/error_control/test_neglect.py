@@ -1,0 +1,272 @@
+"""What is negligible is left out: maps, a check on a sample, what is decided, and what is simulated once."""
+
+from __future__ import annotations
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from contactsim import dataset
+from contactsim.contact.simplification import LEFT_OUT, left_out
+from contactsim.error_control import effect_maps, neglect
+from contactsim.error_control.effect_maps import change, expected, reduced
+from contactsim.error_control.neglect import decide, effects_of, foreseen, run
+from contactsim.evaluation.effects.survey import as_text, measure, read_maps
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from support.cases import refused
+from support.places import ROOT
+
+ASPERITY = {
+    "title": "Asperity",
+    "surface": {"kind": "cylinder", "radius": 25000.0, "length": 10000.0},
+    "body": {"kind": "layer", "youngs_modulus": 70.0, "poisson_ratio": 0.3, "thickness": 5000.0},
+    "effects": {"auto": ["cohesive_zone"], "within": 0.05, "of": ["pull_off_load_loading"]},
+    "cohesive_zone": {"work_of_separation": 2.0, "work_ratio": 0.1},
+    "path": {"approach": [-10.0, 4.0], "increment": 0.5},
+    "points": 512,
+    "tolerance": 1.0e-4,
+}
+
+
+def study(**more: object) -> Study:
+    return Study.read("asperity", ASPERITY | more, "file", 1)
+
+
+def settings_of(ratio: float = 0.3, work: float = 0.1, **more: object) -> dict:
+    body = ASPERITY["body"] | {"poisson_ratio": ratio}
+    law = ASPERITY["cohesive_zone"] | {"work_ratio": work}
+    return study(body=body, cohesive_zone=law, **more).runs()[0].settings
+
+
+def test_the_thesis_three_conditions_are_on_the_map():
+    def coupling(ratio: float, work: float, spacing: float = 0.4) -> float:
+        """Largest change of pull-off and contact length without the coupling."""
+        surface = {"kind": "cylinder", "radius": 25000.0, "length": spacing * 25000.0}
+        return expected(settings_of(ratio, work, surface=surface), "coupling")
+
+    assert coupling(0.1, 0.0) > 0.1
+    assert coupling(0.1, 3.0) < 0.5 * coupling(0.1, 0.0)  # large friction
+    assert coupling(0.49, 0.0) < 0.1 * coupling(0.1, 0.0)  # an incompressible solid
+    assert coupling(0.3, 0.0, 0.04) < 0.5 * coupling(0.3, 0.0)  # closely spaced contacts
+
+
+def test_between_places_of_a_map_the_largest_change_around_counts_and_beyond_it_nothing_is_known():
+    corners = [expected(settings_of(ratio, 0.1), "coupling") for ratio in (0.3, 0.4)]
+    assert expected(settings_of(0.35, 0.1), "coupling") == max(corners)
+    assert expected(settings_of(0.4999, 0.1), "coupling") is None
+    assert expected(settings_of(0.3, 0.1, counter_body=ASPERITY["body"]), "coupling") is None
+    flat = {"kind": "flat", "length": 10000.0}
+    assert expected(settings_of(0.3, 0.1) | {"surface": flat}, "coupling") is None
+
+
+def test_a_map_is_the_change_that_two_solutions_show():
+    settings = read_maps(ROOT / "config", {}, "standard")["maps"]["coupling"]
+    settings["axes"] = {
+        "poisson_ratio": settings["axes"]["poisson_ratio"] | {"values": [0.1, 0.49]},
+        "work_ratio": settings["axes"]["work_ratio"] | {"values": [0.0]},
+    }
+    data = measure("coupling", settings)
+    assert data.change_without.dims == ("poisson_ratio", "work_ratio")
+    large, small = data.change_without.values.ravel()
+    assert large > 0.1 > 10 * small
+    told = as_text({"coupling": data}, {"maps": {"coupling": settings}})
+    assert "leave_out: [coupling]" in told
+
+
+def test_the_frozen_maps_are_those_of_the_config():
+    settings = read_maps(ROOT / "config", {}, "standard")
+    assert set(effect_maps.maps()) == set(settings["maps"])
+    for name, one in effect_maps.maps().items():
+        assert one["axes"] == settings["maps"][name]["axes"], name
+        assert len(one["change"]) == np.prod([len(axis["values"]) for axis in one["axes"].values()])
+        assert all(np.isfinite(one["change"]))
+
+
+@pytest.mark.parametrize(
+    ("over", "key", "allowed"),
+    [
+        ({"maps": {"coupling": {"leave_out": ["gravity"]}}}, "leave_out", "coupling"),
+        ({"maps": {"coupling": {"axes": {"spacing": {"values": "all"}}}}}, "values", "a list"),
+        ({"maps": {"coupling": None, "new": []}}, "maps.new", "a mapping"),
+        ({"maps": {"coupling": {"of": ["colour"]}}}, "coupling.of", "pull_off_load_loading"),
+        ({"maps": {"height": {"scene": {"members": 2}}}}, "height.scene", "one: nothing varied"),
+        ({"maps": {"height": {"axes": {"thickness": {"key": "table.thickness"}}}}}, "thickness.key", "scene"),
+        ({"maps": {"height": {"axes": {"thickness": {"key": "accuracy.thickness"}}}}}, "thickness.key", "scene"),
+        ({"maps": {"height": {"axes": {"thickness": {"per": ["surface.kind"]}}}}}, "thickness.per", "numbers"),
+        ({"maps": {"height": {"axes": {"thickness": {"per": ["body.width"]}}}}}, "thickness.per", "numbers"),
+        ({"maps": {"height": {"axes": {"thickness": {"key": "body.width"}}}}}, "body.width", "known keys"),
+        ({"maps": {"height": {"axes": {"thickness": None, "poisson_ratio": None}}}}, "height.axes", "at least one"),
+        (
+            {"panels": [{"map": "height", "across": "thickness", "up": "poisson_ratio", "conditions": {"here": 1}}]},
+            "conditions.here",
+            "two parts",
+        ),
+        ({"panels": [{"map": "none", "across": "a", "up": "b"}]}, "panels.0.map", "coupling"),
+        ({"panels": [{"map": "height", "across": "thickness", "up": "thickness"}]}, "panels.0", "poisson_ratio"),
+        (
+            {"panels": [{"map": "friction", "across": "poisson_ratio", "up": "work_ratio", "at": {"strength": 7.0}}]},
+            "strength",
+            "one of",
+        ),
+    ],
+)
+def test_what_a_map_cannot_be_is_refused(over, key, allowed):
+    with refused(key, allowed):
+        read_maps(ROOT / "config", over, "quick")
+
+
+def test_only_effects_that_a_run_has_can_be_left_out_of_it():
+    assert set(effects_of(settings_of(0.3, 0.1))) == {"friction", "coupling", "compressibility", "height"}
+    assert "friction" not in effects_of(settings_of(0.3, 0.0))
+    assert "compressibility" not in effects_of(settings_of(0.5, 0.1))
+
+
+def test_an_effect_that_maps_and_sample_find_negligible_is_left_out_and_another_stays():
+    less = decide(settings_of(0.49, 0.0), 0.05, ["pull_off_load_loading"], 1)
+    assert "coupling" in less.left_out
+    assert less.together <= 0.05
+    assert "coupling left out" in less.words
+    assert less.work > 0
+    whole = decide(settings_of(0.0, 0.0), 0.05, ["pull_off_load_loading"], 1)
+    assert "coupling" not in whole.left_out
+    assert "coupling kept" in whole.words
+    assert "as no map knows: height" in whole.words
+    assert json.loads(less.text)["left_out"] == less.left_out
+    assert "seconds" not in json.loads(less.text)
+
+
+def test_the_measured_change_decides_against_the_map(monkeypatch):
+    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.001)
+    found = decide(settings_of(0.0, 0.0), 0.05, ["pull_off_load_loading"], 1)
+    assert found.measured["coupling"] > 0.05
+    assert "coupling" not in found.left_out
+
+
+def test_of_effects_that_are_too_much_together_the_largest_is_put_back(monkeypatch):
+    changes = {"friction": 0.01, "coupling": 0.03, "compressibility": 0.04, "height": 0.2}
+    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.001)
+    monkeypatch.setattr(neglect, "change", lambda run, names, of, known: sum(changes[name] for name in names))
+    found = decide(settings_of(), 0.05, ["pull_off_load_loading"], 1)
+    assert found.left_out == ["friction", "coupling"]
+    assert found.together == pytest.approx(0.04)
+
+
+def test_an_effect_far_from_negligible_is_not_even_checked(monkeypatch):
+    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.9)
+    monkeypatch.setattr(neglect, "change", lambda *given: pytest.fail("checked"))
+    assert decide(settings_of(), 0.05, ["pull_off_load_loading"], 1).left_out == []
+
+
+def test_runs_whose_scenes_are_the_same_without_an_effect_are_the_same():
+    one, two = (settings_of(0.45, work) for work in (0.0, 0.5))
+    assert reduced(one) != reduced(two)
+    assert reduced(one | {"leave_out": ["coupling"]}) == reduced(two | {"leave_out": ["coupling"]})
+    assert reduced(one | {"leave_out": ["coupling"]}) != reduced(settings_of(0.3, 0.0) | {"leave_out": ["coupling"]})
+
+
+def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(monkeypatch):
+    values = iter([np.nan, 3.0, np.nan, np.nan, 2.0, 3.0])
+    monkeypatch.setattr(
+        effect_maps, "_solved", lambda *given: SimpleNamespace(values={"a": np.array([next(values)])}, solved=True)
+    )
+    assert change({}, ["coupling"], ["a"]) == np.inf
+    assert change({}, ["coupling"], ["a"]) == np.inf  # nothing can be said of what neither has
+    assert change({}, ["coupling"], ["a"]) == 0.5
+
+
+def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_taken_over(tmp_path):
+    one, two = (settings_of(0.49, work, points=128) for work in (0.0, 0.5))
+    decision = tmp_path / "decision.json"
+    decision.write_text(decide(one, 0.05, ["pull_off_load_loading"], 1).text)
+    left = json.loads(decision.read_text())["left_out"]
+    assert "coupling" in left
+    run(one, "source", tmp_path / "one.nc", tmp_path / "one.json", decision=decision)
+    data = dataset.read(tmp_path / "one.nc")
+    assert data.left_out.item() == ", ".join(left)
+    assert data.left_out_change <= 0.05
+    assert data.transforms_of_check > 0
+    run(
+        two,
+        "source",
+        tmp_path / "two.nc",
+        tmp_path / "two.json",
+        decision=decision,
+        twin=tmp_path / "one.nc",
+    )
+    other = dataset.read(tmp_path / "two.nc")
+    assert (other.line_load == data.line_load).all()
+    assert other.transforms.sum() == 0
+    assert (other.point != data.point).all()
+    other_decision = tmp_path / "other.json"
+    other_decision.write_text(json.dumps(json.loads(decision.read_text()) | {"left_out": []}))
+    run(
+        two,
+        "source",
+        tmp_path / "three.nc",
+        tmp_path / "three.json",
+        decision=other_decision,
+        twin=tmp_path / "one.nc",
+    )
+    assert dataset.read(tmp_path / "three.nc").transforms.sum() > 0
+
+
+def test_chapter_5_leaves_the_coupling_out_where_it_is_negligible_and_simulates_such_variants_once():
+    plan = Plan.read(ROOT / "config", "standard")
+    runs = [one for one in plan.studies["rough_adhesive_auto"].runs() if not one.companion]
+    twins = {one.stem: plan.twin(one) for one in runs}
+    for one in runs:
+        place = one.coordinates["poisson_ratio"], one.coordinates["work_ratio"]
+        assert "coupling" in foreseen(one.settings, 0.05) if place[0] == 0.45 else True
+        assert bool(twins[one.stem]) == (place == (0.45, 0.5)), place
+    assert all(plan.decision(one) for one in runs)
+
+
+@pytest.mark.parametrize(
+    ("section", "key", "allowed"),
+    [
+        ({"effects": {"auto": ["glue"], "within": 0.1, "of": ["final_load"]}}, "effects.auto", "a list from"),
+        ({"effects": {"auto": ["cohesive_zone"], "within": 2.0, "of": ["final_load"]}}, "effects.within", "below 1"),
+        ({"effects": {"auto": ["cohesive_zone"], "within": 0.1}}, "effects.of", "missing"),
+        (
+            {"effects": {"auto": ["cohesive_zone"], "within": 0.1, "of": ["final_load"], "sample": 3}},
+            "effects.sample",
+            "at most 1",
+        ),
+        ({"leave_out": ["friction"]}, "leave_out", "left out anyway"),
+    ],
+)
+def test_what_cannot_be_left_out_by_itself_is_refused(section, key, allowed):
+    with refused(key, allowed):
+        study(**section)
+
+
+@pytest.mark.parametrize("dimensions", [1, 2])
+def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
+    given = {"length": 64.0, "hurst": 0.5, "rolloff_wavelength": 32.0, "shortest_wavelength": 4.0, "rms_gradient": 0.1}
+    surface = SelfAffine(**given, dimensions=dimensions, rng=generator(1, 0.5))
+    smooth = SelfAffine(**given, dimensions=dimensions, smoothed=8.0, rng=generator(1, 0.5))
+    assert smooth.modes == 7
+    whole = np.fft.fftn(surface.heights(64))
+    waves = np.fft.fftfreq(64, 1 / 64)
+    square = waves**2 if dimensions == 1 else waves[:, None] ** 2 + waves**2
+    kept = np.fft.ifftn(np.where(square <= 49, whole, 0)).real
+    assert np.allclose(smooth.heights(64), kept, atol=1e-12)
+    assert smooth.gradient < surface.gradient
+    assert np.array_equal(surface.heights(64), surface.heights(64))
+    smooth.check(16)
+    with refused("smoothed", "below the roll-off"):
+        SelfAffine(**given, smoothed=40.0, rng=generator(1, 0.5))
+
+
+def test_a_second_body_and_short_waves_are_left_out_where_there_are_such():
+    stiff = ASPERITY["body"] | {"youngs_modulus": 700.0}
+    scene = scene_of(settings_of(counter_body=stiff) | {"leave_out": []})
+    assert left_out(scene, ["second_body"]).upper.elasticity is None
+    soft = scene_of(settings_of(counter_body=ASPERITY["body"] | {"youngs_modulus": 7.0}) | {"leave_out": []})
+    assert left_out(soft, ["second_body"]).lower.elasticity is None
+    assert set(LEFT_OUT) >= {"second_body", "short_waves"}

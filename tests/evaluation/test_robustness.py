@@ -1,0 +1,341 @@
+"""The judge can tell every outcome, and the map of outcomes is made of what it says."""
+
+from __future__ import annotations
+
+import json
+from copy import deepcopy
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+
+from contactsim import dataset, press
+from contactsim.contact import hard_wall
+from contactsim.errors import SceneError
+from contactsim.evaluation.robustness.cases import Case, made
+from contactsim.evaluation.robustness.judge_loads import faults
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.registry import HAZARDS
+from contactsim.evaluation.robustness.survey import gather, judge, read_settings, survey
+from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, taken
+from contactsim.figures.layout import render
+from contactsim.solvers.base import State
+from contactsim.solvers.registry import solver
+from contactsim.study.plan import Plan
+from contactsim.variables import VARIABLES
+from support.cases import ALL, ON_SURFACES
+from support.places import ROOT
+
+ON_PATHS = ("newton", "mass_weighted_verlet", "energy_minimisation")
+CASE = made(np.cos(2 * np.pi * np.arange(64) / 64) - 0.3)
+SURFACE = made(np.add.outer(np.cos(2 * np.pi * np.arange(10) / 10), np.cos(2 * np.pi * np.arange(16) / 16)) - 0.3)
+SETTINGS = yaml.safe_load((ROOT / "config/stability.yaml").read_text(encoding="utf-8"))
+
+
+class Stuck:
+    """A solver that believes that uniform pressure times a factor is the answer."""
+
+    accepts = solver("active_set").accepts
+    budget = 3
+
+    def __init__(self, factor):
+        self.factor = factor
+
+    def start(self, problem, guess=None):
+        return State(np.ones_like(problem.heights), False)
+
+    def step(self, problem, state):
+        return State(state.pressure * self.factor, True)
+
+
+def solved(case):
+    return press(
+        case.heights,
+        spacing=case.spacing,
+        contact_modulus=case.contact_modulus,
+        mean_pressure=case.mean_pressure,
+        approach=case.approach,
+        tolerance=case.tolerance,
+    )
+
+
+# --- the judge ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("case", "method", "outcome", "reason"),
+    [
+        (CASE, "active_set", Outcome.RIGHT, ""),
+        (replace(CASE, exact=None), "active_set", Outcome.CERTIFIED, ""),
+        (replace(CASE, mean_pressure=-1.0), "active_set", Outcome.REFUSED, "nothing can pull"),
+        (replace(CASE, mean_pressure=None, approach=0.0), "verlet", Outcome.REFUSED, "APPROACH"),
+        (CASE, solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "budget"),
+        (CASE, Stuck(1.0), Outcome.FAILED, "budget"),
+        (CASE, "conjugate_gradients", Outcome.REFUSED, "LINE"),
+        (SURFACE, "conjugate_gradients", Outcome.RIGHT, ""),
+        (SURFACE, "polonsky_keer", Outcome.RIGHT, ""),
+        (SURFACE, "active_set", Outcome.REFUSED, "SURFACE"),
+        (replace(SURFACE, exact=None), "conjugate_gradients", Outcome.CERTIFIED, ""),
+        (replace(SURFACE, exact=SURFACE.exact[:, ::-1]), "conjugate_gradients", Outcome.WRONG, "pressure off"),
+        (replace(SURFACE, mirror=(0, 0)), "conjugate_gradients", Outcome.RIGHT, ""),
+        (replace(SURFACE, mirror=(0, 1)), "conjugate_gradients", Outcome.WRONG, "symmetric"),
+        (replace(SURFACE, mirror=(1, 0)), "conjugate_gradients", Outcome.WRONG, "symmetric"),
+        (CASE, Stuck(np.nan), Outcome.NON_FINITE, "not finite"),
+        (CASE, Stuck(np.inf), Outcome.NON_FINITE, "not finite"),
+        (replace(CASE, refuse=True), "active_set", Outcome.WRONG, "should have refused"),
+        (replace(CASE, exact=CASE.exact[::-1] * 1.01), "active_set", Outcome.WRONG, "pressure off"),
+    ],
+)
+def test_every_outcome_can_be_reached(case, method, outcome, reason):
+    verdict = judge(case, method)
+    assert verdict.outcome is outcome
+    assert reason in verdict.reason
+
+
+def test_a_wrong_answer_that_the_certificate_lets_pass_is_found_out(monkeypatch):
+    monkeypatch.setattr(hard_wall.Certificate, "met", lambda self, tolerance: True)
+    verdict = judge(CASE, Stuck(1.0))
+    assert verdict.outcome is Outcome.WRONG
+    assert "contact condition" in verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        ({"pressure": lambda result: result.pressure - 2 * result.pressure.max() * (np.arange(64) == 32)}, "negative"),
+        ({"pressure": lambda result: result.pressure * (1 + 1e-9)}, "forces"),
+        ({"pressure": lambda result: np.roll(result.pressure, 1)}, "contact condition"),
+        ({"approach": lambda result: result.approach + 1e-4}, "contact condition"),
+    ],
+)
+def test_every_fault_of_a_solution_is_found(change, fault):
+    result = solved(CASE)
+    assert faults(CASE, result) == ""
+    assert fault in faults(CASE, replace(result, **{name: made(result) for name, made in change.items()}))
+
+
+def test_a_solution_not_exact_not_symmetric_or_of_another_area_is_found():
+    result = solved(CASE)
+    assert "exact" in faults(replace(CASE, exact=np.roll(CASE.exact, 1)), result)
+    assert "area" in faults(replace(CASE, exact=None, area=0.3), result)
+    assert faults(replace(CASE, mirror=0), result) == ""
+    assert "symmetric" in faults(replace(CASE, mirror=5), result)
+    wanted = Case(CASE.heights, approach=0.01, tolerance=1e-8)
+    assert "approach" in faults(wanted, result)
+    assert faults(replace(wanted, approach=result.approach), result) == ""
+
+
+def test_an_overlap_outside_the_contact_is_found():
+    result = solved(CASE)
+    raised = CASE.heights + np.where(np.arange(64) == 32, 5.0, 0.0)  # where nothing carries
+    assert result.pressure[32] == 0
+    assert "contact condition" in faults(replace(CASE, heights=raised, exact=None), result)
+
+
+def test_a_share_of_the_load_on_the_wrong_points_is_found_where_a_grid_step_is_coarse():
+    case = HAZARDS["equal_heights"](85)
+    result = solved(case)
+    uneven = result.pressure * np.where(np.cumsum(result.contact) % 2, 1.3, 0.7)
+    assert faults(case, result) == ""
+    assert "exact" in faults(case, replace(result, pressure=uneven * (result.pressure.sum() / uneven.sum())))
+
+
+def test_at_a_given_approach_the_pressure_is_held_to_a_thousandth():
+    case = HAZARDS["last_gap"](0)
+    result = solved(case)
+    assert "exact" in faults(replace(case, exact=case.exact * 1.01), result)
+
+
+def test_iterations_without_a_load_are_found():
+    case = Case(CASE.heights, 0.0)
+    result = solved(case)
+    assert faults(case, result) == ""
+    assert "no load" in faults(case, replace(result, record=replace(result.record, iterations=1)))
+    assert "no load" in faults(case, replace(result, approach=result.approach - 1.0))
+
+
+# --- the settings ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "value", "allowed"),
+    [
+        ({"severities": [0, 101]}, "severities", [0, 101], "0 to 100"),
+        ({"severities": [50, 0]}, "severities", [50, 0], "rising"),
+        ({"severities": []}, "severities", [], "list"),
+        ({"severities": [0, "5"]}, "severities", [0, "5"], "numbers"),
+        ({"hazards": ["flood"]}, "hazards", ["flood"], "tension"),
+        ({"hazards": ["flat", "flat"]}, "hazards", ["flat", "flat"], "twice"),
+        ({"solvers": {}}, "solvers", {}, "at least one"),
+        ({"solvers": {"guess": {}}}, "solvers.guess", {}, "active_set"),
+        ({"solvers": {"verlet": {"speed": 1}}}, "solvers.verlet.speed", 1, "time_step"),
+        ({"solvers": {"verlet": {"time_step": 2.0}}}, "solvers.verlet.time_step", 2.0, "below 1"),
+        ({"solvers": {"verlet": 3}}, "solvers.verlet", 3, "options"),
+        ({"size": [1.0]}, "size", [1.0], "inches"),
+        ({"colour": "red"}, "colour", "red", "known keys"),
+    ],
+)
+def test_a_bad_setting_is_refused_with_file_key_value_and_what_is_allowed(change, key, value, allowed):
+    with pytest.raises(SceneError, match=r"stability\.yaml") as caught:
+        read_settings(deepcopy(SETTINGS) | change, "stability.yaml")
+    assert (caught.value.key, caught.value.value) == (key, value)
+    assert allowed in str(caught.value)
+
+
+def test_a_missing_setting_is_refused():
+    with pytest.raises(SceneError, match="severities"):
+        read_settings({key: value for key, value in SETTINGS.items() if key != "severities"}, "stability.yaml")
+
+
+def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
+    settings = Plan.read(ROOT / "config").stability
+    assert settings["hazards"] == list(HAZARDS)
+    assert set(settings["solvers"]) == {*ALL, *ON_SURFACES, *ON_PATHS}
+    assert settings["solvers"]["verlet"]["budget"] == solver("verlet").budget
+
+
+def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):
+    for file in (ROOT / "config").glob("*.yaml"):
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    assert Plan.read(tmp_path, "quick").stability["severities"] == [0, 50, 100]
+    assert Plan.read(tmp_path, "standard").stability["severities"] == list(range(0, 101, 5))
+    (tmp_path / "stability.yaml").unlink()
+    assert Plan.read(tmp_path, "standard").stability is None
+    with pytest.raises(SceneError, match=r"quick\.stability"):
+        Plan.read(tmp_path, "quick")
+
+
+def test_jobs_change_with_what_they_depend_on_and_nothing_else():
+    plan = Plan.read(ROOT / "config", "quick")
+    job, whole, drawn = plan.hazard_settings("flat"), plan.map_settings(), plan.map_figure()
+    assert "flat" not in json.dumps(plan.hazard_settings("units"))
+    plan.stability["caption"] = "Other."
+    assert (job, whole) == (plan.hazard_settings("flat"), plan.map_settings())
+    assert drawn != plan.map_figure()
+    plan.stability["severities"] = [0.0]
+    assert job != plan.hazard_settings("flat")
+    assert drawn["data"] != plan.map_figure()["data"]
+
+
+# --- the dataset and the figure -------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """A small map: its files in a folder, and the surveys that it was made of."""
+    folder = tmp_path_factory.mktemp("map")
+    plan = Plan.read(ROOT / "config", "quick")
+    plan.stability.update(hazards=["tension", "nearly_full_rough", "low_spike"], severities=[0.0, 20.0, 100.0])
+    parts = []
+    for hazard in plan.stability["hazards"]:
+        dataset.write(survey(**json.loads(json.dumps(plan.hazard_settings(hazard)))), folder / f"{hazard}.nc")
+        parts.append(dataset.read(folder / f"{hazard}.nc"))
+    settings = plan.map_settings()
+    dataset.write(gather(parts, settings["settings"], settings["source"]), folder / "stability.nc")
+    targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
+    render(json.loads(json.dumps(plan.map_figure())), [folder / "stability.nc"], [], targets)
+    return folder
+
+
+def test_the_dataset_says_what_came_of_every_cell(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    assert dict(data.sizes) == {"hazard": 3, "solver": 7, "severity": 3}
+    assert data.hazard.values.tolist() == ["tension", "nearly_full_rough", "low_spike"]
+    assert (data.outcome.sel(hazard="tension") == Outcome.REFUSED.value[0]).all()
+    assert "nothing can pull" in str(data.reason.sel(hazard="tension")[0, 0].values)
+    failed = data.sel(hazard="low_spike", solver="polonsky_keer", severity=20)
+    assert failed.outcome == Outcome.FAILED.value[0]
+    assert failed.transforms > 10_000
+    assert "budget" in str(failed.reason.values)
+    assert data.taken.sel(hazard="low_spike").values.tolist() == [1, 0, 0, 0, 0, 1, 1]
+    surfaces_only = data.sel(solver="conjugate_gradients")
+    assert (surfaces_only.outcome == Outcome.REFUSED.value[0]).all()
+    data = data.sel(solver=["active_set", "polonsky_keer", "verlet"])
+    spike = data.outcome.sel(hazard="low_spike")
+    assert (spike.sel(severity=0) == Outcome.RIGHT.value[0]).all()
+    assert (spike.sel(severity=100) == Outcome.CERTIFIED.value[0]).all()
+    right = data.sel(hazard="nearly_full_rough")
+    assert (right.outcome == Outcome.RIGHT.value[0]).all()
+    assert (right.tolerance == 1e-8).all()
+
+
+def test_everything_in_the_dataset_is_described(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    for name in data.variables:
+        assert data[name].attrs["units"] == "1", name
+        assert VARIABLES[name][1] == data[name].attrs["long_name"], name
+    meanings = data.outcome.attrs["flag_meanings"].split()
+    assert dict(zip(meanings, data.outcome.attrs["flag_values"], strict=True)) == {
+        outcome.name.lower(): outcome.value[0] for outcome in Outcome
+    }
+    assert dataset.settings_of(data)["tier"] == "quick"
+
+
+def test_a_survey_made_again_is_the_same_byte_for_byte(drawn, tmp_path):
+    data = dataset.read(drawn / "low_spike.nc")
+    again = survey(**dataset.settings_of(data), source=data.attrs["source_digest"])
+    dataset.write(again, tmp_path / "again.nc")
+    assert (tmp_path / "again.nc").read_bytes() == (drawn / "low_spike.nc").read_bytes()
+
+
+def test_the_map_is_drawn_and_gives_its_numbers(drawn):
+    assert (drawn / "stability.png").read_bytes().startswith(b"\x89PNG")
+    assert (drawn / "stability.pdf").read_bytes().startswith(b"%PDF")
+    rows = pd.read_csv(drawn / "stability.csv")
+    assert len(rows) == 63
+    assert rows.outcome.value_counts()["refused"] == 45
+    assert not rows.outcome.isin(["wrong", "non_finite"]).any()
+
+
+def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    data["outcome"][0, 0, 0], data["outcome"][0, 0, 1:] = Outcome.WRONG.value[0], Outcome.NON_FINITE.value[0]
+    assert footer(data).endswith("1 wrong, 2 not finite")
+    axes = Figure().subplots()
+    stability(data, [axes])
+    for mesh, hazard in zip(axes.collections, data.hazard.values, strict=True):
+        outcomes = taken(data.sel(hazard=hazard)).outcome.values
+        wanted = [to_rgba(list(COLOURS.values())[value]) for value in outcomes.ravel()]
+        assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
+
+
+def test_the_map_says_why_a_case_was_refused_and_fits_its_numbers_into_their_cells(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    axes = Figure(figsize=(13, 8)).subplots()
+    stability(data, [axes])
+    texts = [text.get_text() for text in axes.texts]
+    assert texts.count("without adhesion nothing can pull") == 3  # solvers that take lines
+    assert min(text.get_fontsize() for text in axes.texts) >= 5
+    assert {"active set", "Polonsky–Keer", "Verlet"} == {text.get_text() for text in axes.get_yticklabels()}
+
+
+def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
+    data = dataset.read(drawn / "stability.nc")
+    assert "refused and left out, as their solver does not take the kind of case: 36 ·" in footer(data)
+    one = data.sel(hazard="low_spike")
+    assert taken(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
+    alone = one.sel(solver=["conjugate_gradients"])
+    assert taken(alone).solver.values.tolist() == ["conjugate_gradients"]
+
+
+def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):
+    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough")
+    one = one.sel(solver=["active_set", "polonsky_keer", "verlet"])
+    refused = Outcome.REFUSED.value[0]
+    one["outcome"].values[:2] = [[refused, refused, 0], [refused, 0, refused]]
+    one["reason"].values[:2] = [["a: b", "c: b", ""], ["b", "", "c"]]
+    assert refusals(one) == [{(0, 2): "b"}, {(0, 1): "b", (2, 3): "c"}, {}]
+
+
+def test_the_short_reason_of_a_trait_is_what_the_solver_does_not_take():
+    verdict = judge(replace(CASE, mean_pressure=None, approach=0.0), "verlet")
+    assert short_reason(verdict.reason) == "takes no approach"
+
+
+def test_every_outcome_has_a_colour_of_its_own():
+    assert list(COLOURS) == list(Outcome)
+    assert len(set(COLOURS.values())) == len(Outcome)

@@ -1,0 +1,426 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+import yaml
+
+from contactsim.errors import SceneError
+from contactsim.evaluation.work_precision import case_config, cases, error_cost
+from contactsim.solvers import registry as solver_registry
+from contactsim.status import Status
+from contactsim.study.execute import simulate
+from contactsim.study.plan import Plan
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
+from support.places import ROOT
+
+CASE = {
+    "title": "Case",
+    "caption": "What it shows.",
+    "size": [8.0, 5.0],
+    "study": "smooth_line",
+    "load": [0.1, 0.2],
+    "quantities": ["kappa_r", "relative_contact_area"],
+    "settled": {"points": 512, "tolerance": 1.0e-4},
+    "reference": {"points": 16384, "tolerance": 1.0e-8},
+    "levels": {"points": [0.05], "tolerance": [0.1, 0.01]},
+    "solvers": {
+        "active_set": {"points": [256, 512, 1024], "tolerance": [10.0, 1.0e-2]},
+        "polonsky_keer": {"points": [256]},
+    },
+    "repeats": 2,
+}
+VARY = "quick.case.vary.surface.hurst"
+ASPERITY = {
+    "title": "Asperity",
+    "surface": {"kind": "cylinder", "radius": 25000.0, "length": 10000.0},
+    "body": {"kind": "layer", "youngs_modulus": 70.0, "poisson_ratio": 0.3, "thickness": 5000.0},
+    "effects": ["cohesive_zone"],
+    "cohesive_zone": {"work_of_separation": 2.0, "work_ratio": 0.5},
+    "path": {"approach": [-8.0, -4.0, -9.0], "increment": 0.1},  # into contact by a jump, and out of it
+    "increments": {"kind": "adaptive"},
+    "snapshots": [-5.0],
+    "points": 64,
+    "tolerance": 1.0e-3,
+}
+PATH_CASE = {name: CASE[name] for name in ("title", "caption", "size")} | {
+    "study": "asperity",
+    "quantities": ["pull_off_load_loading", "final_repulsive_length"],
+    "thesis_increment": 0.02,
+    "settled": {"points": 64, "tolerance": 1.0e-4, "increment": 0.5},
+    "reference": {"points": 256, "tolerance": 1.0e-7, "increment": 0.05},
+    "levels": {"increment": [0.01]},
+    "solvers": {
+        "newton": {"points": [64, 128], "tolerance": [1.0e-2], "increment": [1.0, 0.2]},
+        "mass_weighted_verlet": {"increment": [1.0]},
+    },
+}
+ROUGH_CASE = {
+    "study": "rough_line",
+    "load": [1e-3],
+    "quantities": ["kappa_r"],
+    "vary": {"surface.hurst": [0.8]},
+    "settled": {"points": 8192, "tolerance": 1.0e-4},
+    "reference": {"points": 32768, "tolerance": 1.0e-7},
+    "solvers": {"active_set": {"points": [8192, 16384]}},
+}
+WALL_ON_A_PATH = ASPERITY | {
+    "effects": ["hard_wall"],
+    "body": {"kind": "half_space", "contact_modulus": 70.0},
+    "path": {"approach": [0.0, 1.0], "increment": 0.5},
+}
+for _key in ("cohesive_zone", "increments", "snapshots"):
+    del WALL_ON_A_PATH[_key]
+PLAN = Plan.read(ROOT / "config", "quick")
+OWN = {name: Study.read(name, own, "own.yaml", 1) for name, own in (("asperity", ASPERITY), ("wall", WALL_ON_A_PATH))}
+PLAN = replace(PLAN, studies=PLAN.studies | OWN)
+
+
+def case(tmp_path, base=CASE, **changes):
+    (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {"case": base | changes}}))
+    return case_config.read_cases(tmp_path, PLAN)["case"]
+
+
+@pytest.fixture(scope="module")
+def followed(tmp_path_factory):
+    one = case(tmp_path_factory.mktemp("path"), PATH_CASE)
+    return one, {job: one.measure(job) for job in one.jobs()}
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    one = case(tmp_path_factory.mktemp("case"))
+    return one, {job: one.measure(job) for job in one.jobs()}
+
+
+def table_of(measured, made):
+    one, jobs = measured
+    study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
+    return error_cost.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
+
+
+def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
+    one = case(tmp_path)
+    turned = one.turned("active_set")
+    assert [(at.points, at.tolerance) for at in turned if at.knob == "points"] == [
+        (256, 1e-4),
+        (512, 1e-4),
+        (1024, 1e-4),
+    ]
+    assert [(at.points, at.tolerance) for at in turned if at.knob == "tolerance"] == [(512, 10.0), (512, 1e-2)]
+    assert not set(one.turned(cases.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
+
+
+def test_errors_are_those_by_hand_and_fall_with_the_grid(measured, made):
+    table = table_of(measured, made)
+    grids = table[(table.knob == "points") & (table.solver == "active_set")]
+    data, reference = measured[1]["active_set"][0], measured[1]["reference"][0]
+    by_hand = np.sqrt(np.mean((data.kappa_r.values[0] / reference.kappa_r.values[0] - 1) ** 2))
+    assert grids.kappa_r.iloc[0] == pytest.approx(by_hand)
+    assert grids.kappa_r.iloc[-1] < 0.05  # a point at each edge of 100 to 50 points
+    assert (grids.work.diff().dropna() > 0).all()
+    assert (table.unconverged == 0).all()
+
+
+def test_solvers_meet_the_same_error_on_the_same_grid(measured, made):
+    table = table_of(measured, made)
+    pair = table[(table.knob == "points") & (table.points == 256)]
+    assert pair.solver.tolist() == ["active_set", "polonsky_keer"]
+    assert pair.kappa_r.iloc[0] == pytest.approx(pair.kappa_r.iloc[1], rel=1e-6)
+
+
+def test_a_tighter_tolerance_is_nearer_and_dearer(measured, made):
+    table = table_of(measured, made)
+    knob = table[(table.knob == "tolerance") & (table.solver == "active_set")]
+    assert knob.relative_contact_area.iloc[1] < knob.relative_contact_area.iloc[0]
+    assert knob.work.iloc[1] > knob.work.iloc[0]
+
+
+def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_points(tmp_path):
+    tests = {"points": [16], "tolerance": [1.0]}
+    changes = {"study": "smooth_surface", "solvers": {"conjugate_gradients": tests, "polonsky_keer": tests}}
+    settings = {"settled": {"points": 32, "tolerance": 1e-4}, "reference": {"points": 64, "tolerance": 1e-6}}
+    one = case(tmp_path, **changes, **settings)
+    jobs = {job: one.measure(job)[0] for job in one.jobs()}
+    assert one.job_settings(cases.REFERENCE)["runs"][0]["solver"]["kind"] == "conjugate_gradients"
+    assert jobs["polonsky_keer"].points_y.values.tolist() == [16, 32]
+    data = jobs["polonsky_keer"].isel(setting=0)
+    alone = xr.Dataset({"status": (("member", "contact_ratio"), data.status.values)}).assign_coords(
+        member=[0], contact_ratio=data.contact_ratio
+    )
+    table = error_cost.table(one.settings, jobs, alone, one.default).query("knob == 'points'").set_index("solver")
+    assert table.work["polonsky_keer"] == data.transforms.sum() * 16**2
+    assert table.own.to_dict() == {"conjugate_gradients": True, "polonsky_keer": False}
+    assert table.kappa_r["polonsky_keer"] == pytest.approx(table.kappa_r["conjugate_gradients"], rel=1e-3)
+
+
+def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
+    one = case(tmp_path, **ROUGH_CASE)
+    (run,) = one.study_at(one.turned("active_set")[0], "active_set").runs()
+    whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst": 0.8})
+    assert run.coordinates == {"hurst": 0.8}
+    assert run.settings["surface"] == whole.settings["surface"]
+    assert {run.settings[key] for key in ("seed", "study")} == {whole.settings[key] for key in ("seed", "study")}
+    assert one.selection == {"hurst": [0.8]}
+
+
+@pytest.mark.parametrize("name", ["figure", "taken", "a-b", ""])
+def test_a_case_cannot_have_a_name_that_is_no_target_or_that_of_another(tmp_path, name):
+    plan = replace(PLAN, studies=PLAN.studies | {"accuracy_taken": PLAN.studies["smooth_line"]})
+    (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {name: CASE}}))
+    with pytest.raises(SceneError, match="letters, digits and underscores; with accuracy_ before it no") as caught:
+        case_config.read_cases(tmp_path, plan)
+    assert (caught.value.key, caught.value.value) == ("quick", name)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"solvers": {"active_set": {"points": [8190, 16384]}}}, "solvers.active_set.points"),
+        ({"settled": {"points": 8190, "tolerance": 1e-4}}, "settled.points"),
+    ],
+)
+def test_grids_that_miss_the_shortest_wave_are_refused_before_any_job(tmp_path, changes, key):
+    with pytest.raises(SceneError, match="more than 8190: two points per shortest wavelength") as caught:
+        case(tmp_path, **ROUGH_CASE | changes)
+    assert (caught.value.key, caught.value.value) == (f"quick.case.{key}", 8190)
+
+
+def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_path):
+    one = case(tmp_path, PATH_CASE)
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned("newton")]
+    assert numbers == [
+        ("points", 64, 1e-4, 0.5),
+        ("points", 128, 1e-4, 0.5),
+        ("tolerance", 64, 1e-2, 0.5),
+        ("increment", 64, 1e-4, 1.0),
+        ("increment", 64, 1e-4, 0.2),
+    ]
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(cases.REFERENCE)]
+    assert numbers == [
+        ("points", 256, 1e-7, 0.5),
+        ("tolerance", 64, 1e-7, 0.5),
+        ("increment", 64, 1e-4, 0.05),
+    ]
+
+
+def test_a_path_is_solved_at_every_increment_asked_for_whatever_the_study_does(tmp_path):
+    one = case(tmp_path, PATH_CASE)
+    settings = one.job_settings("newton")["runs"][0]
+    assert settings["increments"] == {"kind": "requested"}
+    assert settings["snapshots"] is None
+    assert settings["load"] == {"name": "step", "control": "approach", "through": [-8.0, -4.0, -9.0], "increment": 0.5}
+    assert one.job_settings("newton")["settings"]["load"] is None
+
+
+def test_a_path_is_measured_whole(followed):
+    one, jobs = followed
+    data, seconds = jobs["newton"]
+    assert dict(data.sizes) == {"setting": 5, "member": 1}
+    assert len(seconds) == 5
+    last = one.turned("newton")[-1]
+    (run,) = one.study_at(last, "newton").runs()
+    alone = simulate(scene_of(run.settings), points=64, tolerance=1e-4, method="newton")
+    assert alone.step.size == 45  # 4 nm there and 5 nm back, in increments of 0.2
+    assert data.increment.values[-1] == 0.2
+    assert data.transforms.values[-1, 0] == alone.transforms.sum()
+    loading = alone.line_load.values[: int(np.argmax(alone.approach.values)) + 1]
+    assert data.pull_off_load_loading.values[-1, 0] == -loading.min()
+    assert (data.status == 0).all()
+
+
+def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_the_same_by_another_solver(followed):
+    one, jobs = followed
+    jobs = {job: data for job, (data, _) in jobs.items()}
+    study = jobs["newton"].isel(setting=0)  # one member: no ensemble
+    table = error_cost.table(one.settings, jobs, study, one.default).query("knob == 'increment'")
+    by_hand = jobs["newton"].pull_off_load_loading.values[3:, 0] / jobs["reference"].pull_off_load_loading.values[2, 0]
+    own = table[table.own]
+    assert own.increment.tolist() == [1.0, 0.2]
+    assert own.pull_off_load_loading.to_numpy() == pytest.approx(abs(by_hand - 1))
+    assert own.pull_off_load_loading.iloc[1] < own.pull_off_load_loading.iloc[0]
+    assert own.work.tolist() == (jobs["newton"].transforms.values[3:, 0] * 64).tolist()
+    slow = table[table.solver == "mass_weighted_verlet"]
+    assert slow.pull_off_load_loading.iloc[0] == pytest.approx(own.pull_off_load_loading.iloc[0], rel=0.02)
+
+
+@pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])
+def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, monkeypatch, place, share):
+    one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
+    data = cases.simulated(one.study_at(one.turned("newton")[0], "newton").runs()[0].settings)
+    if place is not None:
+        data["status"][place] = Status.BUDGET.value[0]
+        data["status"][place:][1:] = Status.BROKEN_OFF.value[0]
+    monkeypatch.setattr(cases, "simulated", lambda settings: data)
+    found, _ = one.measure("newton")
+    assert float(error_cost._unconverged(found)) == share
+    assert found.status.item() == (0 if place is None else Status.BUDGET.value[0])
+
+
+def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
+    one, jobs = measured
+    data, seconds = jobs["polonsky_keer"]
+    assert len(seconds) == data.setting.size == 1
+    assert "seconds" not in data
+    xr.testing.assert_identical(one.measure("polonsky_keer")[0], data)
+
+
+@pytest.mark.parametrize(("spent", "best"), [([3.0, 1.0, 2.0], 1.0), ([1.0, 2.0, 3.0], 1.0), ([9.0, 1.0, 1.0], 9.0)])
+def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path, monkeypatch, spent, best):
+    one = case(tmp_path, repeats=3, solvers={"active_set": {"points": [256]}})
+    settings = one.study_at(one.turned("active_set")[0], "active_set").runs()[0].settings
+    solved, left = cases.simulated(settings), [*spent]
+
+    def timed(settings):
+        return solved.assign(seconds=solved.seconds * 0 + left.pop(0) / solved.seconds.size)
+
+    monkeypatch.setattr(cases, "simulated", timed)
+    assert one.measure("active_set")[1] == pytest.approx([best])
+    assert len(left) == (2 if best > cases.LONG else 0)
+
+
+def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
+    solvers = {"active_set": {"points": [256]}, "tamaas": {"points": [256]}}
+    monkeypatch.setattr(solver_registry, "find_spec", lambda name: None)
+    assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set"]
+    monkeypatch.setattr(solver_registry, "find_spec", lambda name: object())
+    assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set", "tamaas"]
+
+
+NO_INCREMENTS = "loads are solved on their own, without increments"
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "allowed"),
+    [
+        ({"study": "no_line"}, "quick.case.study", "smooth_line"),
+        ({"quantities": ["happiness"]}, "quick.case.quantities", "kappa_r"),
+        ({"solvers": {"magic": {}}}, "quick.case.solvers", "active_set"),
+        ({"solvers": {"verlet": {"points": [16384]}}}, "quick.case.solvers.verlet.points", "fewer than"),
+        ({"settled": {"points": 512}}, "quick.case.settled.tolerance", "missing"),
+        ({"reference": {"points": 1, "tolerance": 1.0}}, "quick.case.reference.points", "whole number"),
+        ({"levels": {"members": [0.1]}}, "quick.case.levels.members", "points"),
+        ({"levels": {"points": [-0.1]}}, "quick.case.levels.points", "relative errors"),
+        ({"solvers": {"active_set": {}}}, "quick.case.solvers.active_set", "points, or tolerance"),
+        ({"solvers": {"verlet": {"points": [256]}}}, "quick.case.solvers", "active_set"),
+        ({"solvers": {"active_set": {"tolerance": [1e-8]}}}, "quick.case.solvers.active_set.tolerance", "above the"),
+        ({"settled": {"points": 16384, "tolerance": 1e-4}}, "quick.case.settled.points", "fewer than"),
+        ({"load": [0.11]}, "quick.case.load", "0.15"),
+        ({"quantities": ["kappa"]}, "quick.case.quantities", "kappa_r"),
+        ({"vary": {"surface.hurst": [0.8]}}, "quick.case.vary.surface.hurst", "none"),
+        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst": [0.3]}}, VARY, "0.2, 0.5, 0.8"),
+        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst": []}}, VARY, "0.2, 0.5, 0.8"),
+        ({"solvers": CASE["solvers"] | {"conjugate_gradients": {"points": [64]}}}, "quick.case.solvers", "LINE"),
+        ({"study": "smooth_surface"}, "quick.case.solvers", "conjugate_gradients, the study's own"),
+        ({"repeats": 0}, "quick.case.repeats", "1 or more"),
+        ({"thesis_members": 0}, "quick.case.thesis_members", "1 or more"),
+        ({"speed": 1}, "quick.case.speed", "no such key"),
+        ({"settled": CASE["settled"] | {"increment": 0.1}}, "quick.case.settled.increment", NO_INCREMENTS),
+        ({"reference": CASE["reference"] | {"increment": 0.1}}, "quick.case.reference.increment", NO_INCREMENTS),
+        ({"levels": {"increment": [0.1]}}, "quick.case.levels.increment", NO_INCREMENTS),
+        ({"solvers": {"verlet": {"increment": [1.0]}}}, "quick.case.solvers.verlet.increment", NO_INCREMENTS),
+        ({"thesis_increment": 0.02}, "quick.case.thesis_increment", NO_INCREMENTS),
+        ({"load": None}, "quick.case.load", "a list of the study's loads"),
+        ({"quantities": ["final_load"]}, "quick.case.quantities", "the study's own: relative_contact_area"),
+        ({"study": "wall"}, "quick.case.study", "a path of smooth laws"),
+    ],
+)
+def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path, changes, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        case(tmp_path, **changes)
+    assert caught.value.key == key
+    assert allowed in caught.value.allowed
+    assert str(tmp_path / "accuracy.yaml") in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "allowed"),
+    [
+        ({"load": [0.1]}, "quick.case.load", "a path, which is priced whole"),
+        ({"quantities": ["kappa_r"]}, "quick.case.quantities", "the study's own: pull_off_load_loading"),
+        ({"settled": {"points": 64, "tolerance": 1e-4}}, "quick.case.settled.increment", "missing"),
+        ({"settled": PATH_CASE["settled"] | {"increment": 0.0}}, "quick.case.settled.increment", "a positive number"),
+        ({"settled": PATH_CASE["settled"] | {"increment": "0.1"}}, "quick.case.settled.increment", "text to YAML"),
+        (
+            {"settled": PATH_CASE["settled"] | {"increment": 0.05}},
+            "quick.case.settled.increment",
+            "above the reference",
+        ),
+        ({"solvers": {"newton": {"increment": [0.01]}}}, "quick.case.solvers.newton.increment", "reference's, 0.05"),
+        ({"solvers": {"newton": {"tolerance": [1.0]}}}, "quick.case.solvers.newton.tolerance", "at most 0.1"),
+        ({"solvers": {"newton": {"increment": [-1.0]}}}, "quick.case.solvers.newton.increment", "list of increments"),
+        ({"solvers": {"newton": {"increment": 1.0}}}, "quick.case.solvers.newton.increment", "list of increments"),
+        ({"solvers": {"newton": {}}}, "quick.case.solvers.newton", "points, or tolerance, or increment"),
+        ({"levels": {"increment": [-0.1]}}, "quick.case.levels.increment", "relative errors"),
+        ({"thesis_increment": -0.02}, "quick.case.thesis_increment", "a positive number"),
+        (
+            {"solvers": PATH_CASE["solvers"] | {"energy_minimisation": {"points": [64]}}},
+            "quick.case.solvers",
+            "NON_CONSERVATIVE",
+        ),
+        ({"solvers": {"mass_weighted_verlet": {"points": [64]}}}, "quick.case.solvers", "newton, the study's own"),
+    ],
+)
+def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowed):
+    with pytest.raises(SceneError) as caught:
+        case(tmp_path, PATH_CASE, **changes)
+    assert caught.value.key == key
+    assert allowed in caught.value.allowed
+    assert len(str(caught.value).splitlines()) == 1
+    assert str(tmp_path / "accuracy.yaml") in str(caught.value)
+
+
+def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
+    one = case_config.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
+    tiers = case_config.every_tier(ROOT / "config", PLAN)
+    assert tiers["quick"] is PLAN
+    found = case_config.figure_settings(one, PLAN, tiers)
+    marks = found["marks"]
+    assert {name: own.get("increment") for name, own in marks.items()} == {
+        "quick": None,  # they adapt
+        "standard": 0.02,
+        "full": 0.01,
+        "thesis": 0.02,
+    }
+    assert marks["thesis"]["points"] == 2048
+    assert found["units"] == {"increment": "nm"}
+    assert found["loads"] == {}
+
+
+def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
+    path = {"path": {"mean_pressure": [-0.01, 0.1], "increment": 0.01}, "snapshots": [0.1]}
+    pressed = ASPERITY | path | {"increments": {"kind": "requested"}}
+    study = Study.read("asperity", pressed, "own.yaml", 1)
+    one = case(tmp_path, PATH_CASE)
+    assert one.kind.units(study) == {"increment": "GPa"}
+
+
+def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
+    tiers = case_config.every_tier(ROOT / "config", PLAN)
+    assert list(tiers) == ["quick", "standard", "full"]
+    for plan in tiers.values():
+        every_case = case_config.read_cases(ROOT / "config", plan)
+        assert list(every_case) == [
+            "cylinder",
+            "rough_line",
+            "layer",
+            "sphere",
+            "rough_surface",
+            "adhesive_asperity",
+            "rough_adhesive",
+            "sliding",
+        ]
+        own = [case.default for case in every_case.values()]
+        assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"] * 3
+        assert every_case["layer"].selection == {"thickness": [640.0]}
+        marks = case_config.figure_settings(every_case["rough_line"], plan, tiers)["marks"]
+        points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
+        members = {"quick": 3, "standard": 10, "full": 10, "thesis": 10}
+        assert {name: own["points"] for name, own in marks.items()} == points
+        assert {name: own["members"] for name, own in marks.items()} == members
+        assert marks["quick"]["tolerance"] == plan.studies["rough_line"].settings["tolerance"]
+        assert "tolerance" not in marks["thesis"]
+        assert "members" not in case_config.figure_settings(every_case["cylinder"], plan, tiers)["marks"]["thesis"]

@@ -1,0 +1,292 @@
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+
+from contactsim import dataset
+from contactsim.analysis.reductions import TAKES, quantities, quantity
+from contactsim.contact.loading import press
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.evaluation.work_precision.case_config import PRICED
+from contactsim.figures import ch3, ch5, layout, notation, sketch, style
+from contactsim.figures.diagnostics import claims
+from contactsim.interface.laws import HardWall
+from contactsim.study.plan import Plan
+from contactsim.surfaces.shapes import Flat, Sinusoid
+from support.places import ROOT
+
+PLAN = Plan.read(ROOT / "config", "quick")
+
+
+@pytest.mark.parametrize("name", PLAN.figures)
+def test_every_figure_is_drawn_and_gives_its_numbers(made, name):
+    folder = made / "results/quick/figures"
+    assert (folder / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    assert (folder / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+    assert len(pd.read_csv(folder / f"{name}.csv")) > 2
+
+
+def test_a_footer_says_grid_members_losses_and_time(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    costs = pd.read_csv(made / "results/quick/costs/ch3_rough_line.csv")
+    text = layout.footer_text(data, costs)
+    for part in (
+        "quick tier",
+        "131072 points, 32 per shortest wavelength (thesis 64)",
+        "3 members",
+        "0 of 45 solutions unconverged",
+        "grid error up to: κ ",
+        f"study solved in {costs.seconds.sum():.3g} CPU s",
+    ):
+        assert part in text
+    data["status"][0, 0, 0] = 1
+    assert "1 of 45 solutions unconverged and left out" in layout.footer_text(data, costs)
+
+
+def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):
+    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+    data["kappa_r_grid_error"][data.contact_ratio < 0.05] = 7.0
+    data["status"][..., data.contact_ratio.values < 0.05] = 1
+    dataset.write(data, tmp_path / "data.nc")
+    plan, footers = PLAN.figure_settings("table_3_1"), []
+    assert plan["settings"]["select"] == {"contact_ratio": [0.05, 0.25]}
+    framed = layout.framed
+    monkeypatch.setattr(layout, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
+    targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
+    names = ("ch3_smooth_line", "ch3_smooth_surface")
+    prices = [made / f"results/quick/costs/{name}.csv" for name in names]
+    layout.render(plan, [tmp_path / "data.nc", made / f"results/quick/datasets/{names[1]}.nc"], prices, targets)
+    assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
+    largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
+    assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]
+    assert "0 of 6 solutions unconverged" in footers[0]
+
+
+def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    axes = list(Figure().subplots(1, 4))
+    shown = ch3.fig_3_2(data, axes, kappa_r=1.75)
+    assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
+    assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
+    drawn = axes[1].containers[0].lines[0].get_ydata()
+    assert np.array_equal(drawn, data.kappa_mean.sel(hurst=0.2))
+    assert {"kappa_r_mean", "kappa_r_standard_error", "kappa_r_grid_error"} <= set(shown)
+    errors = {(line.get_color(), line.get_linestyle()): line.get_ydata() for line in axes[3].lines}
+    assert len(errors) == 2 * data.hurst.size
+    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_bond", style.PAIRS)):
+        for value in data.hurst.values:
+            drawn = errors[color, style.hurst(value)["linestyle"]]
+            assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst=value))
+
+
+def test_without_a_measured_grid_error_the_rough_lines_are_drawn_all_the_same(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    axes = list(Figure().subplots(1, 4))
+    ch3.fig_3_2(data.drop_vars(name for name in data if name.endswith("grid_error")), axes, kappa_r=1.75)
+    assert not axes[3].lines
+
+
+def smooth(made):
+    return [dataset.read(made / f"results/quick/datasets/ch3_smooth_{kind}.nc") for kind in ("line", "surface")]
+
+
+def test_cylinder_and_sphere_are_drawn_beside_the_exact_lines(made):
+    axes = Figure().subplots()
+    shown = ch3.fig_3_1(*smooth(made), axes)
+    for body, exact, within in (("cylinder", 8 / (np.pi * np.sqrt(3)), 0.01), ("sphere", 1.666, 0.03)):
+        assert any(np.allclose(line.get_ydata(), exact, rtol=1e-3) for line in axes.lines)
+        inside = shown[(shown.body == body) & shown.contact_ratio.between(0.05, 0.25)]
+        assert np.allclose(inside.kappa_r, exact, rtol=within)
+
+
+def test_the_table_lists_exact_and_computed(made):
+    axes = Figure().subplots()
+    rows = ch3.table_3_1(*smooth(made), axes)
+    assert list(rows) == ["body", *ch3.TABLE]
+    line, sphere = (rows[rows.body == body] for body in ("cylinder", "sphere"))
+    assert np.allclose(line.area_exact, 2 * line.contact_ratio)
+    assert np.allclose(line.load, np.pi / 4 * line.contact_ratio**2)
+    assert np.allclose(sphere.load, 4 / 3 * sphere.contact_ratio**3)
+    many = sphere[sphere.contact_ratio >= 0.05]
+    assert np.allclose(many.area, np.pi * many.contact_ratio**2, rtol=0.03)
+
+
+def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(made):
+    rough = {name: dataset.read(made / f"results/quick/datasets/ch3_{name}.nc") for name in ROUGH}
+    axes = list(Figure().subplots(1, 3))
+    shown = ch3.fig_3_4(rough["rough_surface"], axes, kappa=2.2, kappa_r=1.88)
+    assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
+    axes = list(Figure().subplots(1, 3))
+    ratios = ch3.fig_3_5(*rough.values(), axes, ratio=0.92).query(
+        "grid == 'equal' and quantity == 'kappa' and hurst == 0.5"
+    )
+    line = rough["rough_line_coarse"].sel(hurst=0.5).kappa_mean.values
+    assert np.allclose(ratios.value * shown.query("hurst == 0.5").kappa_mean.values, line)
+
+
+ROUGH = ("rough_line", "rough_line_coarse", "rough_surface", "line_resolution", "surface_resolution")
+
+
+def test_the_last_of_smooth_figures_counts_its_cells(made):
+    axes = Figure().subplots()
+    rows = ch3.table_3_1(*smooth(made), axes)
+    assert len(axes.tables[0].get_celld()) == (len(rows) + 1) * len(rows.columns)
+
+
+def test_the_fits_are_given_as_the_curves_that_they_draw(made):
+    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc").sel(reduced_pressure=slice(0, 0.11))
+    axes = Figure().subplots()
+    shown = ch3.fig_3_3(data, axes)
+    assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
+    drawn = shown.query("fit_limit == 0.1 and weighting == 'area' and fitted != 'all'")
+    assert np.allclose(drawn.kappa_fit, quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
+    looks = {
+        (line.get_color(), line.get_linestyle(), line.get_linewidth()) for line in axes.lines[: data.fitted.size * 2]
+    }
+    assert len(looks) == data.fitted.size * 2
+    broad = [width for color, _, width in looks if color == style.PAIRS]
+    assert min(broad) > max(width for color, _, width in looks if color == style.WHOLE)  # seen where they meet
+    keys = {(line.get_color(), line.get_linewidth()) for line in axes.get_legend().get_lines()}
+    assert {(color, width) for color, _, width in looks} <= keys
+
+
+def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
+    data = dataset.read(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
+    axes = list(Figure().subplots(1, 4))
+    shown = ch5.fig_5_2(data, axes, kappa_r=1.75)
+    variants = data.hurst.size * data.poisson_ratio.size * data.thickness.size
+    assert len(axes[0].containers) == variants
+    assert len(axes[1].containers) == variants * 3 // 2  # over pairs of the half-space alone
+    assert len(axes[2].containers) == 2 * variants // 2  # area and κ_r, of the layer alone
+    assert len(axes[3].lines) == 2 * variants
+    assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
+    assert len(shown) == variants * data.reduced_pressure.size
+    thick = shown.thickness == data.thickness.values.max()
+    names = [
+        f"{name}_change{error}" for name in ("kappa_r", "relative_contact_area") for error in ("", "_standard_error")
+    ]
+    assert (shown[thick][names] == 0).all(axis=None)
+    assert (shown[~thick]["relative_contact_area_change"] != 0).all()
+    look = {(line.get_color(), line.get_marker(), line.get_linestyle()) for line in axes[3].lines}
+    assert len(look) == variants
+
+
+def test_on_a_half_space_poissons_ratio_changes_no_contact(made):
+    data = dataset.read(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
+    assert np.allclose(data.rms_height, 10.0, rtol=1e-12)
+    thick = data.sel(thickness=data.thickness.max())
+    assert not thick.relative_contact_area.diff("poisson_ratio").any()
+    assert data.relative_contact_area.sel(thickness=640.0).diff("poisson_ratio").any()
+
+
+def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
+    assert style.hurst(0.35)["marker"] == "x"
+    assert style.hurst_colour(0.35) not in style.HURST_COLOURS.values()
+    assert style.poisson(0.3)["marker"] not in [marker for marker, _ in style.POISSON.values()]
+
+
+def test_a_measured_surface_has_points_and_no_wavelength():
+    settings = {"surface": {"kind": "measured"}, "thesis_points": None}
+    assert style.points_text(settings, 100) == "100 points"
+
+
+def test_captions_and_footers_are_wrapped_below_the_panels():
+    settings = {"size": [4.0, 3.0], "panels": 2, "title": "T", "caption": "word " * 60}
+    figure, panels = layout.framed(settings, "made " * 40)
+    assert len(panels) == 2
+    assert figure.get_size_inches()[1] > 3.0
+    assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "labels"),
+    [
+        (0.004, 0.03, ["0.005", "0.01", "0.02"]),
+        (0.0013, 0.06, ["0.002", "0.005", "0.01", "0.02", "0.05"]),  # one decade alone says little
+        (3e7, 2.5e8, [r"$5\times10^{7}$", "$10^{8}$", r"$2\times10^{8}$"]),
+        (0.05, 300.0, ["$10^{-1}$", "$10^{0}$", "$10^{1}$", "$10^{2}$"]),
+        (1e-9, 1.5, ["$10^{-9}$", "$10^{-7}$", "$10^{-5}$", "$10^{-3}$", "$10^{-1}$"]),
+    ],
+)
+def test_ticks_of_a_logarithmic_axis_lie_inside_its_range(low, high, labels):
+    axes = Figure().subplots()
+    axes.set(xscale="log", xlim=(low / 2, high * 2))
+    style.ticks(axes.xaxis, low, high)
+    format_tick = axes.xaxis.get_major_formatter()
+    assert [format_tick(at) for at in axes.xaxis.get_majorticklocs()] == labels
+    assert all(low <= at <= high for at in axes.xaxis.get_minorticklocs())
+
+
+@pytest.mark.parametrize(("values", "span"), [([0.2], 10.0), ([0.2, 0.3], 10.0), ([1e-3, 1.0], 1690.0), ([], 10.0)])
+def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(values, span):
+    low, high = style.limits(pd.Series(values, dtype=float))
+    assert high / low == pytest.approx(span)
+    assert all(low < value < high for value in values)
+
+
+# --- the table of claims ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("value", "errors", "shown"),
+    [
+        (0.012689, (0.00381, 0.0249), ["0.0127", "0.0038", "0.025"]),
+        (0.012689, (0.00381, 0.0), ["0.0127", "0.0038", "0"]),
+        (0.0094952, (8.5e-5, 0.0), ["0.009495", "0.000085", "0"]),
+        (1.4682, (0.0, 0.0), ["1.468", "0", "0"]),
+        (1.7476, (0.0996, 0.996), ["1.75", "0.10", "1.0"]),
+        (0.2061, (0.01, np.nan), ["0.206", "0.010", "–"]),
+        (np.nan, (np.nan, np.nan), ["–", "–", "–"]),
+        (1234.6, (56.0, 0.0), ["1235", "56", "0"]),
+        (5.6e-17, (5.08e-17, np.nan), ["5.6e-17", "5.1e-17", "–"]),
+    ],
+)
+def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors, shown):
+    assert claims.rounded(value, *errors) == shown
+
+
+def test_every_quantity_dimension_and_take_of_a_claim_has_words_to_read():
+    names = {*TAKES, *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions])}
+    assert not [name for name in names if "_" in claims.symbol(name)]
+    assert claims.symbol("kappa_r_grid_error") == "grid error of κᵣ"
+
+
+def test_every_quantity_that_can_be_priced_has_a_symbol():
+    assert [name for name in PRICED if name not in notation.SYMBOLS] == []
+
+
+def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
+    rows = pd.read_csv(made / "results/quick/claims/ch3.csv", keep_default_na=False, na_values=["", "nan"])
+    rows = rows.fillna({"measure": "", "expected": "", "condition": ""})
+    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    assert not [text for text in texts if "_" in text]
+    assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts
+    assert any("± ensemble error ± grid error" in text for text in texts[: len(claims.COLUMNS) + 1])
+    rows.loc[0, ["condition", "condition_value", "condition_ensemble_error", "condition_grid_error"]] = [
+        *("c/R up to 1", 0.995312, 0.0, 0.00471)
+    ]
+    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    assert any("0.9953_±_0_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
+
+
+# --- the sketch of a scene ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("elastic_below", [True, False])
+def test_the_elastic_body_is_coloured_and_the_rigid_one_grey(elastic_below):
+    elastic, rigid = Body(Flat(8.0), HalfSpace(2.0)), Body(Sinusoid(8.0, 1.0))
+    lower, upper = (elastic, rigid) if elastic_below else (rigid, elastic)
+    axes = Figure().subplots()
+    sketch.sketch(Scene(lower, upper, (HardWall(),), press([1.0])), 64, axes)
+    middles = [fill.get_paths()[0].get_extents().get_points()[:, 1].mean() for fill in axes.collections]
+    assert middles[0] < middles[1]
+    for fill, body, text in zip(axes.collections, (lower, upper), axes.texts[:2], strict=True):
+        red, green, blue, _ = fill.get_facecolor()[0]
+        grey = red == green == blue
+        assert grey == (body is rigid)
+        assert ("rigid" in text.get_text()) == grey
+        assert ("$E^*$ = 2 GPa" in text.get_text()) == (not grey)
+        assert fill.get_paths()[0].contains_point(text.get_position())

@@ -1,0 +1,154 @@
+"""What every smooth law promises."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.interface.laws import OVERCLOSED, CohesiveZone, NormalCohesiveZone
+from contactsim.interface.superposition import Superposition, superposed
+from support.cases import refusal
+
+LAWS = (
+    NormalCohesiveZone(2.0),
+    NormalCohesiveZone(0.3, 2.5),
+    CohesiveZone(2.0),
+    CohesiveZone(2.0, 1.0),
+    CohesiveZone(0.7, 3.0, normal_length=0.4, tangential_length=2.5),
+)
+TWO = Superposition((NormalCohesiveZone(0.5, 2.0), CohesiveZone(1.5, 0.3)))
+RNG = np.random.default_rng(5)
+
+
+def gaps(law, count=200):
+    """Gaps from deep overlap to far apart, over the laws' lengths (reads, n)."""
+    normal = RNG.uniform(-1.5 * OVERCLOSED, 8.0, count) * law.reach
+    sideways = RNG.uniform(-3.0, 3.0, count) * getattr(law, "tangential_length", 1.0)
+    return np.stack([normal, sideways][: len(law.reads)])
+
+
+@pytest.mark.parametrize("law", [*LAWS, TWO], ids=repr)
+def test_the_tangent_is_the_derivative_of_the_traction(law):
+    gap, step = gaps(law), 1e-5
+    traction, tangent = law.tangent(gap)
+    assert np.allclose(traction, law.traction(gap), rtol=1e-14, atol=0)
+    for column in range(len(gap)):
+        ahead, behind = gap.copy(), gap.copy()
+        ahead[column] += step
+        behind[column] -= step
+        slope = (law.traction(ahead) - law.traction(behind)) / (2 * step)
+        size = np.abs(tangent[:, column]) + np.abs(traction) + law.stiffness
+        # central differences: truncation step²/6 of the third derivative, rounding eps/step; more at the kink of T''
+        assert (np.abs(slope - tangent[:, column]) <= 1e-7 * size).all()
+
+
+def test_laws_together_are_their_sum_and_one_law_is_itself():
+    gap = gaps(TWO)
+    normal, mixed = TWO.laws
+    total = TWO.traction(gap)
+    assert np.array_equal(total[0], normal.traction(gap[:1])[0] + mixed.traction(gap)[0])
+    assert np.array_equal(total[1], mixed.traction(gap)[1])
+    assert (TWO.reads, TWO.exerts, TWO.traits) == (mixed.reads, mixed.exerts, normal.traits | mixed.traits)
+    assert (TWO.strength, TWO.reach) == (normal.strength + mixed.strength, 1.0)
+    assert TWO.tangential_length == mixed.tangential_length
+    assert superposed((mixed,)) is mixed
+
+
+@pytest.mark.parametrize("law", [law for law in LAWS if hasattr(law, "energy")], ids=repr)
+def test_the_traction_is_the_derivative_of_the_energy_where_there_is_one(law):
+    gap, step = gaps(law), 1e-4
+    slope = (law.energy(gap + step) - law.energy(gap - step)) / (2 * step)
+    size = np.abs(law.tangent(gap)[1][0, 0]) + np.abs(law.energy(gap)) + law.stiffness
+    assert (np.abs(slope - law.traction(gap)[0]) <= 1e-6 * size).all()
+    far = np.full((1, 1), 800.0 * law.normal_length)
+    assert law.energy(far)[0] == 0
+    assert law.energy(0 * far)[0] == -law.work_of_separation
+
+
+@pytest.mark.parametrize("law", LAWS, ids=repr)
+def test_traction_and_tangent_are_continuous_where_the_exponential_is_continued(law):
+    edge = -OVERCLOSED * law.normal_length
+    normal = edge * np.array([1 - 1e-12, 1 + 1e-12])
+    gap = np.stack([normal, np.full(2, 0.7)][: len(law.reads)])
+    traction, tangent = law.tangent(gap)
+    assert np.allclose(traction[:, 0], traction[:, 1], rtol=1e-9, atol=0)
+    assert np.allclose(tangent[..., 0], tangent[..., 1], rtol=1e-9, atol=0)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=repr)
+@pytest.mark.parametrize("size", [1e4, 1e150, 1e300])
+def test_tractions_are_finite_at_any_gap(law, size):
+    values = np.array([-size, 0.0, size])
+    gap = np.stack(np.meshgrid(*[values] * len(law.reads))).reshape(len(law.reads), -1)
+    traction, tangent = law.tangent(gap)
+    assert np.isfinite(traction).all() and np.isfinite(tangent).all()
+    assert np.array_equal(traction, law.traction(gap))
+    assert (np.abs(traction[:, gap[0] == size]) < 1e-150).all()
+
+
+def test_the_continued_traction_repels_in_proportion_to_the_overlap():
+    law = NormalCohesiveZone(2.0)
+    far = law.traction(np.array([[-1e4, -2e4, -3e4]]))[0]
+    assert far[2] - far[1] == pytest.approx(far[1] - far[0], rel=1e-12)
+    assert (far < 0).all()
+
+
+def test_the_largest_pull_is_the_strength_and_the_steepest_tangent_without_overlap_the_stiffness():
+    for law in LAWS:
+        normal = np.linspace(0, 10, 100001) * law.normal_length
+        gap = np.stack([normal, 0 * normal][: len(law.reads)])
+        traction, tangent = law.tangent(gap)
+        assert traction[0].max() == pytest.approx(law.strength, rel=1e-8)
+        assert np.abs(tangent).max() == pytest.approx(law.stiffness, rel=1e-12)
+
+
+def test_the_tangential_strength_is_that_of_eq_2_18():
+    law = CohesiveZone(2.0, 0.7, tangential_length=1.7)
+    sideways = np.linspace(0, 5, 200001)
+    traction = law.traction(np.stack([0 * sideways + 0.3, sideways]))[1]
+    expected = law.tangential_work / law.tangential_length / np.sqrt(0.5 * np.e) * np.exp(-0.3)
+    assert traction.max() == pytest.approx(expected, rel=1e-8)
+
+
+def test_the_mixed_law_has_no_potential_and_lacks_it_by_the_amount_derived():
+    law = CohesiveZone(2.0, 0.6, normal_length=0.8, tangential_length=1.3)
+    gap = gaps(law)
+    gap[0] = np.abs(gap[0])
+    tangent = law.tangent(gap)[1]
+    normal, sideways = gap[0] / 0.8, gap[1] / 1.3
+    decay = np.exp(-normal - sideways**2)
+    # the docstring's ∂T_n/∂Δt - ∂T_t/∂Δn
+    expected = 2 * gap[1] / (0.8 * 1.3**2) * decay * (law.tangential_work - law.work_of_separation * normal)
+    assert np.allclose(tangent[0, 1] - tangent[1, 0], expected, rtol=1e-11, atol=1e-14)
+    assert np.abs(expected).max() > 0.1
+
+
+def test_without_tangential_gap_the_mixed_law_is_the_uncoupled_one():
+    gap = gaps(LAWS[0])
+    for ratio in (0.0, 1.0):
+        mixed = CohesiveZone(2.0, ratio).traction(np.concatenate([gap, 0 * gap]))
+        assert np.allclose(mixed[0], LAWS[0].traction(gap)[0], rtol=1e-15, atol=0)
+        assert not mixed[1:].any()
+
+
+@pytest.mark.parametrize("value", [0, -1.0, float("nan"), float("inf"), "2", None, True])
+@pytest.mark.parametrize("name", ["work_of_separation", "normal_length", "tangential_length"])
+def test_works_and_lengths_that_are_not_positive_are_refused(name, value):
+    given = {"work_of_separation": 2.0} | {name: value}
+    kinds = [CohesiveZone] if name == "tangential_length" else [CohesiveZone, NormalCohesiveZone]
+    for kind in kinds:
+        error = refusal(name, "scene.yaml", lambda kind=kind: _read(kind, given))
+        assert error.value is value
+        assert "positive" in error.allowed
+
+
+@pytest.mark.parametrize("value", [-1e-9, float("nan"), float("inf"), "0.1", None])
+def test_a_work_ratio_below_zero_is_refused(value):
+    assert refusal("work_ratio", "scene.yaml", lambda: _read(CohesiveZone, {"work_ratio": value})).value is value
+
+
+def _read(kind, given):
+    try:
+        return kind(**({"work_of_separation": 2.0} | given))
+    except ValueError as error:
+        raise error.within("scene.yaml") from None

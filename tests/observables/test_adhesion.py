@@ -1,0 +1,180 @@
+"""What a path of smooth laws amounts to, and the limits of an adhesive cylinder."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
+
+from contactsim import reference
+from contactsim.contact import loading
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.observables.adhesion import (
+    FINAL,
+    SUMMARY,
+    gradients,
+    histograms,
+    largest_jumps,
+    legs,
+    pull_off,
+    summarised,
+)
+from contactsim.study.execute import simulate
+from contactsim.study.law_table import tabulated
+from contactsim.surfaces.shapes import Cylinder, Flat
+from contactsim.surfaces.statistics import local_squares, rms_gradient
+from contactsim.traits import Trait
+from support.smooth import LAWS, LENGTH, along, scene_of
+
+APPROACH = np.array([-3.0, -2.0, -1.0, 0.0, -1.0, -2.0, -3.0])
+LOAD = np.array([-0.1, -5.0, -4.5, 2.0, -4.5, -6.0, -0.1])  # jumps to -2 on loading, from -2 on unloading
+
+
+def test_pull_off_is_found_on_each_leg_with_what_the_increments_leave_open():
+    found = pull_off(APPROACH, LOAD)
+    assert (found["pull_off_load_loading"], found["pull_off_approach_loading"]) == (5.0, -2.0)
+    assert (found["pull_off_load_unloading"], found["pull_off_approach_unloading"]) == (6.0, -2.0)
+    assert found["pull_off_load_loading_increment_error"] == pytest.approx(0.5)  # not the 4.9 of the jump
+    assert found["pull_off_load_unloading_increment_error"] == pytest.approx(1.5)
+    assert found["pull_off_approach_loading_increment_error"] == 1.0
+
+
+def test_a_path_that_only_loads_has_no_unloading():
+    found = pull_off(APPROACH[:4], LOAD[:4]) | largest_jumps(APPROACH[:4], np.zeros(4))
+    assert all(np.isnan(found[name]) for name in found if "unloading" in name)
+    assert found["largest_jump_loading"] == 0.0
+    assert legs(APPROACH) == (slice(0, 4), slice(4, 7))
+
+
+@pytest.mark.parametrize(
+    ("approach", "load", "loading", "unloading"),
+    [
+        ([0, 1, 2, 1, 0, -1], [0, -3, 5, 1, -2, -4], 3.0, np.nan),  # not yet open
+        ([0, 1, 2, 1, 0, -1], [0, -3, 5, 1, -4, np.nan], 3.0, 4.0),  # pulled apart by a load
+        ([0, 1, 2], [-4, -3, 5], np.nan, np.nan),  # pulls most where it begins
+        ([0, 1, 2, 1, 0, 1, 0, -1, -2], [0, -3, 5, 1, -2, -2.5, -3, -9, 0], 3.0, np.nan),  # a second cycle is another
+        ([0, 1, 2, 1, 0, 1, 2, 3], [0, -3, 5, -6, 1, -9, 5, 6], 3.0, 6.0),  # and goes deeper
+        ([5, 4, 6, 7], [50, 20, 80, 90], np.nan, np.nan),  # never pulls
+    ],
+)
+def test_a_leg_that_does_not_pass_its_largest_pull_has_no_pull_off(approach, load, loading, unloading):
+    found = pull_off(np.array(approach, float), np.array(load, float))
+    both = [found[f"pull_off_load_{name}"] for name in ("loading", "unloading")]
+    assert np.array_equal(both, [loading, unloading], equal_nan=True)
+    missing = [
+        np.isnan(found[f"pull_off_{what}_loading{end}"])
+        for what in ("load", "approach")
+        for end in ("", "_increment_error")
+    ]
+    assert missing == [np.isnan(loading)] * 4
+
+
+def test_states_that_did_not_converge_are_no_pull_off_and_no_last_state():
+    numbers = {name: ("step", np.arange(7.0)) for name in {*FINAL.values(), "jump"}}
+    data = xr.Dataset(numbers | {"approach": ("step", APPROACH), "line_load": ("step", LOAD)})
+    data["status"] = ("step", np.array([0, 1, 0, 1, 0, 0, 0], np.int8))
+    found = summarised(data)
+    assert set(SUMMARY) <= set(found)
+    assert float(found.pull_off_load_loading) == 4.5
+    assert (float(found.largest_jump_loading), float(found.largest_jump_unloading)) == (2.0, 6.0)
+    assert np.isnan(found.final_load)
+
+
+def test_the_pull_off_of_jkr_is_the_least_load_of_its_crack():
+    work, radius, modulus = 2.0, 25000.0, 77.0
+
+    def load(half_width):
+        opened = np.sqrt(2 * np.pi * modulus * work * half_width)
+        return reference.cylinder_load(half_width, radius, modulus) - opened
+
+    least = minimize_scalar(load, bounds=(1.0, 2000.0), method="bounded", options={"xatol": 1e-9})
+    assert reference.cylinder_pull_off(work, radius, modulus) == pytest.approx(-least.fun, rel=1e-10)
+    assert least.x**3 == pytest.approx(2 * work * radius**2 / (np.pi * modulus), rel=1e-4)
+
+
+def test_the_crack_of_jkr_releases_its_work():
+    half_width, modulus, work = 200.0, 77.0, 2.0
+    force = np.sqrt(2 * np.pi * modulus * work * half_width)  # of a flat punch; its edge has K = P/√(π c)
+    assert force**2 / (np.pi * half_width) / (2 * modulus) == pytest.approx(work)  # G = K²/(2E*): one body gives way
+
+
+def test_the_pull_off_of_a_rigid_cylinder_is_the_largest_of_its_integrals():
+    work, radius, length = 2.0, 500.0, 1.3
+    law = NormalCohesiveZone(work, length)
+
+    def pull(gap):
+        return quad(lambda x: law.traction(np.array([[gap + x**2 / (2 * radius)]]))[0, 0], -400, 400, limit=200)[0]
+
+    best = minimize_scalar(lambda gap: -pull(gap), bounds=(0.0, 3.0), method="bounded")
+    assert reference.rigid_cylinder_pull_off(work, radius, length) == pytest.approx(-best.fun, rel=1e-6)
+    assert best.x == pytest.approx(length / 2, abs=1e-3)
+
+
+@pytest.mark.parametrize("law", [CohesiveZone(1.0, 0.5), NormalCohesiveZone(1.0)])
+def test_a_stiff_cylinder_pulls_off_like_a_rigid_one(law):
+    upper, body = Cylinder(400.0, 500.0), HalfSpace(1e5, 0.3)
+    path = loading.LoadPath(loading.leg(Trait.APPROACH, -3.0, 0.0, 0.1).steps)
+    scene = Scene(Body(Flat.facing(upper), body), Body(upper), (law,), path)
+    data = simulate(scene, points=128, tolerance=1e-8)
+    found = pull_off(data.approach.values, data.line_load.values)
+    assert found["pull_off_load_loading"] == pytest.approx(reference.rigid_cylinder_pull_off(1.0, 500.0, 1.0), rel=2e-3)
+    assert found["pull_off_approach_loading"] == pytest.approx(-0.5, abs=0.11)
+    assert np.allclose(data.repulsive_load - data.adhesive_load, data.line_load)
+
+
+def test_a_tabulated_law_peaks_at_its_strengths():
+    settings = {"effect": "cohesive_zone", "work_of_separation": 2.0, "work_ratio": 0.5, "normal_length": 1.5}
+    settings |= {"tangential_length": 0.8, "normal_gap": [-0.5, 0.0, 1.0], "tangential_gap": [0.0, 0.4], "reach": 6.0}
+    data = tabulated(settings)
+    normal = reference.normal_strength(2.0, 1.5, data.tangential_gap.values / 0.8)
+    assert np.allclose(data.normal_traction.max("opening"), normal, rtol=1e-4)
+    tangential = reference.tangential_strength(1.0, 0.8, data.normal_gap.values / 1.5)
+    assert np.allclose(data.tangential_traction.max("slip_gap"), tangential, rtol=1e-3)
+    assert np.allclose(data.tangential_traction, -data.tangential_traction[:, ::-1])
+    assert abs(normal[0] - CohesiveZone(2.0, 0.5, 1.5, 0.8).strength) < 1e-15
+
+
+def test_local_squares_give_the_gradient_over_any_part():
+    heights = np.random.default_rng(3).normal(size=50)
+    where = heights > 0.3
+    square = local_squares(heights, 0.7)
+    assert np.sqrt(square.mean()) == pytest.approx(rms_gradient(heights, 0.7), rel=1e-12)
+    assert np.sqrt(square[where].mean()) == pytest.approx(rms_gradient(heights, 0.7, where), rel=1e-12)
+
+
+def test_gradients_follow_both_criteria_and_are_none_without_contact():
+    problem = pose_interface(scene_of(LAWS["uncoupled"]), np.zeros(8), 1e-7)
+    square = np.arange(8.0) ** 2
+    gap = np.array([[-0.5, -0.1, 0.2, 1.0, 30.0, 30.0, 30.0, 30.0]])
+    found = gradients(square, problem, gap, problem.traction(gap))
+    assert found["rms_gradient_repulsive"] == pytest.approx(np.sqrt(0.5))
+    assert found["rms_gradient_interacting"] == pytest.approx(np.sqrt(3.5))  # four points
+    assert found["rms_gradient"] == pytest.approx(np.sqrt(17.5))
+    apart = np.full((1, 8), 40.0)
+    assert np.isnan(gradients(square, problem, apart, problem.traction(apart))["rms_gradient_repulsive"])
+
+
+def test_histograms_hold_every_point_and_their_ends_what_lies_beyond():
+    problem = pose_interface(scene_of(LAWS["uncoupled"]), np.zeros(4), 1e-7)
+    gap = np.array([[-100.0, 0.1, 0.1, 100.0]])
+    shares = histograms(problem, gap, problem.traction(gap))
+    assert shares["normal_gap_share"][[0, 12, -1]].tolist() == [0.25, 0.5, 0.25]
+    assert shares["normal_gap_share"].sum() == shares["normal_traction_share"].sum() == 1.0
+    assert shares["normal_traction_share"][0] == 0.25  # the strongest push
+
+
+def test_fields_of_some_members_alone_are_kept_and_histograms_of_all():
+    scene = scene_of(LAWS["uncoupled"], along(-1.0, 0.0, 0.5))
+    kept, left = (
+        simulate(scene, points=64, tolerance=1e-6, snapshots=[0.0], keep_fields=keep) for keep in (True, False)
+    )
+    assert {"normal_gap", "heights", "x"} <= {*kept.variables}
+    assert not {"normal_gap", "heights", "x"} & {*left.variables}
+    assert left.normal_gap_share.dims == ("snapshot", "normal_gap_bin")
+    assert np.allclose(left.normal_gap_share.sum("normal_gap_bin"), 1.0)
+    assert left.mean_pressure[-1] == pytest.approx(float(left.line_load[-1]) / LENGTH)

@@ -1,0 +1,175 @@
+"""Paths walked on a coarser grid: what is settled on the whole grid is a solution there; paths from first touch."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.contact import loading
+from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.loading import LoadPath, LoadStep
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.errors import SceneError
+from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
+from contactsim.paths.continuation import PathState, Walk
+from contactsim.paths.increments import Nested
+from contactsim.solvers.registry import solver
+from contactsim.study import execute
+from contactsim.study.execute import simulate
+from contactsim.study.plan import Plan
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.shapes import Flat
+from contactsim.traits import Trait
+from support.places import ROOT
+from support.smooth import LAWS, Walked, along, scene_of, walk
+
+ROUGH_LAWS = {"normal": NormalCohesiveZone(10.5), "coupled": CohesiveZone(10.5), "frictional": CohesiveZone(10.5, 0.5)}
+SETTLED = [-4.0, 0.0, 3.0]
+
+
+def rough(points: float = 32.0) -> SelfAffine:
+    """A rough profile whose shortest wave is so many of 4096 points long."""
+    length = 2560.0
+    return SelfAffine(length, 0.8, 320.0, points * length / 4096, rms_height=5.0, rng=generator(7, 0.8))
+
+
+def rough_scene(law: object, begin: float = -5.0, end: float = 3.0) -> Scene:
+    body = HalfSpace(70 / (1 - 0.3**2), 0.3)
+    path = loading.through(Trait.APPROACH, [begin, end], 0.5, from_touch=True)
+    return Scene(Body(Flat.facing(rough()), body), Body(rough()), (law,), path)
+
+
+def settled(found: Walked, points: int) -> list:
+    return [state for state in found.states if state.points == points]
+
+
+@pytest.mark.parametrize("name", ROUGH_LAWS)
+def test_settled_states_are_those_of_a_walk_on_the_whole_grid(name):
+    scene = rough_scene(ROUGH_LAWS[name])
+    whole = walk(scene, points=4096)
+    nested = walk(scene, points=4096, increments=Nested(SETTLED))
+    assert nested.statuses == whole.statuses == {"CONVERGED"}
+    found = settled(nested, 4096)
+    assert [state.step.value for state in found] == SETTLED
+    assert max(state.residual for state in found) <= 1e-7
+    assert nested.transforms < whole.transforms / 3  # measured: 5 to 9 times fewer
+    places = [state.points == 4096 for state in nested.states]
+    wrong = np.abs(nested.load - whole.load) / np.abs(whole.load).max()
+    assert wrong[places].max() <= 1e-6
+    # a jump may come an increment sooner on the coarse grid; the other states are solved to 1e-4 on 1024 points
+    assert (wrong > 1e-5).sum() <= 1
+
+
+def test_what_is_settled_is_certified_from_its_displacement_alone():
+    nested = walk(rough_scene(ROUGH_LAWS["normal"]), points=4096, increments=Nested(SETTLED))
+    for state in settled(nested, 4096):
+        assert nested.problem.at(state.step).certify(state.displacement) <= 1e-7
+    others = [state for state in nested.states if state.points == 1024]
+    assert len(others) == len(nested.states) - len(SETTLED)
+    for state in others:
+        assert state.problem.certify(state.displacement) <= 1e-4
+        assert [field.shape for field in state.fields()] == [(1, 1024)] * 2
+
+
+def test_fields_kept_are_those_of_the_whole_grid_wherever_a_state_was_solved():
+    scene = rough_scene(ROUGH_LAWS["coupled"], end=0.0)
+    data = simulate(scene, points=4096, tolerance=1e-7, increments=Nested([0.0]), snapshots=[-1.0, 0.0])
+    assert data.normal_gap.shape == (2, 4096)
+    assert data.solved_points.values.tolist() == [1024] * 9 + [4096]
+    assert data.transforms.sum() > 0 and (data.status == 0).all()
+    datum = data.normal_gap + data.normal_displacement + data.heights  # what both leave is the approach
+    assert abs(datum + data.snapshot + data.approach_first_touch).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
+    scene = scene_of(LAWS[name], along(0, 1, 1), surface=rough(256.0))
+    whole = pose_interface(scene, scene.heights(512), 1e-7)
+    coarse, posed = whole.coarser(64, 1e-3), pose_interface(scene, scene.heights(64), 1e-3)
+    assert coarse.tolerance == 1e-3 and coarse.unknowns == posed.unknowns
+    assert np.allclose(coarse.stiffness.diagonal[:, :-1], posed.stiffness.diagonal[:, :-1], rtol=1e-12)
+    if posed.derived is None and len(posed.shape) == 2:
+        assert np.allclose(coarse.stiffness.coupling, posed.stiffness.coupling, rtol=1e-12)
+    if posed.derived is not None:
+        assert np.allclose(coarse.derived, posed.derived, rtol=1e-12)
+    assert np.allclose(coarse.shape, posed.shape, atol=1e-12 * np.ptp(posed.shape))
+    assert whole.refined(np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
+
+
+def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_the_mean_plane():
+    top = float(rough().heights(512).max())
+    for law, body in ((NormalCohesiveZone(2.0), HalfSpace(70.0)), (HardWall(), Layer(70.0, 0.3, 1000.0))):
+        absolute = loading.approach([value - top for value in (-1.0, 0.5, 2.0)])
+        from_touch = LoadPath(loading.approach([-1.0, 0.5, 2.0]).steps, from_touch=True)
+        one, two = (
+            simulate(Scene(Body(Flat.facing(rough()), body), Body(rough()), (law,), path), points=512)
+            for path in (absolute, from_touch)
+        )
+        assert one.approach_first_touch == two.approach_first_touch == pytest.approx(-top)
+        names = ["approach", "line_load"] if "line_load" in one else ["mean_pressure", "relative_contact_area"]
+        for name in names:
+            assert np.allclose(one[name], two[name], rtol=1e-6, atol=1e-12), name
+
+
+def test_parts_of_a_path_count_from_the_same_place():
+    with pytest.raises(SceneError, match="from_touch") as caught:
+        loading.approach([1.0]) >> LoadPath(loading.approach([2.0]).steps, from_touch=True)
+    assert caught.value.key == "from_touch"
+
+
+@pytest.mark.parametrize(
+    ("options", "key"),
+    [({"ratio": 3}, "ratio"), ({"ratio": 2}, "between"), ({"walking": 0.0}, "walking"), ({"between": 0}, "between")],
+)
+def test_impossible_options_are_refused(options, key):
+    with pytest.raises(SceneError) as caught:
+        Nested([0.0], **options)
+    assert caught.value.key == key
+
+
+def test_a_ratio_that_leaves_no_even_grid_is_refused():
+    scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
+    problem = pose_interface(scene, scene.heights(72), 1e-7)
+    with pytest.raises(SceneError, match="half the grid's 72 points"):
+        list(Nested([0.0]).follow(problem, solver("newton"), scene.path.steps))
+
+
+def test_a_value_to_settle_that_is_no_step_is_refused():
+    scene = rough_scene(ROUGH_LAWS["normal"])
+    with pytest.raises(SceneError, match="steps of the path") as caught:
+        walk(scene, points=4096, increments=Nested([0.0, 0.3]))
+    assert (caught.value.key, caught.value.value) == ("settled", [0.3])
+
+
+def test_a_tolerance_that_doing_nothing_would_meet_is_refused():
+    scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
+    with pytest.raises(SceneError, match=r"at most 0[.]1") as caught:
+        pose_interface(scene, scene.heights(64), 10.0)
+    assert caught.value.key == "tolerance"
+
+
+def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_path, monkeypatch):
+    """States depend on those before, so a path begins anew; nothing of the first try is left to change it."""
+    run = next(iter(Plan.read(ROOT / "config", "quick").studies["rough_adhesive_64"].runs()))
+    settings = run.settings | {"points": 2048, "snapshots": [8.0]}
+    settings["load"] = settings["load"] | {"through": [-7.0, 8.0]}
+    settings["increments"] = settings["increments"] | {"settled": [-4.0, 2.0, 8.0]}
+    whole, again = (tmp_path / name for name in ("whole.nc", "again.nc"))
+    execute.run(settings, run.source, whole, tmp_path / "whole.json")
+    advance, steps = Walk.advance, []
+
+    def killed(self: Walk, step: LoadStep) -> PathState:
+        """Five states, then none."""
+        steps.append(step)
+        if len(steps) > 5:
+            raise KeyboardInterrupt
+        return advance(self, step)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Walk, "advance", killed)
+        with pytest.raises(KeyboardInterrupt):
+            execute.run(settings, run.source, again, tmp_path / "again.json")
+    assert not list(tmp_path.glob("*again*"))
+    execute.run(settings, run.source, again, tmp_path / "again.json")
+    assert again.read_bytes() == whole.read_bytes()

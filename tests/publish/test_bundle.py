@@ -1,0 +1,283 @@
+"""A bundle is whole, can be checked, says what it holds, and can be used without the code that made it."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+import yaml
+from rocrate.rocrate import ROCrate
+from scipy.stats import linregress
+
+from contactsim import dataset
+from contactsim.analysis import aggregate, costs
+from contactsim.errors import SceneError
+from contactsim.publish import bundle
+from contactsim.study.execute import run
+from support.places import ROOT
+from support.project import CYLINDER, Project, figure
+from support.small_studies import PROJECT, SMALL, small
+
+LIMITS = (0.0, 0.5, 1.0)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """Where the files of a bundle lie, by their place in it: two datasets as studies make them, the rest stand-ins."""
+    folder = tmp_path_factory.mktemp("results")
+    for chapter, studies in SMALL.items():
+        for name in studies:
+            study, listed = small(chapter, name), []
+            for one in study.runs():
+                path, cost = (str(folder / f"runs/{one.stem}.{ending}") for ending in ("nc", "json"))
+                run(one.settings, one.source, path, cost)
+                place = {"coordinates": one.coordinates, "member": one.member, "companion": False, "error": "grid"}
+                listed.append({"path": path, "costs": cost} | place)
+            made = aggregate.aggregate(listed, study.settings | {"name": name, "tier": "small"}, "abc")
+            dataset.write(made, folder / f"datasets/{chapter}_{name}.nc")
+            (folder / "costs").mkdir(exist_ok=True)
+            costs.table(listed).to_csv(folder / f"costs/{chapter}_{name}.csv", index=False)
+    for name in ("figures/fig_3_2.png", "figures/fig_3_2.csv", "figures/cover.gif", "claims/ch3.pdf", "report.html"):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(name, encoding="utf-8")
+    shown = (file for file in folder.rglob("*") if file.is_file() and "runs" not in file.parts)
+    return {str(file.relative_to(folder)): file for file in shown} | {name: ROOT / name for name in PROJECT}
+
+
+@pytest.fixture(scope="module")
+def plan(results):
+    """What a bundle of these is told."""
+    data = {Path(place).stem: f"digest of {place}" for place in results if place.endswith(".nc")}
+    return {"tier": "small", "titles": {"fig_3_2": "Area | pressure", "ch3_rough_line": "Lines"}, "data": data}
+
+
+@pytest.fixture(scope="module")
+def made(plan, results, tmp_path_factory):
+    """A bundle; tests leave it as it is."""
+    target = tmp_path_factory.mktemp("made") / "bundle"
+    bundle.make(plan, results, target)
+    return target
+
+
+def contents(folder):
+    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+def damaged(folder):
+    """The files whose sum is not as it is written, and those that have none."""
+    lines = (folder / "SHA256SUMS").read_text(encoding="utf-8").splitlines()
+    sums = {place: value for value, place in (line.split("  ", 1) for line in lines)}
+    found = {place: hashlib.sha256(content).hexdigest() for place, content in contents(folder).items()}
+    return {place for place in sums.keys() | found.keys() - {"SHA256SUMS"} if sums.get(place) != found.get(place)}
+
+
+def test_a_bundle_holds_all_files_as_they_are_and_three_of_its_own(made, results):
+    found = contents(made)
+    assert found.keys() - results.keys() == {"README.md", "SHA256SUMS", "ro-crate-metadata.json"}
+    assert all(found[place] == path.read_bytes() for place, path in results.items())
+
+
+@pytest.mark.parametrize("place", ["datasets/ch3_rough_line.nc", "README.md", "ro-crate-metadata.json"])
+def test_the_sums_hold_until_a_byte_is_flipped(made, place, tmp_path):
+    copy = shutil.copytree(made, tmp_path / "copy")
+    assert damaged(copy) == set()
+    content = bytearray((copy / place).read_bytes())
+    content[len(content) // 2] ^= 1
+    (copy / place).write_bytes(content)
+    assert damaged(copy) == {place}
+
+
+@pytest.mark.skipif(not shutil.which("sha256sum"), reason="needs sha256sum")
+def test_the_command_of_the_readme_checks_the_sums(made, tmp_path):
+    copy = shutil.copytree(made, tmp_path / "copy")
+    (command,) = re.findall(r"`(sha256sum [^`]+)`", (copy / "README.md").read_text(encoding="utf-8"))
+    assert subprocess.run(command.split(), cwd=copy, check=True, capture_output=True).stdout == b""
+    (copy / "LICENSE").write_text("other", encoding="utf-8")
+    told = subprocess.run(command.split(), cwd=copy, check=False, capture_output=True, text=True)
+    assert told.returncode != 0
+    assert told.stdout == "LICENSE: FAILED\n"
+
+
+def test_two_bundles_of_the_same_results_are_the_same_byte_for_byte(made, plan, results, tmp_path):
+    moved = {}
+    for place, path in reversed(results.items()):
+        moved[place] = tmp_path / "moved" / place
+        moved[place].parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, moved[place])
+    bundle.make(plan, moved, tmp_path / "other")
+    assert contents(tmp_path / "other") == contents(made)
+
+
+def test_the_readme_names_every_file_dimension_and_variable_with_its_unit_and_meaning(made):
+    text = (made / "README.md").read_text(encoding="utf-8")
+    for place in contents(made):
+        assert f"| `{place}` |" in text, place
+    for path in (made / "datasets").iterdir():
+        data = xr.load_dataset(path)
+        section = text[text.index(f"### `datasets/{path.name}`") :].split("\n## ")[0].split("\n### ")[0]
+        assert data.attrs["title"] in section
+        assert f"digest of datasets/{path.name}" in section
+        for name, count in data.sizes.items():
+            assert f"{name} {count}" in section
+            assert f"| `{name}` | " in text.partition("## Dimensions")[2].partition("## Variables")[0]
+        for name, item in data.variables.items():
+            row = next(line for line in section.splitlines() if f"`{name}`" in line)
+            assert row.startswith(f"| {', '.join(map(str, item.dims)) or '–'} |")
+            assert f"| `{name}` | {item.attrs['units']} | {item.attrs['long_name']}" in text
+    assert "| `status` | 1 | status of the solution: 0 converged, 1 budget," in text
+    assert "| `figures/fig_3_2.png` | Area \\| pressure (figure; csv:" in text
+
+
+def test_the_metadata_list_every_file_that_is_there_and_no_other(made):
+    graph = json.loads((made / "ro-crate-metadata.json").read_text(encoding="utf-8"))["@graph"]
+    entities = {one["@id"]: one for one in graph}
+    assert len(entities) == len(graph)
+    files = {one["@id"] for one in graph if one["@type"] == "File"}
+    assert files == contents(made).keys() - {"ro-crate-metadata.json"}
+    assert {part["@id"] for part in entities["./"]["hasPart"]} == files
+    for place in files - {"SHA256SUMS"}:
+        assert entities[place]["sha256"] == hashlib.sha256((made / place).read_bytes()).hexdigest()
+        assert entities[place]["description"]
+        assert int(entities[place]["contentSize"]) == (made / place).stat().st_size
+    measured = entities["datasets/ch3_rough_line.nc"]["variableMeasured"]
+    assert set(measured) == set(xr.load_dataset(made / "datasets/ch3_rough_line.nc").variables)
+
+
+def test_the_metadata_say_what_an_archive_asks_for_as_the_citation_does(made):
+    crate = ROCrate(made)
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert crate.version == "1.2"
+    root = crate.root_dataset
+    assert root["name"].startswith(citation["title"])
+    assert root["datePublished"] == citation["date-released"]
+    assert [root["author"]["name"]] == [author["name"] for author in citation["authors"]]
+    assert root["license"].id == f"https://spdx.org/licenses/{citation['license']}"
+    assert root["description"]
+
+
+def without_date(path):
+    path.write_text(re.sub("date-released.*\n", "", path.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def cut_short(path):
+    path.write_bytes(path.read_bytes()[:1000])
+
+
+@pytest.mark.parametrize(
+    ("place", "spoil", "key"),
+    [
+        ("figures/cover.gif", Path.unlink, "bundle"),
+        ("datasets/ch3_rough_line.nc", cut_short, "dataset"),
+        ("CITATION.cff", without_date, "date-released"),
+    ],
+)
+def test_what_is_missing_or_damaged_is_named_and_leaves_no_half_bundle(plan, results, place, spoil, key, tmp_path):
+    spoiled = tmp_path / "spoiled" / Path(place).name
+    spoiled.parent.mkdir()
+    shutil.copyfile(results[place], spoiled)
+    spoil(spoiled)
+    older = tmp_path / "bundle"
+    older.mkdir()
+    (older / "LICENSE").touch()
+    with pytest.raises(SceneError) as refused:
+        bundle.make(plan, results | {place: spoiled}, older)
+    assert refused.value.key == key
+    assert Path(place).name in str(refused.value)
+    assert [file.name for file in tmp_path.iterdir()] == ["spoiled"]
+
+
+def test_a_bundle_takes_the_place_of_an_older_one_and_of_what_a_kill_left(made, plan, results, tmp_path):
+    for name in ("bundle", ".bundle.tmp"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "stale.txt").touch()
+    bundle.make(plan, results, tmp_path / "bundle")
+    assert contents(tmp_path) == {f"bundle/{place}": content for place, content in contents(made).items()}
+
+
+def test_a_person_is_cited_as_one():
+    assert bundle.author_name({"given-names": "M.", "family-names": "Müser"}) == "M. Müser"
+
+
+@pytest.fixture(scope="module")
+def told(made):
+    """What the example prints when it is run in the bundle, as its README says."""
+    (command,) = re.findall(r"`python ([^`]+)`", (made / "README.md").read_text(encoding="utf-8"))
+    done = subprocess.run([sys.executable, *command.split()], cwd=made, check=True, capture_output=True, text=True)
+    assert done.stderr == ""
+    return [[float(number) for number in re.findall(r"[-\d.]+", line)] for line in done.stdout.splitlines()]
+
+
+def with_error(values):
+    """Mean and standard error of values of members."""
+    return [np.mean(values), np.std(values, ddof=1) / np.sqrt(len(values))]
+
+
+def test_the_example_counts_contact_as_the_gaps_themselves_do(made, told):
+    data = xr.load_dataset(made / "datasets/ch5_rough_adhesive.nc")
+    assert (data.status == 0).all()
+    rows = [row for row in told if len(row) == 8]
+    assert len(rows) == data.work_of_separation.size * data.snapshot.size
+    for work, approach, *found in rows:
+        gaps = data.normal_gap.sel(work_of_separation=work, snapshot=approach).values
+        expected = [number for limit in LIMITS for number in with_error((gaps < limit).mean(axis=1))]
+        assert found == pytest.approx(expected, abs=1e-5)
+        assert found[4] > 0
+
+
+def test_the_example_fits_the_law_that_another_fit_finds(made, told, results):
+    data = xr.load_dataset(made / "datasets/ch3_rough_line.nc").sel(reduced_pressure=[0.01, 0.03, 0.1])
+    rows = [row for row in told if len(row) == 5]
+    assert [row[0] for row in rows] == [0.2, 0.8]
+    for hurst, *found in rows:
+        areas = data.contact_points.sel(hurst=hurst).values / data.points.item()
+        lines = [linregress(np.log(data.reduced_pressure), np.log(area)) for area in areas]
+        slopes, factors = [line.slope for line in lines], [np.exp(line.intercept) for line in lines]
+        assert found == pytest.approx(with_error(slopes) + with_error(factors), abs=1e-5)
+        assert found[0] == pytest.approx(1.0, abs=0.2)
+
+
+def test_the_example_needs_no_solver():
+    tree = ast.parse((ROOT / "examples/reanalyse.py").read_text(encoding="utf-8"))
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom)]
+    named = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}
+    named |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}
+    assert named == {"__future__", "argparse", "pathlib", "numpy", "xarray"}
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """A project of one study and one figure, with all that a bundle needs of a project."""
+    project = Project.new(tmp_path_factory.mktemp("bundled") / "project")
+    (project.folder / "config/ch8.yaml").unlink()
+    small = {"studies": {"smooth": CYLINDER}, "figures": {"fig_9_1": figure("smooth")}}
+    project.configure("ch9", small)
+    (project.folder / "examples").mkdir()
+    for name in PROJECT[:4]:
+        shutil.copyfile(ROOT / name, project.folder / name)
+    report = project.folder / "results/standard/report.html"
+    report.parent.mkdir(parents=True)
+    report.write_text("A report", encoding="utf-8")
+    return project
+
+
+@pytest.mark.slow
+def test_the_workflow_makes_a_bundle_and_makes_it_again_when_what_it_holds_has_changed(project):
+    made = project.make("bundle")
+    assert "bundle: results/standard/bundle" in made
+    folder = project.folder / "results/standard/bundle"
+    assert damaged(folder) == set()
+    found = set(contents(folder))
+    assert found >= {"datasets/ch9_smooth.nc", "costs/ch9_smooth.csv", "figures/fig_9_1.pdf", "report.html"}
+    assert found >= {"config/ch9.yaml", "config/tiers.yaml", *PROJECT[:4]}
+    assert project.planned("bundle") == []
+    project.edit("publish/bundle")
+    assert project.planned("bundle") == ["bundle: results/standard/bundle"]

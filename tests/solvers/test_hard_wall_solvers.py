@@ -1,0 +1,360 @@
+"""What every solver of the hard wall promises, and what the default one promises besides."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+import contactsim
+from contactsim import reference
+from contactsim.contact import loading
+from contactsim.contact.hard_wall import pose
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.errors import SceneError
+from contactsim.explain import explain
+from contactsim.interface.laws import HardWall
+from contactsim.solvers.base import require, solve
+from contactsim.solvers.hard_wall.active_set import ActiveSet
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
+from contactsim.solvers.registry import SOLVERS, solver
+from contactsim.status import Status
+from contactsim.surfaces.profile import Profile, prepare
+from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.shapes import Flat
+from contactsim.surfaces.statistics import rms_gradient
+from contactsim.traits import Trait
+from support.cases import ALL, FAST, ON_SURFACES, compliance, press, rough, wave
+
+
+def assert_solved(result, tolerance=1e-3):
+    certificate = result.record.certificate
+    assert result.status is Status.CONVERGED
+    assert certificate.non_uniformity <= tolerance
+    assert certificate.penetration <= tolerance
+    assert certificate.load_error <= 1e-12
+    assert result.pressure.min() >= 0
+    assert np.isfinite(result.pressure).all()
+    assert np.isfinite(result.gap).all()
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("pressure", [3e-3, 3e-2, 0.3, 3.0])
+def test_the_answer_is_that_of_a_dense_quadratic_programme(name, pressure):
+    points = 48
+    heights = rough(points, modes=12)
+    result = press(heights, pressure, name, tolerance=1e-6)
+    # minimise |R p - R⁻ᵀ h|² + w (Σp - load)² over p ≥ 0, with S = RᵀR on the zero-mean space: an independent route
+    matrix = compliance(points)
+    values, vectors = np.linalg.eigh(matrix)
+    keep = values > 1e-12
+    root = np.sqrt(values[keep])[:, None] * vectors[:, keep].T
+    target = vectors[:, keep].T @ heights / np.sqrt(values[keep])
+    weight = 1e6
+    exact, _ = nnls(np.vstack([root, weight * np.ones(points)]), np.append(target, weight * pressure * points))
+    assert_solved(result, 1e-6)
+    assert np.array_equal(result.contact, exact > 1e-9 * exact.max())
+    assert np.allclose(result.pressure, exact, rtol=0, atol=2e-5 * exact.max())
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("hurst", [0.2, 0.8])
+def test_solvers_agree_on_a_rough_line(name, hurst):
+    heights = rough(1024, hurst)
+    for pressure in (3e-3, 0.1):
+        ours = press(heights, pressure, tolerance=1e-6)
+        other = press(heights, pressure, name, tolerance=1e-6)
+        assert_solved(other, 1e-6)
+        assert np.array_equal(other.contact, ours.contact)
+        assert np.allclose(other.pressure, ours.pressure, rtol=0, atol=1e-4 * ours.pressure.max())
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("ratio", [1e-4, 1e-2, 0.3, 0.5, 0.9, 0.9999, 1.0, 1.001, 10.0])
+def test_westergaard_area_is_right_to_one_and_a_half_points(name, ratio):
+    points = 256
+    full = reference.full_contact_pressure(1.0, points, 1.0)
+    result = press(wave(points), ratio * full, name, tolerance=1e-5)
+    assert_solved(result, 1e-5)
+    assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
+
+
+@pytest.mark.parametrize("points", [64, 255, 1009, 8192])
+def test_westergaard_area_holds_on_every_grid_from_a_touch_to_full_contact(points):
+    full = reference.full_contact_pressure(1.0, points, 1.0)
+    for ratio in np.geomspace(1e-4, 0.9999, 25):
+        # close to full contact the whole gap is below 1e-3 grid steps: the tolerance has to be tighter than that
+        result = press(wave(points), ratio * full, tolerance=1e-6)
+        assert_solved(result, 1e-6)
+        assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
+
+
+@pytest.mark.parametrize("name", FAST)
+def test_cylinder_area_and_kappa_r_are_within_one_percent(name):
+    points, length, radius = 8192, 4.0, 1.0
+    x = np.arange(points) * length / points - length / 2
+    heights = -(x**2) / (2 * radius)
+    for ratio in (0.05, 0.1, 0.15, 0.2, 0.25):
+        load = reference.cylinder_load(ratio * radius, radius, 1.0)
+        result = contactsim.press(
+            heights, spacing=length / points, contact_modulus=1.0, mean_pressure=load / length, solver=name
+        )
+        gradient = rms_gradient(heights, length / points, result.contact)
+        kappa = result.relative_contact_area * gradient * length / load
+        assert kappa == pytest.approx(reference.CYLINDER_KAPPA_R, rel=0.01)
+        peak = reference.cylinder_pressure(0.0, ratio, radius, 1.0)
+        assert result.pressure.max() == pytest.approx(peak, rel=0.01)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_complete_contact_is_exact(name):
+    heights = rough(256)
+    flattened = reference.complete_contact(heights, 256.0, 1.0)
+    mean = -flattened.min() * 1.001
+    result = press(heights, mean, name, tolerance=1e-7)
+    assert_solved(result, 1e-7)
+    assert result.contact.all()
+    assert np.allclose(result.pressure, mean + flattened, rtol=0, atol=1e-6 * mean)
+    opened = press(heights, -flattened.min() * 0.999, name, tolerance=1e-7)
+    assert_solved(opened, 1e-7)
+    assert 0 < (~opened.contact).sum() < 5
+
+
+@pytest.mark.parametrize("name", FAST)
+def test_pressure_field_of_a_wave_is_westergaards(name):
+    points, ratio = 1024, 0.5
+    mean = ratio * reference.full_contact_pressure(1.0, points, 1.0)
+    result = press(wave(points), mean, name, tolerance=1e-6)
+    exact = reference.sinusoid_pressure(np.pi * np.arange(points) / points, ratio, mean)
+    # the square-root edge is met to within a point: error √(2/a) of the peak there, far less elsewhere
+    assert np.sqrt(np.mean((result.pressure - exact) ** 2)) < 3e-3 * exact.max()
+
+
+# ---- approach
+
+
+@pytest.mark.parametrize("pressure", [1e-3, 1e-2, 0.1, 1.0])
+@pytest.mark.parametrize("points", [256, 1001])
+def test_an_approach_and_the_pressure_it_takes_are_the_same_solution(pressure, points):
+    heights = rough(points)
+    loaded = press(heights, pressure, tolerance=1e-8)
+    moved = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, approach=loaded.approach, tolerance=1e-8)
+    assert_solved(moved, 1e-8)
+    assert moved.mean_pressure == pytest.approx(pressure, rel=1e-5)
+    assert np.array_equal(moved.contact, loaded.contact)
+
+
+def test_before_first_touch_nothing_is_solved():
+    heights = rough(64)
+    result = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, approach=-heights.max() - 2.0)
+    assert result.record.iterations == 0
+    assert not result.contact.any()
+    assert result.gap.min() == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("solver", ["polonsky_keer", "verlet"])
+def test_a_solver_that_cannot_take_an_approach_says_so(solver):
+    with pytest.raises(SceneError, match=r"accepts APPROACH \(load step given by an approach\)"):
+        contactsim.press(rough(64), spacing=1.0, contact_modulus=1.0, approach=0.0, solver=solver)
+
+
+def test_an_approach_beyond_full_contact_is_refused():
+    with pytest.raises(SceneError, match="full contact") as caught:
+        contactsim.press(wave(64), spacing=1.0, contact_modulus=1.0, approach=0.1)
+    assert caught.value.key == "approach"
+
+
+# ---- registry and refusals
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_each_solver_accepts_every_trait_it_claims_and_refuses_the_rest(name):
+    method = solver(name)
+    paths = {Trait.MEAN_PRESSURE: loading.press([0.1]), Trait.APPROACH: loading.approach([-0.5])}
+    for trait, path in paths.items():
+        scene = Scene(Body(Flat(8.0), HalfSpace(1.0)), Body(Flat(8.0)), (HardWall(),), path)
+        assert scene.traits == {Trait.LINE, Trait.WALL, Trait.HALF_SPACE, trait}
+        if trait in method.accepts:
+            require(method, scene)
+        else:
+            with pytest.raises(SceneError, match=trait.name):
+                require(method, scene)
+
+
+@pytest.mark.parametrize("thickness", [None, 3.0])
+@pytest.mark.parametrize("pressure", [1e-4, 0.03, 0.5])
+def test_polonsky_keer_finds_the_same_contact_of_a_surface(pressure, thickness):
+    heights = SelfAffine(48, 0.5, 16.0, 6.0, 1.0, dimensions=2, rng=generator(3, 0.5)).heights(48)[:40]
+    layer = {} if thickness is None else {"thickness": thickness, "poisson_ratio": 0.3}
+    given = {"spacing": (1.0, 1.5), "contact_modulus": 1.0, "mean_pressure": pressure, "tolerance": 1e-6} | layer
+    found, other = (contactsim.press(heights, solver=name, **given) for name in ON_SURFACES)
+    assert found.status is Status.CONVERGED
+    assert np.array_equal(found.contact, other.contact)
+    assert np.allclose(found.pressure, other.pressure, rtol=0, atol=1e-5 * other.pressure.max())
+
+
+def test_an_unknown_solver_is_refused_with_those_that_exist():
+    with pytest.raises(SceneError, match=", ".join(sorted(SOLVERS))):
+        press(rough(64), 0.1, "conjugate_dreams")
+
+
+@pytest.mark.parametrize(("options", "key"), [({"time_step": 1.0}, "time_step"), ({"damping": 0.0}, "damping")])
+def test_verlet_refuses_options_that_blow_up_or_never_settle(options, key):
+    with pytest.raises(SceneError) as caught:
+        solver("verlet", **options)
+    assert caught.value.key == key
+
+
+def test_a_spent_budget_is_an_honest_status_and_still_a_certificate():
+    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.press([0.1]))
+    heights = rough(256)
+    problem, scale = pose(scene, scene.path.steps[0], heights, 1e-9, 1)
+    result = solve(ActiveSet(budget=1), problem, scale)
+    assert result.status is Status.BUDGET
+    assert result.record.iterations == 1
+    assert result.record.certificate.non_uniformity > 1e-9
+    assert result.pressure.min() >= 0
+    assert result.mean_pressure == pytest.approx(0.1)
+
+
+def test_a_value_that_is_not_finite_is_caught_and_the_last_good_state_kept():
+    class Breaking(ActiveSet):
+        def step(self, problem, state):
+            following = super().step(problem, state)
+            if following.count > 1:
+                following.pressure[0] = np.nan
+            return following
+
+    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.press([0.1]))
+    problem, scale = pose(scene, scene.path.steps[0], rough(256), 1e-9, 1)
+    result = solve(Breaking(), problem, scale)
+    assert result.status is Status.NON_FINITE
+    assert np.isfinite(result.pressure).all()
+
+
+# ---- the parts of the active set
+
+
+@pytest.mark.parametrize("points", [2, 3, 4, 9, 64, 101])
+def test_the_stiffness_is_an_m_matrix_on_every_grid(points):
+    row = np.fft.ifft(np.abs(np.fft.fftfreq(points))).real
+    assert row[0] > 0
+    assert (row[1:] <= 1e-15).all()
+
+
+@pytest.mark.parametrize("contacts", [[3], [0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 5], [7], [1, 6]])
+def test_continuation_is_linear_between_contacts_and_restriction_its_adjoint(contacts):
+    where = np.zeros(8, bool)
+    where[contacts] = True
+    both = Continuation(where)
+    rng = np.random.default_rng(0)
+    values, field = rng.normal(size=len(contacts)), rng.normal(size=8)
+    extended = np.empty(8)
+    both.extend(values, extended, np.empty(8))
+    rolled = np.roll(extended, contacts[0])
+    assert np.allclose(rolled, np.interp(np.arange(8), contacts, values, period=8))
+    assert np.dot(extended, field) == pytest.approx(np.dot(values, both.restrict(field)))
+    assert both.restrict(field).sum() == pytest.approx(field.sum())
+
+
+@pytest.mark.parametrize("points", [63, 512, 4096])
+def test_the_preconditioners_stiffness_is_close_to_the_true_one_and_kills_constants(points):
+    scene = Scene(Body(Flat(points), HalfSpace(1.0)), Body(Flat(points)), (HardWall(),), loading.press([0.1]))
+    problem, _ = pose(scene, scene.path.steps[0], rough(64 if points < 64 else points)[:points], 1e-3, 1)
+    stiffness = BlockStiffness(problem.compliance, uniform=True)
+    scratch = np.empty(points)
+
+    def apply(values):
+        stiffness.field[:] = values
+        return stiffness(np.empty(points), scratch)
+
+    assert np.abs(apply(np.ones(points))).max() < 1e-13
+    for mode in (1, 2, points // 20, points // 5, points // 3, points // 2 - 1):
+        q = 2 * np.pi * mode / points
+        sine = np.sin(q * np.arange(points))
+        exact = 0 if points < 512 else 0.35  # blocks of eight smear a wave of their own length; a CG needs no more
+        assert sine @ apply(sine) == pytest.approx(q / 2 * (sine @ sine), rel=max(exact, 1e-9))
+
+
+# ---- cost
+
+
+def test_a_sweep_of_the_thesis_takes_few_transforms_and_hardly_more_on_finer_grids():
+    spent = {}
+    for points in (2**14, 2**16):
+        heights = rough(points, modes=4095)
+        results = [press(heights, pressure) for pressure in np.geomspace(1e-3, 1e-1, 12)]
+        for result in results:
+            assert_solved(result)
+        spent[points] = sum(result.record.transforms for result in results)
+    assert spent[2**14] <= 1500
+    assert spent[2**16] <= 1.3 * spent[2**14]
+
+
+def test_the_cascade_costs_less_than_starting_on_the_fine_grid():
+    heights = rough(4096)
+    scene = Scene(Body(Flat(4096.0), HalfSpace(1.0)), Body(Flat(4096.0)), (HardWall(),), loading.press([0.01]))
+    work = {}
+    for name, method in (("nested", solver("active_set")), ("plain", ActiveSet())):
+        problem, scale = pose(scene, scene.path.steps[0], heights, 1e-3, 1)
+        result = solve(method, problem, scale)
+        assert_solved(result)
+        work[name] = result.record.transforms
+    assert work["nested"] < 0.8 * work["plain"]
+
+
+# ---- hard for rounding
+
+
+@pytest.mark.parametrize("load", [1e-10, 1e-20, 1e-200])
+def test_a_load_far_below_the_rounding_of_the_gaps_stands_on_one_point(load):
+    heights = np.random.default_rng(1).standard_normal(4096)
+    result = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=load)
+    assert result.status is Status.CONVERGED
+    assert result.contact.nonzero()[0].tolist() == [heights.argmax()]
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_profile_that_is_flat_but_for_rounding_is_in_full_contact(name):
+    plane = prepare(Profile(np.linspace(0.0, 50.0, 1000), 2.0, None), detrend="linear")
+    assert 0 < np.ptp(plane.heights) < 1e-12
+    result = contactsim.press(plane.heights, spacing=2.0, contact_modulus=70.0, mean_pressure=0.1, solver=name)
+    assert result.status is Status.CONVERGED
+    assert result.contact.all()
+
+
+@pytest.mark.parametrize("load", [0.003, 0.03, 0.3])
+def test_tamaas_finds_the_same_solution_and_its_transforms_are_counted(load):
+    pytest.importorskip("tamaas")
+    heights = rough(512, 0.5)
+    options = {"spacing": 1.0, "contact_modulus": 2.0, "mean_pressure": load * 1e-2, "tolerance": 1e-8}
+    ours, theirs = (contactsim.press(heights, solver=name, **options) for name in ("active_set", "tamaas"))
+    assert theirs.status is Status.CONVERGED
+    assert (theirs.contact == ours.contact).all()
+    assert theirs.approach == pytest.approx(ours.approach, rel=1e-6)
+    assert theirs.record.transforms % 2 == 0
+    assert theirs.record.transforms > 20
+
+
+def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypatch):
+    monkeypatch.setattr("contactsim.solvers.registry.find_spec", lambda name: None)
+    with pytest.raises(SceneError, match="pip install tamaas"):
+        solver("tamaas")
+    scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.press([1.0]))
+    assert "tamaas: is not installed" in explain(scene, 64, "active_set").text
+
+
+def test_one_solver_serves_several_threads_at_once():
+    heights = np.random.default_rng(1).standard_normal(4096)
+    shared = solver("active_set")
+
+    def area(load):
+        pressed = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=load, solver=shared)
+        return pressed.relative_contact_area
+
+    loads = [0.01, 0.02, 0.05, 0.1] * 4
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(area, loads)) == [area(load) for load in loads]

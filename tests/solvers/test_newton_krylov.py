@@ -1,0 +1,205 @@
+"""The parts of Newton-Krylov: the linear solver, its preconditioner, and what the whole refuses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.contact.cohesive import Tangent, pose_interface
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.solvers.base import require
+from contactsim.solvers.cohesive.gmres import gmres
+from contactsim.solvers.cohesive.zone_preconditioner import RATIO, ZonePreconditioner
+from contactsim.solvers.registry import solver, solver_class
+from contactsim.surfaces.shapes import Cylinder, Sinusoid
+from support.cases import refusal
+from support.smooth import LAWS, along, scene_of, walk
+
+
+def real_linear(seed, size, shape):
+    """A map on complex arrays that is linear over the real numbers alone, and its matrix."""
+    rng = np.random.default_rng(seed)
+    matrix = np.eye(2 * size) * 3 + rng.standard_normal((2 * size, 2 * size)) / np.sqrt(2 * size)
+    return matrix, lambda x: (matrix @ x.reshape(-1).view(float)).view(complex).reshape(shape)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("shape", [(1, 9), (2, 6)])
+def test_gmres_solves_maps_that_are_linear_over_the_reals(seed, shape):
+    size = shape[0] * shape[1]
+    matrix, product = real_linear(seed, size, shape)
+    rough = real_linear(seed + 100, size, shape)[1]
+    target = np.random.default_rng(seed).standard_normal((*shape, 2)).view(complex)[..., 0]
+    exact = np.linalg.solve(matrix, target.reshape(-1).view(float)).view(complex).reshape(shape)
+    for precondition in (lambda x: x, rough):
+        found, count = gmres(product, precondition, target, 1e-12, 2 * size)
+        assert count <= 2 * size
+        assert np.allclose(found, exact, rtol=0, atol=1e-10 * np.abs(exact).max())
+
+
+def test_gmres_stops_at_the_residual_asked_for_and_returns_the_best_within_its_budget():
+    product = real_linear(0, 40, (2, 20))[1]
+    target = np.random.default_rng(1).standard_normal((2, 20, 2)).view(complex)[..., 0]
+    counts, residuals = [], []
+    for tolerance in (1e-1, 1e-4, 1e-8):
+        found, count = gmres(product, lambda x: x, target, tolerance, 80)
+        residuals.append(np.linalg.norm(product(found) - target) / np.linalg.norm(target))
+        assert residuals[-1] <= tolerance * (1 + 1e-6)
+        counts.append(count)
+    assert counts == sorted(set(counts))
+    short, count = gmres(product, lambda x: x, target, 1e-8, 3)
+    assert count == 3
+    assert np.linalg.norm(product(short) - target) < np.linalg.norm(target)
+
+
+def test_gmres_survives_a_map_that_is_zero_or_exact_at_once():
+    target = np.array([[1.0 + 2.0j, -1.0j]])
+    found, _ = gmres(lambda x: 2 * x, lambda x: x, target, 1e-14, 5)
+    assert np.allclose(found, target / 2, rtol=1e-14, atol=0)
+    found, _ = gmres(lambda x: 0 * x, lambda x: x, target, 1e-14, 5)
+    assert np.isfinite(found).all()
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("shift", [0.0, 0.7])
+def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_within_the_zone(name, shift):
+    # a short period, so that the laws act everywhere, and a field of the longest waves
+    scene = scene_of(LAWS[name], surface=Cylinder(length=200.0, radius=25000.0))
+    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    displacement = np.zeros(problem.unknowns, complex)
+    tangent = problem.tangent(problem.gap(displacement))[1]
+    smooth = np.full_like(tangent.values, 0.0)
+    smooth += tangent.values.mean(axis=-1, keepdims=True)  # uniform: long waves stay long
+    object.__setattr__(tangent, "values", smooth)
+    precondition = ZonePreconditioner(problem, tangent, shift)
+    low = 256 // RATIO // 2
+    change = np.zeros(problem.unknowns, complex)
+    change[:, :low] = np.random.default_rng(3).standard_normal((len(change), low, 2)).view(complex)[..., 0]
+    change[:, 0] = change[:, 0].real
+    residual = problem.balanced(tangent(change) + shift * change, change)
+    assert np.abs(residual[:, low:]).max() < 1e-12 * np.abs(residual).max()
+    residual[:, low:] = 0
+    assert np.allclose(precondition(residual), change, rtol=0, atol=1e-9 * np.abs(change).max())
+
+
+def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
+    scene = scene_of(LAWS["uncoupled"])
+    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    tangent = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1]
+    values = np.zeros_like(tangent.values)
+    zones = []
+    for place in (40, 200):
+        here = values.copy()
+        here[..., place : place + 20] = -0.2 * problem.softening
+        zones.append(ZonePreconditioner(problem, Tangent(problem, here)))
+    wave = None
+    for _ in range(1100):  # a wave that faded by half a state would be gone
+        wave = zones[0].softest(wave)[1]
+    unstable, wave = zones[1].softest(wave)
+    assert np.isfinite(wave).all()
+    assert unstable == zones[1].softest(None)[0]
+
+
+@pytest.mark.parametrize("kind", ["newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation"])
+@pytest.mark.parametrize("trait", ["uncoupled", "frictionless", "frictional"])
+def test_a_law_without_potential_is_refused_by_the_minimiser_alone(kind, trait):
+    scene = scene_of(LAWS[trait])
+    if kind == "energy_minimisation" and trait != "uncoupled":
+        error = refusal("solver", None, lambda: _require(kind, scene))
+        assert "NON_CONSERVATIVE" in error.allowed
+    else:
+        require(solver(kind), scene)
+
+
+def _require(kind, scene):
+    try:
+        require(solver(kind), scene)
+    except ValueError as error:
+        raise error.within("None") from None
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [
+        ("newton", "flow_step"),
+        ("newton", "trusted"),
+        ("damped_verlet", "time_step"),
+        ("damped_verlet", "damping"),
+        ("mass_weighted_verlet", "damping"),
+        ("mass_weighted_verlet", "time_step"),
+    ],
+)
+@pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
+def test_options_out_of_range_are_refused(kind, name, value):
+    with pytest.raises(ValueError, match=rf"^{name}: got {value}; allowed: "):
+        solver_class(kind)(**{name: value})
+
+
+def test_a_time_step_beyond_the_limit_of_stability_is_refused():
+    scene = scene_of(LAWS["uncoupled"])
+    problem = pose_interface(scene, scene.heights(64), 1e-7)
+    with pytest.raises(ValueError, match=r"^time_step: got 9.0; allowed: below .* limit of stability"):
+        solver("damped_verlet", time_step=9.0).flow(problem, np.zeros(problem.unknowns, complex))
+    with pytest.raises(ValueError, match=r"^time_step: got 1.0; allowed: "):
+        solver("mass_weighted_verlet", time_step=1.0)
+
+
+UNSTABLE = [
+    (-0.5, 0.5, 8.0, 0.5),
+    (-0.5, 0.1, 8.0, 0.0),
+    (0.3, 0.3, 8.0, 0.0),
+    (0.3, 0.1, 8.0, 0.1),
+    (0.0, 0.1, 2.0, 0.1),
+]
+"""Poisson's ratio, δt, φn and c of contacts that part from their symmetry on a coarse grid."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("ratio", "length", "work", "friction"), UNSTABLE)
+def test_no_state_is_one_that_the_least_disturbance_leaves(ratio, length, work, friction):
+    law = CohesiveZone(work, friction, 1.0, length)
+    body = Layer(70.0 / (1 - ratio**2), ratio, 5000.0)
+    found = walk(scene_of(law, along(-10, 10, 0.5), body), points=128)
+    assert found.statuses == {"CONVERGED"}
+    for state in found.states:
+        here = state.problem
+        _, tangent = here.tangent(here.gap(state.displacement))
+        assert np.linalg.eigvals(_dense(here, tangent)).real.min() > 0
+
+
+@pytest.mark.parametrize("periods", [3, 5])
+def test_alike_asperities_jump_one_by_one_where_all_at_once_would_be_unstable(periods):
+    wave = Sinusoid(length=10000.0, amplitude=20.0, periods=periods)
+    path = along(-30, -19, 0.1) >> along(-19.1, -32, 0.1)
+    found = walk(scene_of(NormalCohesiveZone(2.0), path, HalfSpace(77.0, 0.3), surface=wave), points=128)
+    for state in found.states[::2]:
+        here = state.problem
+        _, tangent = here.tangent(here.gap(state.displacement))
+        matrix = _dense(here, tangent)[1:, 1:]  # the mean is held
+        assert np.linalg.eigvals(matrix).real.min() > -1e-6
+    turn = int(np.argmax([state.step.value for state in found.states])) + 1
+    jumps = np.array([state.jump > 0 for state in found.states])
+    assert jumps[:turn].sum() >= periods - 1 and jumps[turn:].sum() >= periods - 1
+
+
+def test_a_contact_leaves_its_symmetry_where_that_is_unstable():
+    body = Layer(70.0 / 0.91, -0.5, 3000.0)
+    found = walk(scene_of(CohesiveZone(2.0, 0.3, 1.0, 0.3), along(-10, -3, 0.1), body), points=128)
+    gaps = [found.gap(count)[0] for count in range(len(found.states))]
+    skew = np.array([np.abs(gap - np.roll(gap[::-1], 1)).max() for gap in gaps])
+    assert (skew > 0.1).any() and skew[0] < 1e-6  # on which side is left to the solver
+
+
+def _dense(problem, tangent):
+    """K + T' as a matrix of real numbers."""
+    rows, modes = problem.unknowns
+    real = [(row, wave, 1.0) for row in range(rows) for wave in range(modes)]
+    units = real + [(row, wave, 1j) for row in range(rows) for wave in range(1, modes - 1)]
+    columns = []
+    for row, wave, phase in units:
+        unit = np.zeros((rows, modes), complex)
+        unit[row, wave] = phase
+        moved = problem.balanced(tangent(unit), unit)
+        columns.append(np.concatenate([moved.real.ravel(), moved[:, 1:-1].imag.ravel()]))
+    return np.array(columns).T

@@ -1,0 +1,588 @@
+from __future__ import annotations
+
+import inspect
+from copy import deepcopy
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from contactsim import provenance
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.errors import SceneError
+from contactsim.provenance import canonical
+from contactsim.study.plan import Plan
+
+CONFIG = Path(__file__).parents[2] / "config"
+SMOOTH = {
+    "title": "Cylinder",
+    "surface": {"kind": "cylinder", "radius": 10.0, "length": 40.0},
+    "body": {"kind": "half_space", "contact_modulus": 1.0},
+    "effects": ["hard_wall"],
+    "load": {"contact_ratio": [0.1, 0.2]},
+    "points": 64,
+    "members": 2,
+    "tolerance": 1e-3,
+}
+ROUGH = SMOOTH | {
+    "title": "Rough",
+    "surface": {
+        "kind": "self_affine",
+        "hurst": 0.8,
+        "length": 64.0,
+        "rolloff_wavelength": 32.0,
+        "shortest_wavelength": 4.0,
+        "rms_gradient": 0.01,
+    },
+    "load": {"reduced_pressure": [0.01, 0.1]},
+    "vary": {"surface.hurst": [0.2, 0.8]},
+    "solver": {"kind": "polonsky_keer"},
+}
+FIGURE = {"study": "smooth", "title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
+TWICE = FIGURE | {"beside": ["smooth"]}
+FILES = {
+    "config.yaml": {"seed": 1, "tier": "plain", "results": "made"},
+    "tiers.yaml": {"plain": {}, "small": {"studies": {"smooth": {"points": 32}}}},
+    "ch3.yaml": {
+        "studies": {"smooth": SMOOTH, "rough": ROUGH},
+        "figures": {"fig_3_1": TWICE, "fig_3_3": FIGURE | {"study": "rough", "select": {"hurst": [0.1, 0.5]}}},
+    },
+}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Write a config folder: the files above with some values changed, given as {file: {slashed/key: value}}."""
+
+    def write(changes=(), files=FILES, name="config"):
+        files = deepcopy(files)
+        for file, values in dict(changes).items():
+            for path, value in values.items():
+                *outer, last = path.split("/")
+                inner = files.setdefault(file, {})
+                for key in outer:
+                    inner = inner[key]
+                inner[last] = value
+        target = tmp_path / name
+        target.mkdir(exist_ok=True)
+        for file, content in files.items():
+            (target / file).write_text(yaml.safe_dump(content, sort_keys=False))
+        return target
+
+    return write
+
+
+def refusal(folder, tier=None):
+    with pytest.raises(SceneError) as caught:
+        Plan.read(folder, tier)
+    return caught.value
+
+
+# --- the config of this project -----------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def tiers():
+    return {tier: Plan.read(CONFIG, tier) for tier in ("quick", "standard", "full")}
+
+
+def test_the_project_has_the_three_tiers_and_reads_at_each(tiers):
+    assert list(yaml.safe_load((CONFIG / "tiers.yaml").read_text())) == list(tiers)
+    for tier, plan in tiers.items():
+        assert plan.tier == tier
+        assert plan.results == Path("results") / tier
+        assert set(plan.studies) == set(plan.chapters)
+        assert all(study.runs() for study in plan.studies.values())
+
+
+def test_the_tier_is_that_of_the_config_unless_told(tiers):
+    plan = Plan.read(CONFIG)
+    assert plan.tier == yaml.safe_load((CONFIG / "config.yaml").read_text())["tier"]
+    assert plan.figures == tiers[plan.tier].figures
+
+
+def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_two_of_surfaces_and_paths(tiers):
+    quick, standard = tiers["quick"], tiers["standard"]
+    assert quick.figures == standard.figures
+    assert quick.studies.keys() == standard.studies.keys()
+    for name, study in quick.studies.items():
+        asked = standard.studies[name].settings
+        assert study.settings["vary"].keys() == asked["vary"].keys()
+        few = asked["path"] is not None  # its variants alone make a path's cost
+        for key, values in study.settings["vary"].items():
+            wanted = asked["vary"][key]
+            assert key == "points" or (set(values) <= set(wanted) if few else values == wanted)
+        least = 2 if study.settings["surface"].get("dimensions") == 2 or asked["path"] is not None else 3
+        least = 1 if study.settings["vary"].get("points") else least  # it is grids that it compares
+        assert study.settings["members"] >= min(least, asked["members"])
+        dropped = study.settings["companion"] is None  # of a path, which costs as much on any grid, it may be
+        assert dropped == (asked["companion"] is None) or (dropped and few)
+        assert study.settings["fit_limits"] == asked["fit_limits"]
+
+
+def test_standard_has_at_least_the_points_of_the_thesis_on_lines_and_no_tier_is_coarser_than_the_one_before(tiers):
+    for name, study in tiers["standard"].studies.items():
+        points = [max(run.settings["points"] for run in plan.studies[name].runs()) for plan in tiers.values()]
+        assert points == sorted(points)
+        assert points[0] < points[-1] or study.settings["thesis_points"] is None
+        if study.settings["surface"]["kind"] != "sphere" and "dimensions" not in study.settings["surface"]:
+            assert points[1] >= (study.settings["thesis_points"] or 0)
+
+
+def test_every_tier_has_the_loads_that_a_figure_selects_and_a_fit_needs(tiers):
+    for plan in tiers.values():
+        for figure in filter(lambda one: one.studies, plan.figures.values()):
+            study = plan.studies[figure.settings["study"]].settings
+            least, largest = figure.settings["select"].get(study["load"]["name"], (-float("inf"), float("inf")))
+            shown = sum(least <= value <= largest for value in study["load"]["values"])
+            few = "fields" in study["keep"], study["slide"] is not None  # a slide goes on from where a path ends
+            assert shown == 1 if few[0] else shown >= (1 if few[1] else 3)
+
+
+def test_every_figure_has_a_function_that_takes_data_axes_and_the_values_of_the_thesis(tiers):
+    figures = tiers["standard"].figures
+    assert figures
+    for name, figure in figures.items():
+        draw = getattr(import_module(f"contactsim.figures.{figure.chapter}"), name)
+        shown = max(len(figure.studies), 1)  # a law by itself is one dataset too
+        _, *beside, axes = list(inspect.signature(draw).parameters)[: shown + 1]
+        assert (len(beside), axes) == (shown - 1, "axes")
+        assert list(inspect.signature(draw).parameters)[shown + 1 :] == list(figure.settings["reference"])
+        assert draw.__doc__
+
+
+def test_no_two_runs_of_a_plan_write_one_file(tiers):
+    for plan in tiers.values():
+        stems = [run.stem for study in plan.studies.values() for run in study.runs()]
+        assert len(set(stems)) == len(stems)
+
+
+def test_figure_5_2_has_the_thesis_geometry_and_a_body_as_good_as_a_half_space(tiers):
+    settings = tiers["standard"].studies["nonadhesive_compressible"].settings
+    surface, vary = settings["surface"], settings["vary"]
+    assert surface["length"] == 8 * surface["rolloff_wavelength"] == 8 * 512 * surface["shortest_wavelength"]
+    assert settings["points"] * surface["shortest_wavelength"] == 32 * surface["length"]
+    assert vary["surface.hurst"] == [0.2, 0.8]
+    assert vary["body.poisson_ratio"] == [0.1, 0.45]
+    longest = 2 * np.pi / surface["length"]
+    thick = settings["body"] | {"thickness": max(vary["body.thickness"])}
+    thick.pop("kind")
+    symbol = Layer(**thick).compliance(np.array([longest]))
+    assert symbol == pytest.approx(HalfSpace(thick["contact_modulus"]).compliance(np.array([longest])), rel=1e-15)
+
+
+# --- reading ------------------------------------------------------------------------------------------------------
+
+
+def test_a_plan_lists_studies_figures_and_chapters(folder):
+    plan = Plan.read(folder())
+    assert plan.tier == "plain"
+    assert plan.results == Path("made/plain")
+    assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
+    assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
+    unsaid = {"panels": 1, "select": {}, "reference": {}, "beside": [], "law": None, "film": None}
+    assert plan.figures["fig_3_1"].settings == unsaid | TWICE
+    assert plan.dataset_name("smooth") == "ch3_smooth"
+
+
+def test_a_tier_overrides_what_it_names_and_nothing_else(folder):
+    plain, small = (Plan.read(folder(), tier) for tier in ("plain", "small"))
+    assert small.studies["smooth"].settings == plain.studies["smooth"].settings | {"points": 32}
+    assert small.studies["rough"] == plain.studies["rough"]
+
+
+def test_a_run_is_found_by_the_parts_of_its_file_name(folder):
+    plan = Plan.read(folder())
+    for run in plan.studies["rough"].runs():
+        assert plan.run(*run.stem.split("/")) == run
+
+
+LAW = {"effect": "cohesive_zone", "work_of_separation": 1.0, "work_ratio": 1.0, "reach": 5.0}
+LAW |= {"normal_gap": [0.0], "tangential_gap": [0.0, 0.5]}
+ALONE = {key: value for key, value in FIGURE.items() if key != "study"} | {"law": LAW, "size": [4.0, 3.0]}
+
+
+def test_a_chapter_without_studies_draws_a_law(folder):
+    plan = Plan.read(folder({"ch2.yaml": {"figures": {"fig_2_2": ALONE}}}))
+    assert plan.figures["fig_2_2"].studies == []
+    other = folder({"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"law": LAW | {"work_ratio": 0.5}}}}}, name="other")
+    assert plan.figure_settings("fig_2_2")["settings"]["law"]["normal_length"] == 1.0
+    assert plan.figure_settings("fig_2_2") != Plan.read(other).figure_settings("fig_2_2")
+
+
+BAD = {
+    "figure of neither a study nor a law": (
+        {"ch2.yaml": {"figures": {"fig_2_2": {key: ALONE[key] for key in ("title", "caption", "size")}}}},
+        *("ch2.yaml", "figures.fig_2_2", {"study": None, "law": None}, "exactly one of study and law"),
+    ),
+    "figure of a law that is no effect": (
+        {"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"law": LAW | {"effect": "glue"}}}}},
+        *("ch2.yaml", "figures.fig_2_2.law.effect", "glue", "one of cohesive_zone"),
+    ),
+    "figure of a law without shear": (
+        {"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"law": LAW | {"work_ratio": 0.0}}}}},
+        *("ch2.yaml", "figures.fig_2_2.law", LAW | {"work_ratio": 0.0}, "exerts both"),
+    ),
+    "figure of a law with a bad option": (
+        {"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"law": LAW | {"work_of_separation": -1.0}}}}},
+        *("ch2.yaml", "figures.fig_2_2.law.work_of_separation", -1.0, "a positive, finite number"),
+    ),
+    "selection of a law": (
+        {"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"select": {"hurst": [0, 1]}}}}},
+        *("ch2.yaml", "figures.fig_2_2.select.hurst", [0, 1], "no such key"),
+    ),
+    "unknown key of the config": ({"config.yaml": {"sede": 1}}, "config.yaml", "sede", 1, "seed, tier, results"),
+    "seed that is no number": ({"config.yaml": {"seed": -1}}, "config.yaml", "seed", -1, "0 or more"),
+    "unknown tier": ({"config.yaml": {"tier": "huge"}}, "tiers.yaml", "tier", "huge", "plain, small"),
+    "unknown key of a tier": (
+        {"tiers.yaml": {"plain/study": {}}},
+        "tiers.yaml",
+        "plain.study",
+        {},
+        "known keys: studies",
+    ),
+    "tier that is no mapping": ({"tiers.yaml": {"plain": [1]}}, "tiers.yaml", "plain", [1], "a mapping"),
+    "override of an unknown study": (
+        {"tiers.yaml": {"plain": {"studies": {"smoth": {"points": 8}}}}},
+        "tiers.yaml",
+        "plain.studies.smoth",
+        "overrides",
+        "smooth, rough",
+    ),
+    "override that is no mapping": (
+        {"tiers.yaml": {"plain": {"studies": {"smooth": 5}}}},
+        "tiers.yaml",
+        "plain.studies.smooth",
+        5,
+        "a mapping",
+    ),
+    "unknown key of an override": (
+        {"tiers.yaml": {"plain": {"studies": {"smooth": {"pionts": 8}}}}},
+        "tiers.yaml",
+        "studies.smooth.pionts",
+        8,
+        "points",
+    ),
+    "impossible override": (
+        {"tiers.yaml": {"plain": {"studies": {"rough": {"points": 8}}}}},
+        "tiers.yaml",
+        "studies.rough.points",
+        8,
+        "more than 30",
+    ),
+    "unknown key of a chapter": ({"ch3.yaml": {"clams": {}}}, "ch3.yaml", "clams", {}, "studies, figures, claims"),
+    "bad study": ({"ch3.yaml": {"studies/rough/members": 0}}, "ch3.yaml", "studies.rough.members", 0, "1 or more"),
+    "study that is no mapping": ({"ch3.yaml": {"studies/rough": 5}}, "ch3.yaml", "studies.rough", 5, "a mapping"),
+    "figure of an unknown study": (
+        {"ch3.yaml": {"figures/fig_3_1/study": "smoth"}},
+        "ch3.yaml",
+        "figures.fig_3_1.study",
+        "smoth",
+        "smooth, rough",
+    ),
+    "figure without a function": (
+        {"ch3.yaml": {"figures/fig_3_99": FIGURE}},
+        "ch3.yaml",
+        "figures.fig_3_99",
+        "fig_3_99",
+        "fig_3_1, table_3_1, fig_3_2",
+    ),
+    "figure named like a helper": (
+        {"ch3.yaml": {"figures/_cylinder": FIGURE}},
+        "ch3.yaml",
+        "figures._cylinder",
+        "_cylinder",
+        "fig_3_1",
+    ),
+    "figure of a chapter without functions": (
+        {"ch9.yaml": {"studies": {"other": SMOOTH}, "figures": {"fig_9_1": FIGURE | {"study": "other"}}}},
+        "ch9.yaml",
+        "figures.fig_9_1",
+        "fig_9_1",
+        "contactsim.figures.ch9",
+    ),
+    "figure without a size": (
+        {"ch3.yaml": {"figures/fig_3_1": {"study": "smooth", "title": "T", "caption": "C"}}},
+        "ch3.yaml",
+        "figures.fig_3_1.size",
+        "nothing",
+        "width and height",
+    ),
+    "figure with another key": (
+        {"ch3.yaml": {"figures/fig_3_1/colour": "red"}},
+        "ch3.yaml",
+        "figures.fig_3_1.colour",
+        "red",
+        "select",
+    ),
+    "figure of too few datasets": (
+        {"ch3.yaml": {"figures/fig_3_1": FIGURE}},
+        "ch3.yaml",
+        "figures.fig_3_1.beside",
+        [],
+        "draws: line, surface",
+    ),
+    "figure of too many datasets": (
+        {"ch3.yaml": {"figures/fig_3_3/beside": ["smooth"]}},
+        "ch3.yaml",
+        "figures.fig_3_3.beside",
+        ["smooth"],
+        "draws: data",
+    ),
+    "figure that is no mapping": ({"ch3.yaml": {"figures/fig_3_1": 3}}, "ch3.yaml", "figures.fig_3_1", 3, "a mapping"),
+    "compare no list": (
+        {"ch3.yaml": {"figures/fig_3_1/compare": "kappa_r"}},
+        "ch3.yaml",
+        "figures.fig_3_1.compare",
+        "kappa_r",
+        "a list of columns",
+    ),
+    "surfaces of no study": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "rogh"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "rogh",
+        "one of smooth",
+    ),
+    "surfaces of itself": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "rough"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "rough",
+        "one of smooth",
+    ),
+    "surfaces of another kind": (
+        {"ch3.yaml": {"studies/rough/surfaces_of": "smooth"}},
+        "ch3.yaml",
+        "studies.rough.surfaces_of",
+        "smooth",
+        "the same `surface`, self_affine",
+    ),
+    "no panels": ({"ch3.yaml": {"figures/fig_3_1/panels": 0}}, "ch3.yaml", "figures.fig_3_1.panels", 0, "axes"),
+}
+for size in ([4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -3.0], [0.0, 3.0]):
+    BAD[f"size {size}"] = (
+        {"ch3.yaml": {"figures/fig_3_1/size": size}},
+        "ch3.yaml",
+        "figures.fig_3_1.size",
+        size,
+        "width and height",
+    )
+for limits in ([0.1], [0.1, 0.2, 0.3], 0.1, {"least": 0.1}, [0.1, "all"], None, [0.5, 0.1]):
+    BAD[f"select {limits}"] = (
+        {"ch3.yaml": {"figures/fig_3_3/select": {"hurst": limits}}},
+        "ch3.yaml",
+        "figures.fig_3_3.select.hurst",
+        limits,
+        "least and largest value",
+    )
+
+
+@pytest.mark.parametrize(("changes", "file", "key", "value", "allowed"), BAD.values(), ids=BAD)
+def test_a_bad_config_is_refused_with_file_key_value_and_what_is_allowed(folder, changes, file, key, value, allowed):
+    written = folder(changes)
+    error = refusal(written)
+    assert str(written / file) in str(error.file)
+    assert (error.key, error.value) == (key, value)
+    assert allowed in error.allowed
+    assert str(error).startswith(f"{error.file}: {key}: got ")
+
+
+MAP = {
+    "waves": SMOOTH
+    | {
+        "surface": {"kind": "sinusoid", "length": 64.0, "amplitude": 1.0, "dimensions": 2},
+        "load": {"mean_pressure": [0.01, 0.02]},
+        "members": 1,
+        "keep": ["fields"],
+    }
+}
+ONE = {"study": "waves", "size": [9.0, 3.0], "panels": 3, "select": {"mean_pressure": [0.02, 0.02]}}
+
+
+@pytest.mark.parametrize(
+    ("study", "figure", "key", "value", "allowed"),
+    [
+        ({"keep": ["contact"]}, {}, "study", "waves", "keeps `fields`"),
+        ({"surface": {"kind": "sinusoid", "length": 64.0, "amplitude": 1.0}}, {}, "study", "waves", "not lines"),
+        ({}, {"select": {}}, "select", {}, "one load of one member to draw; this leaves 2"),
+        ({}, {"select": {"mean_pressure": [0.1, 1.0]}}, "select", {"mean_pressure": [0.1, 1.0]}, "this leaves 0"),
+        ({"members": 2}, {}, "select", ONE["select"], "this leaves 2"),
+    ],
+)
+def test_a_map_of_what_cannot_be_drawn_as_one_is_refused_before_anything_is_solved(
+    folder, study, figure, key, value, allowed
+):
+    files = FILES | {"ch3.yaml": {"studies": MAP, "figures": {"maps": FIGURE | ONE}}, "tiers.yaml": {"plain": {}}}
+    assert Plan.read(folder(files=files)).figures["maps"].settings["select"] == ONE["select"]
+    changes = {f"studies/waves/{name}": entry for name, entry in study.items()}
+    changes |= {f"figures/maps/{name}": entry for name, entry in figure.items()}
+    written = folder({"ch3.yaml": changes}, files)
+    error = refusal(written)
+    assert (error.key, error.value) == (f"figures.maps.{key}", value)
+    assert allowed in error.allowed
+    assert error.file == written / "ch3.yaml"
+
+
+def test_a_figure_that_selects_along_what_its_study_does_not_have_is_refused(folder):
+    error = refusal(folder({"ch3.yaml": {"figures/fig_3_3/select": {"speed": [0.1, 0.2]}}}))
+    assert error.key == "figures.fig_3_3.select.speed"
+
+
+def test_an_unknown_tier_on_the_command_line_names_tiers_yaml_and_what_exists(folder):
+    written = folder()
+    error = refusal(written, "huge")
+    assert str(error) == f"{written / 'tiers.yaml'}: tier: got 'huge'; allowed: one of plain, small"
+
+
+def test_an_error_in_an_overridden_study_names_the_chapter_the_tier_and_the_file_of_tiers(folder):
+    written = folder({"tiers.yaml": {"plain": {"studies": {"smooth": {"members": 0}}}}})
+    message = str(refusal(written))
+    for part in (str(written / "ch3.yaml"), "tier plain", str(written / "tiers.yaml"), "studies.smooth.members"):
+        assert part in message
+
+
+@pytest.mark.parametrize("file", ["config.yaml", "tiers.yaml"])
+def test_a_missing_file_is_named(folder, file):
+    written = folder()
+    (written / file).unlink()
+    assert refusal(written).file == written / file
+
+
+def test_a_square_figure_is_allowed(folder):
+    plan = Plan.read(folder({"ch3.yaml": {"figures/fig_3_1/size": [4.0, 4.0]}}))
+    assert plan.figures["fig_3_1"].settings["size"] == [4.0, 4.0]
+
+
+def test_a_name_of_a_study_used_in_two_chapters_is_refused(folder):
+    error = refusal(folder({"ch4.yaml": {"studies": {"smooth": SMOOTH}, "figures": {}}}))
+    assert error.key == "studies.smooth"
+    assert "ch4.yaml" in str(error)
+
+
+# --- what the workflow is given -----------------------------------------------------------------------------------
+
+
+def reordered(content):
+    """The same content with the keys of every mapping in the opposite order."""
+    if isinstance(content, dict):
+        return {key: reordered(value) for key, value in reversed(content.items())}
+    return content
+
+
+def everything(plan):
+    return {name: canonical(plan.study_settings(name)) for name in plan.studies} | {
+        name: canonical(plan.figure_settings(name)) for name in plan.figures
+    }
+
+
+def run_params(plan):
+    return {run.stem: canonical([run.settings, run.source]) for study in plan.studies.values() for run in study.runs()}
+
+
+def changed_by(folder, changes):
+    """Names of the studies and figures whose params change with the config."""
+    before, after = (everything(Plan.read(folder(change, name=name))) for change, name in (({}, "a"), (changes, "b")))
+    return {name for name in before if before[name] != after.get(name)}
+
+
+def test_nothing_changes_when_the_keys_of_the_config_are_reordered(folder):
+    one = Plan.read(folder(name="a"))
+    other = Plan.read(folder(files=reordered(FILES), name="b"))
+    assert everything(one) == everything(other)
+    assert run_params(one) == run_params(other)
+
+
+def test_what_the_workflow_is_given_is_the_same_read_twice(folder):
+    written = folder()
+    assert everything(Plan.read(written)) == everything(Plan.read(written))
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"studies/rough/load": {"reduced_pressure": [0.01, 0.2]}}, {"rough", "fig_3_3"}),
+        ({"studies/rough/members": 3}, {"rough", "fig_3_3"}),
+        ({"studies/rough/vary": {"surface.hurst": [0.2, 0.7]}}, {"rough", "fig_3_3"}),
+        ({"studies/rough/title": "Rougher"}, {"rough", "fig_3_3"}),
+        ({"studies/rough/thesis_points": 9}, {"rough", "fig_3_3"}),
+        ({"studies/smooth/load": {"contact_ratio": [0.1]}}, {"smooth", "fig_3_1"}),
+        ({"figures/fig_3_3/caption": "Something else."}, {"fig_3_3"}),
+        ({"figures/fig_3_1/size": [5.0, 3.0]}, {"fig_3_1"}),
+        ({"figures/fig_3_1/caption": "Another."}, {"fig_3_1"}),
+        ({"figures/fig_3_1/compare": ["kappa_r"]}, set()),
+    ],
+)
+def test_an_edit_changes_the_studies_and_figures_that_use_it_and_no_others(folder, changes, expected):
+    assert changed_by(folder, {"ch3.yaml": changes}) == expected
+
+
+def test_another_seed_changes_everything(folder):
+    assert changed_by(folder, {"config.yaml": {"seed": 2}}) == {"smooth", "rough", "fig_3_1", "fig_3_3"}
+
+
+def test_a_longer_list_of_members_changes_no_run_that_was_there(folder):
+    before, after = (
+        run_params(Plan.read(folder({"ch3.yaml": change}, name=name)))
+        for change, name in (({}, "a"), ({"studies/rough/members": 4, "studies/rough/title": "R"}, "b"))
+    )
+    assert before.items() < after.items()
+
+
+@pytest.fixture
+def edited(monkeypatch):
+    """Pretend that a module has another text."""
+    read_bytes = Path.read_bytes
+
+    def edit(module):
+        path = provenance.module_path(module)
+        monkeypatch.setattr(
+            Path, "read_bytes", lambda self: read_bytes(self) + (b"# edited\n" if self == path else b"")
+        )
+        provenance.source_digest.cache_clear()
+
+    yield edit
+    provenance.source_digest.cache_clear()
+
+
+@pytest.mark.parametrize(
+    ("module", "expected", "runs"),
+    [
+        ("contactsim.solvers.hard_wall.polonsky_keer", {"rough", "fig_3_3"}, {"rough"}),
+        ("contactsim.solvers.hard_wall.active_set", {"smooth", "fig_3_1"}, {"smooth"}),
+        ("contactsim.solvers.hard_wall.verlet", set(), set()),
+        ("contactsim.grid", {"smooth", "rough", "fig_3_1", "fig_3_3"}, {"smooth", "rough"}),
+        ("contactsim.analysis.aggregate", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.analysis.costs", {"smooth", "rough", "fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.figures.ch3", {"fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.figures.style", {"fig_3_1", "fig_3_3"}, set()),
+        ("contactsim.study.plan", set(), set()),
+    ],
+)
+def test_an_edit_of_a_module_changes_exactly_what_its_code_makes(folder, edited, module, expected, runs):
+    config = folder()
+    plan = Plan.read(config)
+    before, before_runs = everything(plan), run_params(plan)
+    edited(module)
+    plan = Plan.read(config)  # as the next command does
+    after, after_runs = everything(plan), run_params(plan)
+    assert {name for name in before if before[name] != after[name]} == expected
+    assert {stem.split("/")[0] for stem in before_runs if before_runs[stem] != after_runs[stem]} == runs
+
+
+def test_a_study_lists_each_run_with_its_files_and_digest(folder):
+    plan = Plan.read(folder())
+    settings = plan.study_settings("rough")
+    for listed, run in zip(settings["runs"], plan.studies["rough"].runs(), strict=True):
+        assert listed == {
+            "path": f"made/plain/runs/{run.stem}.nc",
+            "costs": f"made/plain/costs/runs/{run.stem}.json",
+            "coordinates": run.coordinates,
+            "member": run.member,
+            "companion": run.companion,
+            "error": run.error,
+            "digest": run.digest,
+        }
+    assert {settings["settings"][key] for key in ("name", "tier", "seed")} == {"rough", "plain", 1}

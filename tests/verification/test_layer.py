@@ -1,0 +1,387 @@
+"""Contact with bodies of finite thickness: limits, exact answers, agreement of solvers, cost."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import nnls
+
+import contactsim
+from contactsim.contact import loading
+from contactsim.contact.hard_wall import pose
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.errors import SceneError
+from contactsim.evaluation.robustness.cases import Case, layer_response
+from contactsim.evaluation.robustness.outcome import Outcome
+from contactsim.evaluation.robustness.survey import judge
+from contactsim.explain import explain
+from contactsim.figures.sketch import sketch
+from contactsim.interface.laws import HardWall
+from contactsim.solvers.base import require, solve
+from contactsim.solvers.hard_wall.active_set import ActiveSet
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
+from contactsim.solvers.registry import solver, solver_class
+from contactsim.status import Status
+from contactsim.study.scenes import scene_of
+from contactsim.surfaces.shapes import Flat, Sinusoid
+from contactsim.traits import Trait
+from support.cases import ALL, press, rough, wave
+
+UNIAXIAL = 0.7**2 / 0.4
+"""C11 at E* = 1 and ν = 0.3."""
+
+
+def pressed(heights, *, ratio=0.3, thickness, name="active_set", tolerance=1e-6, **load):
+    """Press into a layer of unit modulus at unit spacing; only converged answers count."""
+    given_load = {"solver": name, "tolerance": tolerance} | load
+    result = contactsim.press(
+        heights, spacing=1.0, contact_modulus=1.0, thickness=thickness, poisson_ratio=ratio, **given_load
+    )
+    assert result.status is Status.CONVERGED
+    return result
+
+
+def scene(lower, upper=None, path=None, length=256.0):
+    upper = Body(Sinusoid(length, 1.0), upper)
+    return Scene(Body(Flat(length), lower), upper, (HardWall(),), path or loading.press([0.01]))
+
+
+def solved(subject, points=256, tolerance=1e-8):
+    problem, scale = pose(subject, subject.path.steps[0], subject.heights(points), tolerance, 1)
+    result = solve(solver("active_set"), problem, scale)
+    assert result.status is Status.CONVERGED
+    return result
+
+
+def response(points, ratio, thickness):
+    q = 2 * np.pi * np.fft.rfftfreq(points)
+    return layer_response(q * thickness, ratio) * thickness
+
+
+# ---- limits
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.5])
+@pytest.mark.parametrize("thickness", [1e4, 1e12, 1e100])
+def test_a_thick_layer_is_a_half_space(name, ratio, thickness):
+    heights = rough(256)
+    half_space = press(heights, 0.03, name, tolerance=1e-6)
+    layer = pressed(heights, ratio=ratio, thickness=thickness, name=name, mean_pressure=0.03)
+    assert np.allclose(layer.pressure, half_space.pressure, rtol=0, atol=1e-12 * half_space.pressure.max())
+    assert np.allclose(layer.gap, half_space.gap, rtol=0, atol=1e-11)
+    uniform = thickness / UNIAXIAL if ratio == 0.3 else thickness * (1 - 2 * ratio) / (1 - ratio) ** 2
+    assert layer.approach == pytest.approx(half_space.approach + uniform * 0.03, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_thin_compressible_layer_is_a_row_of_springs(name):
+    heights, errors = 10 * wave(512), []
+    for thickness in (0.4, 0.2, 0.1, 0.05):
+        result = pressed(heights, thickness=thickness, name=name, mean_pressure=3.0 / thickness, tolerance=1e-9)
+        springs = UNIAXIAL / thickness * np.maximum(heights + result.approach, 0.0)
+        errors.append(np.abs(result.pressure - springs).max() / springs.max())
+    # S is even in qh, so on one grid the error falls with its square
+    assert errors[0] < 1e-4
+    assert np.log2(errors[-2] / errors[-1]) == pytest.approx(2, abs=0.1)
+
+
+def test_a_very_thin_layer_is_a_row_of_springs_to_many_digits_at_a_given_approach():
+    heights = rough(512)
+    result = pressed(heights, thickness=1e-7, approach=-1.0, tolerance=1e-8)
+    springs = UNIAXIAL / 1e-7 * np.maximum(heights - 1.0, 0.0)
+    assert np.allclose(result.pressure, springs, rtol=0, atol=1e-6 * springs.max())
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("ratio", [-0.5, 0.3, 0.5])
+@pytest.mark.parametrize("thickness", [1.0, 30.0, 1e3])
+def test_a_wave_in_complete_contact_takes_its_height_over_the_compliance(name, ratio, thickness):
+    amplitude = 1 / response(256, ratio, thickness)[3]
+    heights = np.cos(2 * np.pi * 3 * np.arange(256) / 256)
+    result = pressed(heights, ratio=ratio, thickness=thickness, name=name, mean_pressure=1.01 * amplitude)
+    assert result.contact.all()
+    assert np.allclose(result.pressure, amplitude * (1.01 + heights), rtol=0, atol=1e-5 * amplitude)
+    sunk = response(256, ratio, thickness)[0] * result.mean_pressure
+    assert result.approach == pytest.approx(sunk, abs=1e-6 * (1 + sunk))
+
+
+# ---- agreement
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.49, 0.5])
+@pytest.mark.parametrize("thickness", [0.5, 3.0, 12.0, 100.0])
+def test_the_answer_is_that_of_a_dense_quadratic_programme(name, ratio, thickness):
+    points, load = 48, 0.05
+    heights = rough(points, modes=12)
+    result = pressed(heights, ratio=ratio, thickness=thickness, name=name, mean_pressure=load, tolerance=1e-8)
+    symbol = response(points, ratio, thickness)
+    symbol[0] = 0.0  # at a given load it only shifts the gap
+    first = np.fft.irfft(symbol, points)
+    matrix = first[(np.arange(points)[:, None] - np.arange(points)) % points]
+    values, vectors = np.linalg.eigh(matrix)
+    keep = values > 1e-9 * values.max()
+    root = np.sqrt(values[keep])[:, None] * vectors[:, keep].T
+    target = vectors[:, keep].T @ heights / np.sqrt(values[keep])
+    exact, _ = nnls(np.vstack([root, 1e5 * np.ones(points)]), np.append(target, 1e5 * load * points))
+    assert np.array_equal(result.contact, exact > 1e-9 * exact.max())
+    assert np.allclose(result.pressure, exact, rtol=0, atol=1e-4 * exact.max())
+
+
+@pytest.mark.parametrize("name", [name for name in ALL if name != "active_set"])
+@pytest.mark.parametrize("ratio", [0.3, 0.5])
+@pytest.mark.parametrize("thickness", [5.0, 50.0])
+def test_solvers_agree_on_a_rough_line(name, ratio, thickness):
+    heights = rough(512)
+    ours = pressed(heights, ratio=ratio, thickness=thickness, mean_pressure=0.05)
+    other = pressed(heights, ratio=ratio, thickness=thickness, mean_pressure=0.05, name=name)
+    assert np.array_equal(other.contact, ours.contact)
+    assert np.allclose(other.pressure, ours.pressure, rtol=0, atol=1e-4 * ours.pressure.max())
+    assert other.approach == pytest.approx(ours.approach, abs=1e-5)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(
+    st.integers(2, 200),
+    st.integers(0, 1 << 16),
+    st.floats(0, 0.999),
+    st.floats(0, 4),
+    st.sampled_from([-0.9, 0.0, 0.3, 0.45, 0.4999, 0.5]),
+    st.floats(-6, 2),
+)
+def test_any_heights_on_any_layer_are_certified(points, seed, share, thickness, ratio, load):
+    field = np.random.default_rng(seed).normal(size=points)
+    heights = field - np.quantile(field, share)
+    step = np.sqrt(np.mean(np.diff(heights, append=heights[0]) ** 2))
+    case = Case(heights, 10**load * step, tolerance=1e-3, thickness=10**thickness, poisson_ratio=ratio)
+    verdict = judge(case, "active_set")
+    assert verdict.outcome is Outcome.CERTIFIED, verdict.reason
+
+
+# ---- approach
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.499, 0.5])
+@pytest.mark.parametrize("thickness", [3.0, 40.0, 1e4])
+def test_an_approach_and_the_pressure_it_takes_are_the_same_solution(ratio, thickness):
+    heights = rough(256)
+    for load in (1e-3, 0.05):
+        loaded = pressed(heights, ratio=ratio, thickness=thickness, mean_pressure=load, tolerance=1e-8)
+        moved = pressed(heights, ratio=ratio, thickness=thickness, approach=loaded.approach, tolerance=1e-8)
+        assert moved.mean_pressure == pytest.approx(load, rel=1e-5)
+        assert np.array_equal(moved.contact, loaded.contact)
+
+
+@pytest.mark.parametrize("approach", [10.0, 1e3, 1e6])
+def test_a_compressible_layer_takes_any_approach(approach):
+    heights = 0.1 * rough(256)
+    result = pressed(heights, thickness=20.0, approach=approach)
+    assert result.contact.all()
+    assert result.mean_pressure == pytest.approx((approach + heights.mean()) * UNIAXIAL / 20.0, rel=1e-9)
+    assert result.approach == pytest.approx(approach)
+
+
+@pytest.mark.parametrize("approach", [1e-9, 1.0, 1e9])
+def test_a_plane_pushed_into_a_layer_is_in_uniform_contact(approach):
+    result = pressed(np.full(32, 7.0), thickness=5.0, approach=approach - 7.0)
+    assert np.allclose(result.pressure, result.mean_pressure, rtol=1e-9)
+    assert result.mean_pressure == pytest.approx(approach * UNIAXIAL / 5.0, rel=1e-6)
+
+
+def test_an_incompressible_layer_keeps_its_volume():
+    heights = rough(256) + 2.0
+    result = pressed(heights, ratio=0.5, thickness=20.0, mean_pressure=0.05, tolerance=1e-8)
+    assert result.gap.mean() == pytest.approx(-result.approach - heights.mean(), abs=1e-9)
+    with pytest.raises(SceneError, match="an incompressible layer keeps its volume") as caught:
+        pressed(heights, ratio=0.5, thickness=20.0, approach=-1.99)
+    assert caught.value.key == "approach"
+    deep = pressed(heights, ratio=0.5, thickness=20.0, approach=-2.0 - 1e-3, tolerance=1e-8)
+    assert 0.5 < deep.relative_contact_area < 1
+
+
+# ---- two bodies
+
+
+def test_a_layer_and_a_half_space_in_series_add_what_they_yield():
+    both = scene(Layer(2.0, 0.3, 30.0), HalfSpace(3.0))
+    q = np.linspace(0, 3, 20)
+    parts = Layer(2.0, 0.3, 30.0).compliance(q) + HalfSpace(3.0).compliance(q)
+    assert np.array_equal(both.compliance(q), parts)
+    assert {Trait.LAYER, Trait.HALF_SPACE} < both.traits
+    swapped = scene(HalfSpace(3.0), Layer(2.0, 0.3, 30.0))
+    assert np.allclose(solved(both).pressure, solved(swapped).pressure, rtol=1e-12)
+
+
+def test_on_a_half_space_the_mean_of_the_layer_alone_enters_the_approach():
+    both = solved(scene(Layer(2.0, 0.3, 30.0), HalfSpace(3.0)))
+    sunk = 30.0 / (2.0 * UNIAXIAL) * both.mean_pressure
+    assert both.gap.mean() == pytest.approx(sunk - both.approach, abs=1e-9)  # heights of mean zero
+    moved = solved(scene(Layer(2.0, 0.3, 30.0), HalfSpace(3.0), loading.approach([both.approach])))
+    assert moved.mean_pressure == pytest.approx(both.mean_pressure, rel=1e-6)
+
+
+def test_a_layer_in_two_is_not_two_layers_but_equal_ones_are_one_of_half_the_modulus():
+    twice = solved(scene(Layer(2.0, 0.3, 30.0), Layer(2.0, 0.3, 30.0)))
+    once = solved(scene(Layer(1.0, 0.3, 30.0)))
+    assert np.allclose(twice.pressure, once.pressure, rtol=1e-9)
+    assert twice.approach == pytest.approx(once.approach)
+
+
+# ---- who takes it, what it costs
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_layer_is_taken_by_each_solver_of_ours(name):
+    assert scene(Layer(1.0, 0.3, 1.0)).traits == {Trait.LINE, Trait.WALL, Trait.LAYER, Trait.MEAN_PRESSURE}
+    require(solver(name), scene(Layer(1.0, 0.3, 1.0)))
+
+
+def test_a_solver_that_knows_half_spaces_alone_refuses_a_layer():
+    assert Trait.LAYER not in solver_class("tamaas").accepts
+
+    class Elder(ActiveSet):
+        accepts = ActiveSet.accepts - {Trait.LAYER}
+
+    with pytest.raises(SceneError, match=r"accepts LAYER \(layer on a rigid base"):
+        require(Elder(), scene(Layer(1.0, 0.3, 1.0)))
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.45])
+def test_no_thickness_costs_much_more_than_a_half_space(ratio):
+    heights = rough(2**12, modes=512)
+    for height in (-1.0, 0.0):  # of a plane through the profile: what a row of springs would bring into contact
+        half_space = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, approach=height - 40.0)
+        for thickness in np.geomspace(1.0, 1e6, 7):
+            layer = pressed(heights, ratio=ratio, thickness=thickness, approach=height - 40.0, tolerance=1e-3)
+            assert layer.record.transforms < 1.5 * half_space.record.transforms
+
+
+def test_complete_contact_costs_next_to_nothing():
+    assert pressed(0.01 * rough(4096), thickness=100.0, mean_pressure=1.0, tolerance=1e-3).record.transforms < 20
+
+
+def test_peak_memory_on_a_layer_is_within_what_is_explained():
+    points, peaks = 2**15, []
+    for thickness in (1.0, 1e2, 1e4):
+        tracemalloc.start()
+        pressed(rough(points), ratio=0.5, thickness=thickness, mean_pressure=0.3, tolerance=1e-3)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    told = 1e6 * explain(scene(Layer(1.0, 0.5, 1.0)), points, "active_set").megabytes
+    assert 0.6 * told < max(peaks) < told
+
+
+@pytest.mark.parametrize("contacts", [[3], [0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 5], [1, 6]])
+@pytest.mark.parametrize("decay", [0.3, 30.0, 1e4])
+def test_a_decaying_continuation_has_its_adjoint_and_leaves_the_contact_as_it_is(contacts, decay):
+    where = np.zeros(8, bool)
+    where[contacts] = True
+    both = Continuation(where, decay)
+    rng = np.random.default_rng(0)
+    values, field = rng.normal(size=len(contacts)), rng.normal(size=8)
+    extended = np.empty(8)
+    both.extend(values, extended, np.empty(8))
+    assert np.allclose(np.roll(extended, contacts[0])[contacts], values)
+    assert np.dot(extended, field) == pytest.approx(np.dot(values, both.restrict(field.copy())))
+    assert both.share(field).sum() == pytest.approx(field.sum())
+    if decay == 30.0:
+        assert np.abs(np.delete(np.roll(extended, contacts[0]), contacts)).max(initial=0.0) < 1e-12
+
+
+@pytest.mark.parametrize(("ratio", "thickness"), [(0.3, 1.0), (0.3, 10.0), (0.3, 100.0), (0.5, 10.0), (0.5, 100.0)])
+def test_the_preconditioners_stiffness_is_close_to_that_of_the_layer(ratio, thickness):
+    points = 512
+    subject = scene(Layer(1.0, ratio, thickness), length=float(points))
+    problem, _ = pose(subject, subject.path.steps[0], rough(points), 1e-3, 1)
+    stiffness = BlockStiffness(problem.compliance, uniform=True)
+    for mode in (1, 5, points // 5, points // 3, points // 2 - 1):
+        sine = np.sin(2 * np.pi * mode / points * np.arange(points))
+        stiffness.field[:] = sine
+        exact = 1 / response(points, ratio, thickness)[mode]
+        assert sine @ stiffness(np.empty(points), np.empty(points)) / (sine @ sine) == pytest.approx(exact, rel=0.35)
+
+
+# ---- what is said about it
+
+
+def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
+    told = explain(scene(Layer(1.0, 0.3, 100.0)), 256, "active_set")
+    assert told.bodies[1] == "Flat, Layer with E* = 1 GPa, Poisson's ratio 0.3, thickness 100 nm"
+    assert "mean displacement" not in told.left_out
+    assert {name: told.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
+    for ratio, named in ((None, ""), (0.3, ", Poisson's ratio 0.3")):
+        bodies = explain(scene(HalfSpace(1.0, ratio)), 256, "active_set").bodies
+        assert bodies[1] == f"Flat, HalfSpace with E* = 1 GPa{named}"
+    fixed = explain(scene(Layer(1.0, 0.5, 100.0)), 256, "active_set")
+    assert fixed.left_out["mean displacement"] == "zero: an incompressible layer keeps its volume"
+    free = explain(scene(Layer(1.0, 0.5, 100.0), HalfSpace(1.0)), 256, "active_set")
+    assert free.left_out["mean displacement"].startswith("free on a half-space")
+    yields = explain(scene(Layer(1.0, 0.3, 100.0), HalfSpace(1.0)), 256, "active_set")
+    assert "mean displacement" not in yields.left_out
+
+
+@pytest.mark.parametrize(("thickness", "drawn"), [(2.5, 2.5), (0.01, 0.8), (1e6, 3.2)])
+def test_a_layer_is_drawn_to_scale_where_that_can_be_seen_and_says_so_where_not(thickness, drawn):
+    figure, axes = plt.subplots()
+    sketch(scene(Layer(1.0, 0.3, thickness)), 256, axes)
+    words = [text.get_text() for text in axes.texts]
+    assert any("not to scale" in text for text in words) == (drawn != thickness)
+    assert any(f"{thickness:g} nm" in text for text in words)
+    assert min(collection.get_datalim(axes.transData).y0 for collection in axes.collections) < -drawn
+    plt.close(figure)
+
+
+def test_a_ratio_without_a_thickness_and_a_thickness_without_a_ratio_are_refused():
+    given_load = {"spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1}
+    with pytest.raises(SceneError, match="none without a thickness") as caught:
+        contactsim.press([0.0, 1.0], poisson_ratio=0.3, **given_load)
+    assert caught.value.key == "poisson_ratio"
+    with pytest.raises(SceneError, match=r"at most 0\.5") as caught:
+        contactsim.press([0.0, 1.0], thickness=1.0, **given_load)
+    assert caught.value.key == "poisson_ratio"
+
+
+def test_a_study_may_have_a_layer_but_not_ask_it_for_the_load_of_a_half_space():
+    section = {
+        "surface": {"kind": "cylinder", "radius": 100.0, "length": 400.0},
+        "body": {"kind": "layer", "contact_modulus": 1.0, "poisson_ratio": 0.4, "thickness": 50.0},
+        "effects": ["hard_wall"],
+        "load": {"name": "mean_pressure", "values": [0.01]},
+    }
+    assert scene_of(section).elasticities == (Layer(1.0, 0.4, 50.0),)
+    with pytest.raises(SceneError, match=r"Eq. 3.5 holds on a half-space"):
+        scene_of(section | {"load": {"name": "contact_ratio", "values": [0.1]}})
+
+
+def test_an_area_at_equal_reduced_pressure_depends_on_thickness_and_ratio():
+    heights = rough(512)
+    areas = {
+        (ratio, thickness): pressed(heights, ratio=ratio, thickness=thickness, mean_pressure=0.05).relative_contact_area
+        for ratio in (0.3, 0.5)
+        for thickness in (5.0, 50.0)
+    }
+    assert len(set(areas.values())) == 4
+
+
+def test_units_do_not_matter_to_a_layer():
+    heights = rough(256)
+    reference = pressed(heights, thickness=20.0, mean_pressure=0.03)
+    for unit in (1e-9, 1e9):
+        result = contactsim.press(
+            unit * heights,
+            spacing=unit,
+            contact_modulus=7.0,
+            thickness=20.0 * unit,
+            poisson_ratio=0.3,
+            mean_pressure=0.21,
+            tolerance=1e-6,
+        )
+        assert np.allclose(result.pressure / 7, reference.pressure, rtol=1e-6, atol=1e-9)
+        assert result.approach == pytest.approx(unit * reference.approach)
