@@ -35,7 +35,7 @@ def test_a_scene_file_is_run_into_a_dataset_equal_to_that_from_python(scene_file
     assert "written to" in capsys.readouterr().out
     stored = dataset.read(scene_file.with_suffix(".nc"))
     scene = Scene(
-        Body(Flat(1000.0), HalfSpace(70.0)), Body(Sinusoid(1000.0, 5.0)), (HardWall(),), loading.press([0.01, 0.1])
+        Body(Flat(1000.0), HalfSpace(70.0)), Body(Sinusoid(1000.0, 5.0)), (HardWall(),), loading.pressures([0.01, 0.1])
     )
     data = contactsim.simulate(scene, points=256, tolerance=1e-4)
     assert np.array_equal(stored.relative_contact_area, data.relative_contact_area)

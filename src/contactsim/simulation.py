@@ -76,7 +76,7 @@ def press(
     if (mean_pressure is None) == (approach is None):
         given = {"mean_pressure": mean_pressure, "approach": approach}
         raise SceneError("load", given, "exactly one of mean_pressure and approach")
-    path = loading.press([mean_pressure]) if approach is None else loading.approach([approach])
+    path = loading.pressures([mean_pressure]) if approach is None else loading.approaches([approach])
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), path)
     method = usual(scene) if solver is None else named(solver) if isinstance(solver, str) else solver

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import pose_interface
-from contactsim.contact.loading import LoadStep, approach
+from contactsim.contact.loading import LoadStep, approaches
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
@@ -119,7 +119,7 @@ def test_a_stiff_body_carries_the_laws_traction_over_the_undeformed_parabola(nam
     law = LAWS[name]
     stiff = replace(LAYER, contact_modulus=1e9 * LAYER.contact_modulus)
     places = [-3.0, -1.0, 0.0, 2.0]
-    found = walk(scene_of(law, approach(places), stiff), points=4096)
+    found = walk(scene_of(law, approaches(places), stiff), points=4096)
 
     x = np.linspace(-LENGTH / 2, LENGTH / 2, 200001)
     for place, load in zip(places, found.load, strict=True):
@@ -206,7 +206,7 @@ def test_a_tolerance_that_is_not_positive_is_refused(value):
 def test_a_flat_that_faces_a_flat_gives_way_as_springs_in_series():
     law, place = NormalCohesiveZone(2.0), -0.5
     thin = replace(LAYER, thickness=10.0)  # stiff enough that no jump precedes it
-    found = walk(scene_of(law, approach([place]), thin, surface=Flat(LENGTH)), points=16, tolerance=1e-12)
+    found = walk(scene_of(law, approaches([place]), thin, surface=Flat(LENGTH)), points=16, tolerance=1e-12)
     gap = found.gap()[0]
     spring = float(LAYER.coupled_stiffness(np.zeros(1)).diagonal[0, 0]) * LAYER.thickness / 10.0
     assert np.ptp(gap) < 1e-12

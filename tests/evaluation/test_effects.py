@@ -29,7 +29,7 @@ WALL = (HardWall(),)
 
 def scene(lower=None, upper=None, effects=WALL, path=None):
     lower = lower or Body(Flat(64.0), HalfSpace(1.0))
-    return Scene(lower, upper or Body(Sinusoid(64.0, 1.0)), effects, path or loading.press([0.02]))
+    return Scene(lower, upper or Body(Sinusoid(64.0, 1.0)), effects, path or loading.pressures([0.02]))
 
 
 def solved(subject, points=256, name="active_set"):
@@ -76,7 +76,7 @@ def test_only_the_sum_of_the_heights_matters():
 
 @pytest.mark.parametrize("name", ALL)
 def test_no_load_costs_one_application_of_the_compliance_and_no_iteration(name):
-    result = solved(scene(path=loading.press([0.0])), name=name)
+    result = solved(scene(path=loading.pressures([0.0])), name=name)
     assert (result.record.iterations, result.record.transforms) == (0, 2.0)
 
 
@@ -94,7 +94,7 @@ def test_peak_memory_is_the_few_fields_that_are_explained(name):
         press(heights, pressure, method)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-    told = 1e6 * explain(scene(path=loading.press([0.1])), points, name).megabytes
+    told = 1e6 * explain(scene(path=loading.pressures([0.1])), points, name).megabytes
     assert 0.9 * told < max(peaks) < told  # two more fields would be seen
 
 
@@ -113,7 +113,7 @@ def peak():  # of this program alone: what getrusage tells begins with its paren
 
 for points in (256, 2048):  # the smaller one makes the threads and their buffers
     rough = SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(1, 0.8), dimensions=2)
-    path = loading.press([1e-3, 1e-2])
+    path = loading.pressures([1e-3, 1e-2])
     scene = Scene(Body(Flat.facing(rough), HalfSpace(1.0)), Body(rough), (HardWall(),), path)
     before = peak()
     simulate(scene, points=points, threads=int(sys.argv[1]), keep=["contact"])
@@ -157,7 +157,7 @@ def test_an_explanation_says_what_is_on_what_is_not_and_who_may_solve_it():
     assert told.left_out["deformation of the upper body"].startswith("rigid")
     assert told.unknowns == 256
     assert {name: told.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
-    moved = explain(scene(path=loading.approach([-0.5])), 256, "active_set")
+    moved = explain(scene(path=loading.approaches([-0.5])), 256, "active_set")
     assert "approach" in moved.solvers["verlet"]
     assert "verlet: does not take load step given by an approach" in moved.text
     both = scene(Body(Flat(64.0), HalfSpace(2.0)), Body(Sinusoid(64.0, 1.0), HalfSpace(2.0)))
@@ -171,7 +171,7 @@ def test_a_smooth_scene_asks_for_no_random_numbers():
 
 def test_a_surface_is_explained_by_all_its_points_and_drawn_through_its_middle(tmp_path):
     ball = Sphere(64.0, 100.0)
-    subject = Scene(Body(Flat.facing(ball), HalfSpace(1.0)), Body(ball), (HardWall(),), loading.press([1e-3]))
+    subject = Scene(Body(Flat.facing(ball), HalfSpace(1.0)), Body(ball), (HardWall(),), loading.pressures([1e-3]))
     told = explain(subject, 32, "conjugate_gradients")
     assert told.unknowns == 32 * 32
     assert told.megabytes == pytest.approx(32 * 32 * 8 * solver("conjugate_gradients").fields / 1e6)

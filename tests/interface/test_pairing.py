@@ -9,7 +9,7 @@ import pytest
 
 from contactsim import reference
 from contactsim.contact.cohesive import pose_interface
-from contactsim.contact.loading import LoadStep, approach, press, slide, through
+from contactsim.contact.loading import LoadPath, LoadStep, Slide, approaches, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Layer
 from contactsim.errors import SceneError
@@ -183,7 +183,7 @@ def test_strength_and_stiffness_bound_what_springs_do():
 
 def sliding(lower: object = None, upper: object = BODY, law: object = LAW, pairing: object = ALIGNED) -> Scene:
     surface = Cylinder(length=500.0, radius=1250.0)
-    path = through(Trait.APPROACH, [-5.0, 0.0], 1.0) >> slide([0.0, 2.0], 1.0, HELD)
+    path = sweep(Trait.APPROACH, [-5.0, 0.0], 1.0) >> LoadPath((Slide((0.0, 2.0), 1.0, HELD),))
     return Scene(Body(Flat.facing(surface), lower), Body(surface, upper), (law,), path, pairing)
 
 
@@ -216,7 +216,7 @@ def test_a_slide_needs_something_held_and_comes_last():
     with pytest.raises(SceneError, match="held"):
         LoadStep(Trait.APPROACH, 1.0, held=HELD)
     with pytest.raises(SceneError, match="presses first"):
-        slide([0.0, 1.0], 1.0, HELD) >> approach([1.0])
+        LoadPath((Slide((0.0, 1.0), 1.0, HELD),)) >> approaches([1.0])
 
 
 def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():
@@ -228,7 +228,7 @@ def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():
 
 
 def test_a_scene_that_does_not_slide_is_what_it_was():
-    scene = replace(sliding(), path=approach([0.0]))
+    scene = replace(sliding(), path=approaches([0.0]))
     assert not scene.sliding
     assert scene.pairing is ALIGNED
     problem = pose_interface(scene, scene.heights(64), 1e-7)
@@ -236,5 +236,5 @@ def test_a_scene_that_does_not_slide_is_what_it_was():
 
 
 def test_pressing_steps_have_no_slide():
-    assert [step.slid for step in press([0.1]).steps] == [0.0]
-    assert [step.slid for step in slide([0.0, 1.0], 0.5, HELD).steps] == [0.0, 0.5, 1.0]
+    assert [step.slid for step in pressures([0.1]).steps] == [0.0]
+    assert [step.slid for step in LoadPath((Slide((0.0, 1.0), 0.5, HELD),)).steps] == [0.0, 0.5, 1.0]

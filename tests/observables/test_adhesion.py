@@ -28,7 +28,6 @@ from contactsim.study.execute import simulate
 from contactsim.study.law_table import tabulated
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.surfaces.statistics import local_squares, rms_gradient
-from contactsim.traits import Trait
 from support.smooth import LAWS, LENGTH, along, scene_of
 
 APPROACH = np.array([-3.0, -2.0, -1.0, 0.0, -1.0, -2.0, -3.0])
@@ -118,7 +117,7 @@ def test_the_pull_off_of_a_rigid_cylinder_is_the_largest_of_its_integrals():
 @pytest.mark.parametrize("law", [CohesiveZone(1.0, 0.5), NormalCohesiveZone(1.0)])
 def test_a_stiff_cylinder_pulls_off_like_a_rigid_one(law):
     upper, body = Cylinder(400.0, 500.0), HalfSpace(1e5, 0.3)
-    path = loading.LoadPath(loading.leg(Trait.APPROACH, -3.0, 0.0, 0.1).steps)
+    path = loading.approaches([-3.0, 0.0], 0.1)
     scene = Scene(Body(Flat.facing(upper), body), Body(upper), (law,), path)
     data = simulate(scene, points=128, tolerance=1e-8)
     found = pull_off(data.approach.values, data.line_load.values)

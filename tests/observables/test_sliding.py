@@ -12,7 +12,7 @@ import xarray as xr
 from contactsim import reference
 from contactsim.analysis.aggregate import combined
 from contactsim.contact.cohesive import InterfaceProblem, pose_interface
-from contactsim.contact.loading import LoadPath, LoadStep, slide, through
+from contactsim.contact.loading import LoadPath, LoadStep, Slide, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.evaluation.work_precision.knobs import solutions
@@ -32,10 +32,10 @@ HELD = LoadStep(Trait.APPROACH, 0.0)
 
 
 def path_of(approach: float, slides: list[float], increment: float, load: float | None = None) -> LoadPath:
-    press = through(Trait.APPROACH, [-10.0, approach], 0.5, True)
+    press = sweep(Trait.APPROACH, [-10.0, approach], 0.5, True)
     if load is not None:
         press = press >> LoadPath((LoadStep(Trait.MEAN_PRESSURE, load),), True)
-    return press >> slide(slides, increment, press.steps[-1], True)
+    return press >> LoadPath((Slide(tuple(slides), increment, press.steps[-1]),), True)
 
 
 def flat(modulus: float, work: float, slides: list[float], increment: float = 0.1, points: int = 16) -> Scene:
@@ -100,7 +100,9 @@ def test_stick_slip_ends_where_the_body_is_stiffer_than_the_springs_soften(latti
     stiffness = beside * work * fall
     about = steepest + work / stiffness * np.interp(steepest, places, sums)
     increment = 2e-4
-    path = path_of(0.0, [0.0, about - 0.02], 0.05) >> slide([about - 0.02, about + 0.02], increment, HELD, True)
+    path = path_of(0.0, [0.0, about - 0.02], 0.05) >> LoadPath(
+        (Slide((about - 0.02, about + 0.02), increment, HELD),), True
+    )
     scene = replace(flat(stiffness * 2 * (1 + RATIO) * 500.0, work, [0.0, 1.0]), path=path, pairing=Windowed(lattice))
     _, _, slides, force = walked(scene)
     gap = slides - force / stiffness

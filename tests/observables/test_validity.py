@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from contactsim import status
-from contactsim.contact.loading import approach
+from contactsim.contact.loading import approaches
 from contactsim.dataset import described
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.study.execute import simulate
@@ -54,7 +54,7 @@ def test_a_grid_too_coarse_for_the_process_zone_is_flagged_and_one_fine_enough_i
     law = NormalCohesiveZone(2.0)
     zone = status.process_zone(scene_of(law).contact_modulus, law.strength, law.reach)
     for points in (64, 128, 256, 512):
-        data = simulate(scene_of(law, approach([-8.0])), points=points, tolerance=1e-6)
+        data = simulate(scene_of(law, approaches([-8.0])), points=points, tolerance=1e-6)
         assert flagged(data, "process_zone_step").all() == (LENGTH / points > 0.2 * zone)
         assert float(data.process_zone_step[0]) == pytest.approx(LENGTH / points / zone)
 
@@ -63,7 +63,7 @@ def test_a_grid_too_coarse_for_the_process_zone_is_flagged_and_one_fine_enough_i
 def test_slopes_that_are_not_small_are_flagged(amplitude):
     wave = Sinusoid(length=300.0, amplitude=amplitude)
     law = NormalCohesiveZone(0.5)
-    data = simulate(scene_of(law, approach([-amplitude - 2.0]), surface=wave), points=256, tolerance=1e-6)
+    data = simulate(scene_of(law, approaches([-amplitude - 2.0]), surface=wave), points=256, tolerance=1e-6)
     rms = 2 * np.pi * amplitude / 300.0 / np.sqrt(2)
     assert flagged(data, "rms_gradient").all() == (rms > 0.45)
 

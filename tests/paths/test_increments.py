@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import pose_interface
-from contactsim.contact.loading import LoadPath, LoadStep, approach, press, through
+from contactsim.contact.loading import LoadPath, LoadStep, approaches, pressures, sweep
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
@@ -108,7 +108,7 @@ def test_unloading_stays_in_contact_beyond_where_loading_jumped_in_and_ends_open
     unloading = np.interp(-between, -place[turn:], found.load[turn:])
     assert unloading < 2 * loading < 0
     assert -found.load[turn:].min() > -found.load[: turn + 1].min()
-    assert found.load[-1] == pytest.approx(walk(scene_of(LAWS["uncoupled"], approach([-20.0]))).load[0], rel=1e-5)
+    assert found.load[-1] == pytest.approx(walk(scene_of(LAWS["uncoupled"], approaches([-20.0]))).load[0], rel=1e-5)
 
 
 def test_on_a_branch_without_a_jump_there_is_no_hysteresis():
@@ -131,7 +131,7 @@ def test_increments_longer_than_newton_is_trusted_need_no_flow_once_there_is_a_h
 def test_the_load_of_an_approach_gives_that_approach(name, body):
     moved = walk(scene_of(LAWS[name], along(-10, 7, 0.2), body))
     kept = [count for count, state in enumerate(moved.states) if state.step.value >= 1]
-    loads = press((moved.load[kept] / LENGTH).tolist())
+    loads = pressures((moved.load[kept] / LENGTH).tolist())
     loaded = walk(scene_of(LAWS[name], loads, body))
     assert loaded.statuses == {"CONVERGED"}
     assert not loaded.jumps
@@ -161,8 +161,8 @@ def hard_scenes():
         yield f"half-space {name}", scene_of(law, path, HalfSpace(77.0, 0.3))
         yield f"incompressible layer {name}", scene_of(law, path, Layer(93.0, 0.5, 5000.0))
         yield f"auxetic layer {name}", scene_of(law, path, Layer(93.0, -0.5, 5000.0))
-        yield f"60 lengths beyond touch at once {name}", scene_of(law, approach([60.0]))
-        yield f"the same of a half-space {name}", scene_of(law, approach([60.0]), HalfSpace(77.0, 0.3))
+        yield f"60 lengths beyond touch at once {name}", scene_of(law, approaches([60.0]))
+        yield f"the same of a half-space {name}", scene_of(law, approaches([60.0]), HalfSpace(77.0, 0.3))
         for thickness in (10.0, 1e3, 1e5, 1e7):
             yield f"thickness {thickness:g} {name}", scene_of(law, path, Layer(77.0, 0.3, thickness))
     for work in (1e-200, 1e-8, 1e-3):
@@ -235,7 +235,7 @@ def test_a_path_goes_on_from_the_last_stable_state_where_a_step_has_no_solution(
 
 def test_dynamics_that_diverge_are_told():
     # far beyond touch the law is stiffer than its stiffness says, and than the time step can follow
-    found = walk(scene_of(NormalCohesiveZone(2.0), approach([60.0])), method="damped_verlet")
+    found = walk(scene_of(NormalCohesiveZone(2.0), approaches([60.0])), method="damped_verlet")
     assert found.states[0].status is Status.NON_FINITE
 
 
@@ -264,10 +264,10 @@ def test_increments_out_of_range_are_refused(options):
 @pytest.mark.parametrize(
     "path",
     [
-        along(-10, 5, 0.5) >> approach([5.0, 5.0]) >> along(4.5, -9, 0.5),
-        along(-10, 5, 0.5) >> approach([-2.0]) >> along(5.5, 7, 0.5),
-        approach([-3.0]),
-        approach([-3.0, -3.0]),
+        along(-10, 5, 0.5) >> approaches([5.0, 5.0]) >> along(4.5, -9, 0.5),
+        along(-10, 5, 0.5) >> approaches([-2.0]) >> along(5.5, 7, 0.5),
+        approaches([-3.0]),
+        approaches([-3.0, -3.0]),
     ],
     ids=["hold", "one step back", "one step", "one step held"],
 )
@@ -281,7 +281,7 @@ def test_adaptive_increments_go_wherever_the_path_goes(path):
 
 
 def test_states_asked_for_a_rounding_apart_from_those_walked_through_are_interpolated_safely():
-    scene = scene_of(LAWS["uncoupled"], through(Trait.MEAN_PRESSURE, [0.0, 0.05], 0.001))
+    scene = scene_of(LAWS["uncoupled"], sweep(Trait.MEAN_PRESSURE, [0.0, 0.05], 0.001))
     asked, adaptive = walk(scene), walk(scene, increments=Adaptive(least=1e-5, most=0.02))
     near = walk(scene, increments=Adaptive(least=0.01, most=1.0))  # its shortest increment is ten of those asked for
     for found in (adaptive, near):
@@ -291,7 +291,7 @@ def test_states_asked_for_a_rounding_apart_from_those_walked_through_are_interpo
 
 
 def test_a_change_of_control_starts_a_leg():
-    path = along(-10, 5, 0.5) >> press([0.006, 0.008, 0.01])
+    path = along(-10, 5, 0.5) >> pressures([0.006, 0.008, 0.01])
     asked = walk(scene_of(LAWS["uncoupled"], path))
     adaptive = walk(scene_of(LAWS["uncoupled"], path), increments=Adaptive(least=1e-5, most=1.0))
     assert adaptive.statuses <= {"CONVERGED", "INTERPOLATED"}
@@ -300,7 +300,7 @@ def test_a_change_of_control_starts_a_leg():
 
 def test_the_residual_of_an_interpolated_state_is_what_its_displacement_leaves_unbalanced():
     for name in LAWS:
-        for path in (along(-10, 5, 0.13), along(-10, 0, 0.5) >> press(np.linspace(0.0, 0.01, 40).tolist())):
+        for path in (along(-10, 5, 0.13), along(-10, 0, 0.5) >> pressures(np.linspace(0.0, 0.01, 40).tolist())):
             found = walk(scene_of(LAWS[name], path), increments=Adaptive(least=1e-4, most=1.0))
             between = [state for state in found.states if state.status is Status.INTERPOLATED]
             assert between
@@ -325,11 +325,11 @@ def test_a_jump_is_found_within_any_increment(name, increment):
 
 
 def test_a_large_retraction_stays_in_contact_where_small_steps_hold_it():
-    held = along(-10, 2, 0.2) >> approach([-7.0])
+    held = along(-10, 2, 0.2) >> approaches([-7.0])
     fine = along(-10, 2, 0.2) >> along(1.8, -7, 0.2)
     at_once, slowly = (walk(scene_of(LAWS["uncoupled"], path)) for path in (held, fine))
     assert at_once.load[-1] == pytest.approx(slowly.load[-1], rel=1e-5)
-    assert at_once.load[-1] < 10 * walk(scene_of(LAWS["uncoupled"], approach([-7.0]))).load[0] < 0
+    assert at_once.load[-1] < 10 * walk(scene_of(LAWS["uncoupled"], approaches([-7.0]))).load[0] < 0
     assert not at_once.states[-1].jump
 
 
@@ -370,8 +370,8 @@ def test_a_path_that_changes_its_control_goes_on_from_its_last_state():
     held = along(-10, 2, 0.2) >> along(1.8, -9, 0.2)
     whole = walk(scene_of(LAWS["uncoupled"], held))
     pressure = whole.load[-1] / LENGTH
-    found = walk(scene_of(LAWS["uncoupled"], held >> press([0.9 * pressure])))
-    other = walk(scene_of(LAWS["uncoupled"], held >> press([0.9 * pressure]) >> along(2.0, 3.0, 0.2)))
+    found = walk(scene_of(LAWS["uncoupled"], held >> pressures([0.9 * pressure])))
+    other = walk(scene_of(LAWS["uncoupled"], held >> pressures([0.9 * pressure]) >> along(2.0, 3.0, 0.2)))
     state = found.states[-1]
     assert state.status is Status.CONVERGED
     assert found.load[-1] == pytest.approx(0.9 * whole.load[-1], rel=1e-5)

@@ -36,7 +36,7 @@ def rough(points: float = 32.0) -> SelfAffine:
 
 def rough_scene(law: object, begin: float = -5.0, end: float = 3.0) -> Scene:
     body = HalfSpace(70 / (1 - 0.3**2), 0.3)
-    path = loading.through(Trait.APPROACH, [begin, end], 0.5, from_touch=True)
+    path = loading.sweep(Trait.APPROACH, [begin, end], 0.5, from_touch=True)
     return Scene(Body(Flat.facing(rough()), body), Body(rough()), (law,), path)
 
 
@@ -100,8 +100,8 @@ def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
 def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_the_mean_plane():
     top = float(rough().heights(512).max())
     for law, body in ((NormalCohesiveZone(2.0), HalfSpace(70.0)), (HardWall(), Layer(70.0, 0.3, 1000.0))):
-        absolute = loading.approach([value - top for value in (-1.0, 0.5, 2.0)])
-        from_touch = LoadPath(loading.approach([-1.0, 0.5, 2.0]).steps, from_touch=True)
+        absolute = loading.approaches([value - top for value in (-1.0, 0.5, 2.0)])
+        from_touch = LoadPath(loading.approaches([-1.0, 0.5, 2.0]).steps, from_touch=True)
         one, two = (
             simulate(Scene(Body(Flat.facing(rough()), body), Body(rough()), (law,), path), points=512)
             for path in (absolute, from_touch)
@@ -114,7 +114,7 @@ def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_th
 
 def test_parts_of_a_path_count_from_the_same_place():
     with pytest.raises(SceneError, match="from_touch") as caught:
-        loading.approach([1.0]) >> LoadPath(loading.approach([2.0]).steps, from_touch=True)
+        loading.approaches([1.0]) >> LoadPath(loading.approaches([2.0]).steps, from_touch=True)
     assert caught.value.key == "from_touch"
 
 

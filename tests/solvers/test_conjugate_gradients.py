@@ -40,7 +40,7 @@ def press(
     heights, pressure=None, *, approach=None, body=None, tolerance=1e-6, threads=1, spacing=(1.0, 1.0), **options
 ):
     surface = heights if hasattr(heights, "heights") else Heights(np.asarray(heights, float), spacing)
-    path = loading.press([pressure]) if approach is None else loading.approach([approach])
+    path = loading.pressures([pressure]) if approach is None else loading.approaches([approach])
     scene = Scene(Body(Flat.facing(surface), body or HalfSpace(1.0)), Body(surface), (HardWall(),), path)
     method = solver("conjugate_gradients", **options)
     require(method, scene)

@@ -173,7 +173,7 @@ def test_an_approach_beyond_full_contact_is_refused():
 @pytest.mark.parametrize("name", ALL)
 def test_each_solver_accepts_every_trait_it_claims_and_refuses_the_rest(name):
     method = solver(name)
-    paths = {Trait.MEAN_PRESSURE: loading.press([0.1]), Trait.APPROACH: loading.approach([-0.5])}
+    paths = {Trait.MEAN_PRESSURE: loading.pressures([0.1]), Trait.APPROACH: loading.approaches([-0.5])}
     for trait, path in paths.items():
         scene = Scene(Body(Flat(8.0), HalfSpace(1.0)), Body(Flat(8.0)), (HardWall(),), path)
         assert scene.traits == {Trait.LINE, Trait.WALL, Trait.HALF_SPACE, trait}
@@ -209,7 +209,7 @@ def test_verlet_refuses_options_that_blow_up_or_never_settle(options, key):
 
 
 def test_a_spent_budget_is_an_honest_status_and_still_a_certificate():
-    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.press([0.1]))
+    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.pressures([0.1]))
     heights = rough(256)
     problem, scale = pose(scene, scene.path.steps[0], heights, 1e-9, 1)
     result = solve(ActiveSet(budget=1), problem, scale)
@@ -228,7 +228,7 @@ def test_a_value_that_is_not_finite_is_caught_and_the_last_good_state_kept():
                 following.pressure[0] = np.nan
             return following
 
-    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.press([0.1]))
+    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.pressures([0.1]))
     problem, scale = pose(scene, scene.path.steps[0], rough(256), 1e-9, 1)
     result = solve(Breaking(), problem, scale)
     assert result.status is Status.NON_FINITE
@@ -262,7 +262,7 @@ def test_continuation_is_linear_between_contacts_and_restriction_its_adjoint(con
 
 @pytest.mark.parametrize("points", [63, 512, 4096])
 def test_the_preconditioners_stiffness_is_close_to_the_true_one_and_kills_constants(points):
-    scene = Scene(Body(Flat(points), HalfSpace(1.0)), Body(Flat(points)), (HardWall(),), loading.press([0.1]))
+    scene = Scene(Body(Flat(points), HalfSpace(1.0)), Body(Flat(points)), (HardWall(),), loading.pressures([0.1]))
     problem, _ = pose(scene, scene.path.steps[0], rough(64 if points < 64 else points)[:points], 1e-3, 1)
     stiffness = BlockStiffness(problem.compliance, uniform=True)
     scratch = np.empty(points)
@@ -296,7 +296,7 @@ def test_a_sweep_of_the_thesis_takes_few_transforms_and_hardly_more_on_finer_gri
 
 def test_the_cascade_costs_less_than_starting_on_the_fine_grid():
     heights = rough(4096)
-    scene = Scene(Body(Flat(4096.0), HalfSpace(1.0)), Body(Flat(4096.0)), (HardWall(),), loading.press([0.01]))
+    scene = Scene(Body(Flat(4096.0), HalfSpace(1.0)), Body(Flat(4096.0)), (HardWall(),), loading.pressures([0.01]))
     work = {}
     for name, method in (("nested", solver("active_set")), ("plain", ActiveSet())):
         problem, scale = pose(scene, scene.path.steps[0], heights, 1e-3, 1)
@@ -343,7 +343,7 @@ def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypa
     monkeypatch.setattr("contactsim.solvers.registry.find_spec", lambda name: None)
     with pytest.raises(SceneError, match="pip install tamaas"):
         solver("tamaas")
-    scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.press([1.0]))
+    scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.pressures([1.0]))
     assert "tamaas: is not installed" in explain(scene, 64, "active_set").text
 
 

@@ -420,4 +420,4 @@ def test_what_a_hard_wall_has_no_use_for_is_refused(options, refused):
 )
 def test_what_a_smooth_law_has_no_use_for_is_refused(options, refused):
     with pytest.raises(SceneError, match=refused):
-        contactsim.simulate(smooth.scene_of(smooth.LAWS["uncoupled"], loading.approach([-9.0])), points=64, **options)
+        contactsim.simulate(smooth.scene_of(smooth.LAWS["uncoupled"], loading.approaches([-9.0])), points=64, **options)

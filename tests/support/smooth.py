@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.cohesive import InterfaceProblem, pose_interface
-from contactsim.contact.loading import LoadPath, approach
+from contactsim.contact.loading import LoadPath, approaches
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, Layer
 from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
@@ -35,7 +35,7 @@ def scene_of(
 ) -> Scene:
     """A cylinder, or another surface, above an elastic body."""
     surface = surface or Cylinder(length=LENGTH, radius=RADIUS)
-    return Scene(Body(Flat.facing(surface), lower), Body(surface, upper), (law,), path or approach([0.0]))
+    return Scene(Body(Flat.facing(surface), lower), Body(surface, upper), (law,), path or approaches([0.0]))
 
 
 @dataclass(frozen=True)
@@ -82,4 +82,4 @@ def walk(
 
 def along(begin: float, end: float, increment: float) -> LoadPath:
     """Approaches from one to another, both inclusive."""
-    return approach(np.linspace(begin, end, round(abs(end - begin) / increment) + 1).round(9).tolist())
+    return approaches(np.linspace(begin, end, round(abs(end - begin) / increment) + 1).round(9).tolist())

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.contact.loading import press
+from contactsim.contact.loading import pressures
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.evaluation.robustness import rough
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
@@ -136,10 +136,10 @@ def test_a_rough_line_is_the_one_that_its_rms_height_and_hurst_exponent_make():
 
 
 def test_an_end_that_is_not_the_true_one_is_wrong():
-    pulled = PathCase(scene_of(NormalCohesiveZone(2.0), press([0.02, -1.0])), ends=Status.PULLED_OFF)
+    pulled = PathCase(scene_of(NormalCohesiveZone(2.0), pressures([0.02, -1.0])), ends=Status.PULLED_OFF)
     assert judge(pulled, "newton").outcome is Outcome.RIGHT
     assert "not converged, pulled_off" in judge(replace(pulled, ends=Status.CONVERGED), "newton").reason
-    held = replace(pulled, scene=replace(pulled.scene, path=press([0.02, -0.001])))
+    held = replace(pulled, scene=replace(pulled.scene, path=pressures([0.02, -0.001])))
     assert judge(held, "newton").outcome is Outcome.WRONG
 
 

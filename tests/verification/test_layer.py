@@ -49,7 +49,7 @@ def pressed(heights, *, ratio=0.3, thickness, name="active_set", tolerance=1e-6,
 
 def scene(lower, upper=None, path=None, length=256.0):
     upper = Body(Sinusoid(length, 1.0), upper)
-    return Scene(Body(Flat(length), lower), upper, (HardWall(),), path or loading.press([0.01]))
+    return Scene(Body(Flat(length), lower), upper, (HardWall(),), path or loading.pressures([0.01]))
 
 
 def solved(subject, points=256, tolerance=1e-8):
@@ -223,7 +223,7 @@ def test_on_a_half_space_the_mean_of_the_layer_alone_enters_the_approach():
     both = solved(scene(Layer(2.0, 0.3, 30.0), HalfSpace(3.0)))
     sunk = 30.0 / (2.0 * UNIAXIAL) * both.mean_pressure
     assert both.gap.mean() == pytest.approx(sunk - both.approach, abs=1e-9)  # heights of mean zero
-    moved = solved(scene(Layer(2.0, 0.3, 30.0), HalfSpace(3.0), loading.approach([both.approach])))
+    moved = solved(scene(Layer(2.0, 0.3, 30.0), HalfSpace(3.0), loading.approaches([both.approach])))
     assert moved.mean_pressure == pytest.approx(both.mean_pressure, rel=1e-6)
 
 

@@ -168,7 +168,9 @@ def test_added_members_are_run_and_the_others_left_alone(project: Project) -> No
 
 def test_points_made_by_other_code_are_not_taken_over(project: Project) -> None:
     lengthen(project)
-    project.edit("solvers/hard_wall/active_set", 'import logging; logging.getLogger(__name__).info("this copy, edited")')
+    project.edit(
+        "solvers/hard_wall/active_set", 'import logging; logging.getLogger(__name__).info("this copy, edited")'
+    )
     project.make(*project.run_targets("smooth"))
     assert project.steps("smooth") == {(0, 5)}
     assert all("this copy, edited" in text for text in project.logs("smooth").values())

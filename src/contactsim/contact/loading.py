@@ -3,15 +3,19 @@
 A step prescribes the mean pressure (GPa) or the approach (nm). Approach is measured from the position in which the
 undeformed mean plane of the elastic surface and height zero of the counter-body coincide; the approach of first touch
 is then minus the largest height. A path may count from there instead. Surfaces that are pressed may then slide: such a
-step prescribes how far the upper body has moved along x, and holds approach or pressure. Paths are joined with `>>`.
+step prescribes how far the upper body has moved along x, and holds approach or pressure.
+
+A path is a list of parts: single steps, sweeps through turning points, and slides. A sweep and a slide keep their
+increment, so that the same path can be followed in longer or shorter increments. Paths are joined with `>>`.
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property, reduce
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import Protocol
 
 import numpy as np
 
@@ -19,15 +23,47 @@ from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
-MOST = 1_000_000
-"""Steps of a leg that no one means."""
+MAX_STEPS = 1_000_000
+"""Most steps between two turning points."""
+
+
+class PathPart(Protocol):
+    """A part of a load path."""
+
+    @property
+    def steps(self) -> tuple[LoadStep, ...]:
+        """Load steps in their order."""
+        ...
+
+    @property
+    def increment(self) -> float | None:
+        """Increment (GPa or nm) between steps; None for a single step."""
+        ...
+
+    @property
+    def slides(self) -> bool:
+        """True where the part moves the surfaces along each other."""
+        ...
+
+    def with_increment(self, increment: float) -> PathPart:
+        """Return the same part in increments of about that size."""
+        ...
 
 
 @dataclass(frozen=True)
 class LoadStep:
-    """One state asked for: control is Trait.MEAN_PRESSURE (value in GPa), Trait.APPROACH or Trait.SLIDE (nm).
+    """One load step.
 
-    label: how whoever asked for it calls it, for the log; held: while sliding, the approach or pressure that is kept.
+    Parameters
+    ----------
+    control : Trait
+        `Trait.MEAN_PRESSURE`, `Trait.APPROACH` or `Trait.SLIDE`.
+    value : float
+        Mean pressure in GPa, approach or sliding distance in nm.
+    label : str
+        Name of the step in the log.
+    held : LoadStep, optional
+        Approach or mean pressure that is kept while sliding.
     """
 
     control: Trait
@@ -43,45 +79,198 @@ class LoadStep:
 
     @property
     def normal(self) -> LoadStep:
-        """What is prescribed normal to the surfaces."""
+        """Step that prescribes the approach or the mean pressure."""
         return self.held or self
 
     @property
+    def steps(self) -> tuple[LoadStep, ...]:
+        """The step itself: a single step is a part of a path."""
+        return (self,)
+
+    @property
+    def increment(self) -> None:
+        """None: a single step has no increment."""
+        return None
+
+    @property
+    def slides(self) -> bool:
+        """True for a step of a slide."""
+        return self.control is Trait.SLIDE
+
+    def with_increment(self, increment: float) -> LoadStep:
+        """Return the step itself."""
+        return self
+
+    @property
     def slid(self) -> float:
-        """How far (nm) the upper body has moved along x."""
+        """Distance (nm) that the upper body has moved along x."""
         return self.value if self.held else 0.0
 
     @property
     def text(self) -> str:
-        """The step in a few words."""
+        """Label, or control and value."""
         return self.label or f"{self.control.name.lower()}={self.value:g}"
 
 
 @dataclass(frozen=True)
-class LoadPath:
-    """Load steps in the order in which they are visited; from_touch: their approaches count from first touch."""
+class Sweep:
+    """Approaches or mean pressures through turning points, in equal increments.
 
-    steps: tuple[LoadStep, ...]
+    Parameters
+    ----------
+    control : Trait
+        `Trait.MEAN_PRESSURE` (GPa) or `Trait.APPROACH` (nm).
+    turning_points : tuple of float
+        Two or more values; the first is not a step itself.
+    increment : float
+        Approximate difference between steps.
+    """
+
+    control: Trait
+    turning_points: tuple[float, ...]
+    increment: float
+    slides = False
+
+    @property
+    def steps(self) -> tuple[LoadStep, ...]:
+        """Load steps in their order."""
+        return _sweep_steps(self.control, self.turning_points, self.increment)
+
+    def with_increment(self, increment: float) -> Sweep:
+        """Return the same sweep in increments of about that size."""
+        return replace(self, increment=increment)
+
+
+@dataclass(frozen=True)
+class Slide:
+    """Sliding distances along x through turning points, in equal increments.
+
+    Parameters
+    ----------
+    turning_points : tuple of float
+        Two or more distances (nm), the first included.
+    increment : float
+        Approximate distance between steps (nm).
+    held : LoadStep
+        Approach or mean pressure under which the surfaces slide.
+    """
+
+    turning_points: tuple[float, ...]
+    increment: float
+    held: LoadStep
+    slides = True
+
+    @property
+    def steps(self) -> tuple[LoadStep, ...]:
+        """Load steps in their order."""
+        return _slide_steps(self.turning_points, self.increment, self.held)
+
+    def with_increment(self, increment: float) -> Slide:
+        """Return the same slide in increments of about that size."""
+        return replace(self, increment=increment)
+
+
+@lru_cache(maxsize=64)
+def _sweep_steps(control: Trait, turning_points: tuple[float, ...], increment: float) -> tuple[LoadStep, ...]:
+    """Steps of a sweep; cached, as many variants of a study share them."""
+    return tuple(
+        LoadStep(control, value) for ends in itertools.pairwise(turning_points) for value in _leg(*ends, increment)
+    )
+
+
+@lru_cache(maxsize=64)
+def _slide_steps(turning_points: tuple[float, ...], increment: float, held: LoadStep) -> tuple[LoadStep, ...]:
+    """Steps of a slide; cached, as many variants of a study share them."""
+    legs = [_leg(*ends, increment) for ends in itertools.pairwise(turning_points)]
+    return tuple(LoadStep(Trait.SLIDE, value, held=held) for value in [turning_points[0], *itertools.chain(*legs)])
+
+
+def _leg(begin: float, end: float, increment: float) -> list[float]:
+    """Return values from one, exclusive, to another, inclusive, in equal increments of about that size."""
+    count = max(round(abs(end - begin) / increment), 1)
+    if count > MAX_STEPS:
+        raise SceneError("increment", increment, f"one of at most {MAX_STEPS} steps from {begin:g} to {end:g}")
+    return [begin + (end - begin) * k / count for k in range(1, count + 1)]
+
+
+@dataclass(frozen=True)
+class LoadPath:
+    """Load steps in the order in which they are visited.
+
+    Parameters
+    ----------
+    parts : tuple of LoadStep, Sweep or Slide
+        What the path consists of.
+    from_touch : bool
+        True where approaches count from first touch instead of the mean planes.
+    """
+
+    parts: tuple[PathPart, ...]
     from_touch: bool = False
 
     def __post_init__(self) -> None:
-        sliding = [step.control is Trait.SLIDE for step in self.steps]
+        sliding = [part.slides for part in self.parts]
         if sliding != sorted(sliding):
             raise SceneError("path", "pressed after sliding", "a path that presses first, then slides")
 
+    @cached_property
+    def steps(self) -> tuple[LoadStep, ...]:
+        """All load steps in their order."""
+        return tuple(step for part in self.parts for step in part.steps)
+
     def __rshift__(self, later: LoadPath) -> LoadPath:
+        """Return this path followed by another."""
         if later.from_touch is not self.from_touch:
             raise SceneError("from_touch", later.from_touch, "the same for all parts of a path")
-        return LoadPath(self.steps + later.steps, self.from_touch)
+        return LoadPath(self.parts + later.parts, self.from_touch)
+
+    @property
+    def slides(self) -> bool:
+        """True where the path ends in a slide."""
+        return any(part.slides for part in self.parts)
+
+    @property
+    def increment(self) -> float | None:
+        """Increment of the slide or, without one, of the last sweep; None for single steps."""
+        increments = [part.increment for part in self.parts if part.slides is self.slides and part.increment]
+        return increments[-1] if increments else None
+
+    @property
+    def turning_points(self) -> tuple[float, ...]:
+        """Turning points of the sweeps that press the surfaces."""
+        return tuple(value for part in self.parts if isinstance(part, Sweep) for value in part.turning_points)
+
+    def with_increment(self, increment: float, pressing: float | None = None) -> LoadPath:
+        """Return the same path in other increments.
+
+        Parameters
+        ----------
+        increment : float
+            Increment of the slide or, without one, of the sweeps.
+        pressing : float, optional
+            Increment of the sweeps before a slide; unchanged without it.
+        """
+
+        def changed(part: PathPart) -> PathPart:
+            if part.slides is self.slides:
+                return part.with_increment(increment)
+            return part if pressing is None else part.with_increment(pressing)
+
+        return replace(self, parts=tuple(changed(part) for part in self.parts))
 
     def origin(self, heights: Array) -> float:
-        """Approach (nm), from where the mean planes meet, at which those of the steps are zero."""
+        """Return the approach (nm), counted from the mean planes, at which those of the steps are zero."""
         return -float(heights.max()) if self.from_touch else 0.0
 
     def nearest(self, value: float) -> int:
-        """Number of the first of the steps that are nearest to a value; SceneError if the path passes none that near.
+        """Return the number of the first step that is nearest to a value.
 
-        Near is within half of the longer increment beside that step. Of a path that slides, steps that slide count.
+        Near is within half of the longer increment beside that step. On a path that slides, only sliding steps count.
+
+        Raises
+        ------
+        SceneError
+            Where the path passes no step that near.
         """
         values = self._values
         place = int(np.argmin(np.round(np.abs(values - value), 9)))
@@ -93,46 +282,83 @@ class LoadPath:
 
     @cached_property
     def _values(self) -> Array:
-        """Of each step; infinite of those before the slide of a path that slides."""
+        """Value of each step; infinite for those before the slide of a path that slides."""
         last = self.steps[-1].control
         return np.array([step.value if step.control is last else np.inf for step in self.steps])
 
     @cached_property
     def traits(self) -> frozenset[Trait]:
-        """The kinds of control in use."""
+        """Kinds of control in use."""
         return frozenset(kind for step in self.steps for kind in (step.control, step.normal.control))
 
 
-def press(mean_pressures: Sequence[float], labels: Sequence[str] = ()) -> LoadPath:
-    """A path through mean pressures (GPa), with a label for each if they have other names."""
-    labels = labels or [""] * len(mean_pressures)
-    pairs = zip(mean_pressures, labels, strict=True)
-    return LoadPath(tuple(LoadStep(Trait.MEAN_PRESSURE, value, label) for value, label in pairs))
+def pressures(
+    values: Sequence[float], increment: float | None = None, *, labels: Sequence[str] = (), from_touch: bool = False
+) -> LoadPath:
+    """Return a path through mean pressures.
 
-
-def approach(approaches: Sequence[float]) -> LoadPath:
-    """A path through approaches (nm)."""
-    return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in approaches))
-
-
-def leg(control: Trait, begin: float, end: float, increment: float) -> LoadPath:
-    """From a value, exclusive, to another, inclusive, in equal increments of about that size."""
-    count = max(round(abs(end - begin) / increment), 1)
-    if count > MOST:
-        raise SceneError("increment", increment, f"one of at most {MOST} steps from {begin:g} to {end:g}")
-    return LoadPath(tuple(LoadStep(control, begin + (end - begin) * k / count) for k in range(1, count + 1)))
-
-
-def through(control: Trait, points: Sequence[float], increment: float, from_touch: bool = False) -> LoadPath:
-    """Through turning points, the first of which is not a step itself, in equal increments of about that size."""
-    legs = [leg(control, *ends, increment) for ends in itertools.pairwise(points)]
-    return LoadPath(reduce(LoadPath.__rshift__, legs).steps, from_touch)
-
-
-def slide(points: Sequence[float], increment: float, held: LoadStep, from_touch: bool = False) -> LoadPath:
-    """Along x through turning points (nm), the first included, in equal increments of about that size.
-
-    held: the approach or mean pressure under which the surfaces slide.
+    Parameters
+    ----------
+    values : sequence of float
+        Every mean pressure (GPa) of the path or, with an increment, its turning points, the first of which is no step.
+    increment : float, optional
+        Approximate difference (GPa) between steps.
+    labels : sequence of str, optional
+        Names of the steps in the log, without an increment.
+    from_touch : bool
+        True where the approaches of a later part count from first touch instead of the mean planes.
     """
-    values = [points[0], *(step.value for step in through(Trait.APPROACH, points, increment).steps)]
-    return LoadPath(tuple(LoadStep(Trait.SLIDE, value, held=held) for value in values), from_touch)
+    if increment is not None:
+        return sweep(Trait.MEAN_PRESSURE, values, increment, from_touch)
+    pairs = zip(values, labels or [""] * len(values), strict=True)
+    return LoadPath(tuple(LoadStep(Trait.MEAN_PRESSURE, value, label) for value, label in pairs), from_touch)
+
+
+def approaches(values: Sequence[float], increment: float | None = None, *, from_touch: bool = False) -> LoadPath:
+    """Return a path through approaches.
+
+    Parameters
+    ----------
+    values : sequence of float
+        Every approach (nm) of the path or, with an increment, its turning points, the first of which is no step.
+    increment : float, optional
+        Approximate difference (nm) between steps.
+    from_touch : bool
+        True where approaches count from first touch instead of the mean planes.
+    """
+    if increment is not None:
+        return sweep(Trait.APPROACH, values, increment, from_touch)
+    return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in values), from_touch)
+
+
+def sliding(
+    turning_points: Sequence[float],
+    increment: float,
+    *,
+    approach: float | None = None,
+    mean_pressure: float | None = None,
+    from_touch: bool = False,
+) -> LoadPath:
+    """Return a path that slides along x under a held approach or mean pressure.
+
+    Parameters
+    ----------
+    turning_points : sequence of float
+        Two or more sliding distances (nm), the first included.
+    increment : float
+        Approximate distance (nm) between steps.
+    approach, mean_pressure : float
+        Approach (nm) or mean pressure (GPa) that is held; exactly one.
+    from_touch : bool
+        True where approaches count from first touch instead of the mean planes.
+    """
+    if (approach is None) == (mean_pressure is None):
+        values = {"approach": approach, "mean_pressure": mean_pressure}
+        raise SceneError("held", values, "exactly one of approach and mean_pressure")
+    held = LoadStep(Trait.MEAN_PRESSURE, mean_pressure) if approach is None else LoadStep(Trait.APPROACH, approach)
+    return LoadPath((Slide(tuple(turning_points), increment, held),), from_touch)
+
+
+def sweep(control: Trait, turning_points: Sequence[float], increment: float, from_touch: bool = False) -> LoadPath:
+    """Return a path through turning points of an approach or a mean pressure; see `Sweep`."""
+    return LoadPath((Sweep(control, tuple(turning_points), increment),), from_touch)

@@ -9,6 +9,7 @@ half-spaces that keep their volume: there a law that reads the tangential gap ha
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property, reduce
 
 import numpy as np
@@ -21,6 +22,19 @@ from contactsim.interface.laws import HardWall, Law
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.surfaces.shapes import Surface
 from contactsim.traits import Trait
+
+
+class ProblemKind(Enum):
+    """One of the two kinds of problem that a scene poses.
+
+    They differ in their unknowns, solvers, paths and observables. `Scene.kind` is the one place that tells them apart;
+    all else looks up what it needs by kind.
+    """
+
+    HARD_WALL = "hard_wall"
+    """Gap and pressure are never negative, and one of them is zero at each point; each load has one solution."""
+    COHESIVE = "cohesive"
+    """Traction is a smooth function of the gap; states follow one another along a path."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +83,7 @@ class Scene:
     @property
     def sliding(self) -> bool:
         """Whether the bodies are moved along each other."""
-        return Trait.SLIDE in self.path.traits
+        return self.path.slides
 
     @cached_property
     def slips(self) -> bool:
@@ -107,6 +121,11 @@ class Scene:
         parts = [effect.traits for effect in self.acting] + [body.traits for body in self.elasticities]
         dimension = {1: Trait.LINE, 2: Trait.SURFACE}[len(self.lengths)]
         return frozenset({dimension}).union(self.path.traits, *parts)
+
+    @cached_property
+    def kind(self) -> ProblemKind:
+        """Kind of problem that the scene poses."""
+        return ProblemKind.COHESIVE if Trait.SMOOTH in self.traits else ProblemKind.HARD_WALL
 
     @property
     def lengths(self) -> tuple[float, ...]:

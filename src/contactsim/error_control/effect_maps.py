@@ -1,6 +1,7 @@
 """What leaving effects out changes, as maps tell it that were measured over the numbers that govern it.
 
-The maps are kept in a file of the package, measured by `contactsim.evaluation.effects.survey`. Of a scene whose place lies between
+The maps are kept in a file of the package, measured by `contactsim.evaluation.effects.survey`. Of a scene whose place
+lies between
 those of a map, the largest change at the corners around it counts; of one beyond its axes nothing is known. What is on
 no axis, such as how deep a surface is pressed, a map takes to matter less: it proposes, and a check on the scene itself
 decides (`contactsim.error_control.neglect`).

@@ -1,7 +1,9 @@
 """Grid, tolerance and increments for an accuracy that is asked for, before anything runs.
 
-They follow from relations that were measured (`contactsim.error_control.scaling`). An accuracy is a relative error of a run's
-quantities; each knob gets its share of it. What is chosen here is where a run begins; `contactsim.error_control.control` finds out
+They follow from relations that were measured (`contactsim.error_control.scaling`). An accuracy is a relative error of a
+run's
+quantities; each knob gets its share of it. What is chosen here is where a run begins;
+`contactsim.error_control.control` finds out
 whether it was right.
 """
 

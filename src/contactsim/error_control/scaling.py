@@ -3,7 +3,8 @@
 Errors of the grid follow the size of what it has to show: at a hard wall the contacts, under smooth laws the process
 zone and the contact; errors of a path follow its increments. Work and time follow grid,
 steps and what acts. Each relation is a power law in a few numbers that say what kind of scene it is, `features`, with
-its scatter over the scenes that it was fitted to, none of which it is judged on. `contactsim.evaluation.calibration.fit` fits them.
+its scatter over the scenes that it was fitted to, none of which it is judged on.
+`contactsim.evaluation.calibration.fit` fits them.
 """
 
 from __future__ import annotations

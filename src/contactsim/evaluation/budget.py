@@ -1,6 +1,7 @@
 """What all figures of a tier will cost, before anything runs.
 
-Of each figure: its runs, and the core-hours and the memory that `contactsim.evaluation.resources` predicts of them or, where it
+Of each figure: its runs, and the core-hours and the memory that `contactsim.evaluation.resources` predicts of them or,
+where it
 cannot, that the run of this name took at a tier where its settings now are the same. What figures share counts for each
 of them, and once in their sum. Of what is not known beforehand the number of jobs is told.
 """

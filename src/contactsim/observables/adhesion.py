@@ -98,7 +98,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
 def gradients(square: Array, problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
 
-    square: local mean squares of the slopes (n,), as of `contactsim.surfaces.statistics.local_squares`. NaN without contact.
+    square: local mean squares of the slopes (n,), as of `contactsim.surfaces.statistics.local_squares`. NaN without
+    contact.
     """
     chosen = {
         "rms_gradient_repulsive": square[gap[0] < 0],

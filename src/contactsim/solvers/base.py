@@ -70,7 +70,8 @@ class Result:
     """One solved load step.
 
     pressure (n,) or (ny, nx), GPa, never negative; gap likewise, nm; approach, nm (see
-    `contactsim.contact.loading`); mean_pressure, GPa; seconds: of CPU, apart from the record because it is not reproducible.
+    `contactsim.contact.loading`); mean_pressure, GPa; seconds: of CPU, apart from the record because it is not
+    reproducible.
     """
 
     pressure: Array = field(repr=False)

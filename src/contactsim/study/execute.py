@@ -39,7 +39,8 @@ def run(
 ) -> None:
     """Compute a run's dataset and costs, taking over what an earlier dataset of that name already holds.
 
-    settings: of a `contactsim.study.study.Run`; source: digest of the code that computes it; told: what the dataset says
+    settings: of a `contactsim.study.study.Run`; source: digest of the code that computes it; told: what the dataset
+    says
     besides.
     """
     begin = time.process_time()

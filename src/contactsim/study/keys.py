@@ -264,7 +264,7 @@ def _path(section: dict, accurate: bool, file: object, prefix: str) -> dict:
         raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
     points, control = section[controls[0]], Trait[controls[0].upper()]
     try:
-        path = loading.through(control, points, section["increment"])
+        path = loading.sweep(control, points, section["increment"])
     except SceneError as error:
         raise error.within(file, prefix) from error
     given = {"control": controls[0], "through": points, "increment": section["increment"]}

@@ -123,13 +123,13 @@ def load_path(settings: dict, surface: Surface, elasticities: Sequence[Elasticit
             raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: reference.cylinder_load, 2: reference.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
-    return loading.press([float(value) for value in values], labels)
+    return loading.pressures([float(value) for value in values], labels)
 
 
 @lru_cache(maxsize=8)
 def _path(control: str, points: tuple[float, ...], increment: float, from_touch: bool) -> LoadPath:
     """The same for all variants of a study, of which there may be many."""
-    return loading.through(Trait[control.upper()], points, increment, from_touch)
+    return loading.sweep(Trait[control.upper()], points, increment, from_touch)
 
 
 def _held(slide: dict) -> tuple[str, float]:
@@ -151,7 +151,7 @@ def _sliding(
     """A path that presses, then slides: under its own control it goes on to what is held, else by one step."""
     kind = Trait[held.upper()]
     further = (value,) if held == control and points[-1] != value else ()
-    path = loading.through(Trait[control.upper()], (*points, *further), increment, from_touch)
+    path = loading.sweep(Trait[control.upper()], (*points, *further), increment, from_touch)
     if held != control:
         path = path >> LoadPath((LoadStep(kind, value),), from_touch)
     return path >> loading.slide(slides, slide_increment, LoadStep(kind, value), from_touch)

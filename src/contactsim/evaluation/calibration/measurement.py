@@ -1,6 +1,7 @@
 """What accuracy costs, measured: scenes drawn at random, each solved on a ladder of every knob.
 
-Every error is against a reference that is not on the ladder. `contactsim.evaluation.calibration.fit` fits relations to them.
+Every error is against a reference that is not on the ladder. `contactsim.evaluation.calibration.fit` fits relations to
+them.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.loading import approach
+from contactsim.contact.loading import approaches
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.evaluation.robustness.path_cases import PathCase
@@ -69,7 +69,7 @@ def _pressed(law: Law, depths: list[float], ratio: float = RATIO, surface: Ridge
     surface = surface or Ridges()
     touch = -float(surface.heights(POINTS).max())
     body = HalfSpace(MODULUS / (1 - ratio**2), ratio)
-    path = approach([touch + depth for depth in depths])
+    path = approaches([touch + depth for depth in depths])
     return Scene(Body(Flat.facing(surface), body), Body(surface, None), (law,), path)
 
 

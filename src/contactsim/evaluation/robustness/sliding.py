@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.contact.loading import LoadPath, LoadStep, approach, press
+from contactsim.contact.loading import LoadPath, LoadStep, approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Layer
 from contactsim.evaluation.robustness.path_cases import PathCase
@@ -34,7 +34,7 @@ def _probe(path: LoadPath, law: CohesiveZone, body: Layer, pairing: Pairing | No
 
 def _slid(slides: list[float], held: float = 0.0, before: list[float] | None = None) -> LoadPath:
     """Pressed to an approach by way of others, then moved along x to each of the slides."""
-    pressed = approach([*(before or [-6.0]), held])
+    pressed = approaches([*(before or [-6.0]), held])
     moved = [LoadStep(Trait.SLIDE, value, held=pressed.steps[-1]) for value in slides]
     return pressed >> LoadPath(tuple(moved))
 
@@ -42,7 +42,7 @@ def _slid(slides: list[float], held: float = 0.0, before: list[float] | None = N
 def many_cells_slid(severity: float) -> PathCase:
     """A stiff probe put down 1 to 1e6 cells of the lattice on slides by a quarter: exact, forces repeat themselves."""
     cells = round(10 ** (6 * severity / 100))
-    (held,) = approach([0.0]).steps
+    (held,) = approaches([0.0]).steps
     moved = [LoadStep(Trait.SLIDE, (cells + part) * LATTICE, held=held) for part in (0.0, 0.25)]
     return PathCase(_probe(LoadPath(tuple(moved)), WEAK, STIFF), 64, even=False)
 
@@ -74,8 +74,8 @@ def pulled_off_slide(severity: float) -> PathCase:
     surface = -Cylinder(length=LENGTH, radius=RADIUS).heights(64)
     offsets = np.linspace(0.0, 2.0, 2001)
     pulls = WEAK.work_of_separation * ((surface[:, None] + offsets) * np.exp(-surface[:, None] - offsets)).mean(0)
-    (pull,) = press([-(0.85 - 0.3 * severity / 100) * pulls.max()]).steps
-    path = approach([-6.0, -1.0]) >> LoadPath((pull, LoadStep(Trait.SLIDE, 0.5 * LATTICE, held=pull)))
+    (pull,) = pressures([-(0.85 - 0.3 * severity / 100) * pulls.max()]).steps
+    path = approaches([-6.0, -1.0]) >> LoadPath((pull, LoadStep(Trait.SLIDE, 0.5 * LATTICE, held=pull)))
     return PathCase(_probe(path, WEAK, STIFF), 64, ends=Status.PULLED_OFF, even=False)
 
 

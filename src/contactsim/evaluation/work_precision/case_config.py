@@ -1,6 +1,7 @@
 """What accuracy costs: cases and the page of all of them as their files give them, and what their figures depend on.
 
-`contactsim.evaluation.work_precision.cases` solves them; `contactsim.evaluation.work_precision.error_cost` makes errors and costs of it.
+`contactsim.evaluation.work_precision.cases` solves them; `contactsim.evaluation.work_precision.error_cost` makes errors
+and costs of it.
 """
 
 from __future__ import annotations

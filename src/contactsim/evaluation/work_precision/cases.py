@@ -1,6 +1,7 @@
 """A case of what accuracy costs: a scene of a study, the settings at which each solver meets it, and their solution.
 
-Its knobs, those of `contactsim.evaluation.work_precision.knobs`, are turned one at a time, with each solver that may take it; the study's own is
+Its knobs, those of `contactsim.evaluation.work_precision.knobs`, are turned one at a time, with each solver that may
+take it; the study's own is
 the measure of the others, and solves the references. The reference of the points is a finer grid, that of the tolerance
 the same grid solved far more tightly, that of the increment the same path in far smaller ones; none is on a curve.
 """

@@ -34,7 +34,8 @@ COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}
 def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) -> None:
     """Draw one case into its files.
 
-    plan: of `contactsim.evaluation.work_precision.case_config.figure_settings`; files: the jobs' datasets and costs in the plan's order, the study's
+    plan: of `contactsim.evaluation.work_precision.case_config.figure_settings`; files: the jobs' datasets and costs in
+    the plan's order, the study's
     dataset and costs; targets: png, pdf, csv and, for the comparison at equal error, equal_error.
     """
     settings, jobs = plan["settings"], plan["jobs"]

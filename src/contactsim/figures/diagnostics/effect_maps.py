@@ -31,7 +31,9 @@ NAMES = {
 
 
 def render(plan: Mapping, data: Sequence[str], targets: Mapping[str, str]) -> None:
-    """Draw all panels into their files; plan: of `contactsim.evaluation.effects.survey.figure`; data: the maps, by name."""
+    """Draw all panels into their files; plan: of `contactsim.evaluation.effects.survey.figure`; data: the maps, by
+    name.
+    """
     maps = dict(zip(sorted(plan["titles"]), map(dataset.read, data), strict=True))
     panels = plan["settings"]["panels"]
     rows = -(-len(panels) // COLUMNS)

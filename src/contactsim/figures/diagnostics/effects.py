@@ -22,7 +22,9 @@ PRICES = {
 
 
 def render(plan: Mapping, data: str, costs: str, targets: Mapping[str, str]) -> None:
-    """Draw the ladder into its files; plan: settings with titles; data, costs: of `contactsim.evaluation.effects.effect_cost.measure`."""
+    """Draw the ladder into its files; plan: settings with titles; data, costs: of
+    `contactsim.evaluation.effects.effect_cost.measure`.
+    """
     found = dataset.read(data)
     prices = pd.DataFrame(json.loads(Path(costs).read_text())).T.loc[found.rung.values].reset_index(drop=True)
     table = pd.concat([found.to_dataframe().reset_index(), prices], axis=1)
