@@ -123,7 +123,7 @@ def load_path(settings: dict, surface: Surface, elasticities: Sequence[Elasticit
             raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: reference.cylinder_load, 2: reference.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
-    return loading.pressures([float(value) for value in values], labels)
+    return loading.pressures([float(value) for value in values], labels=labels)
 
 
 @lru_cache(maxsize=8)
@@ -154,4 +154,4 @@ def _sliding(
     path = loading.sweep(Trait[control.upper()], (*points, *further), increment, from_touch)
     if held != control:
         path = path >> LoadPath((LoadStep(kind, value),), from_touch)
-    return path >> loading.slide(slides, slide_increment, LoadStep(kind, value), from_touch)
+    return path >> LoadPath((loading.Slide(slides, slide_increment, LoadStep(kind, value)),), from_touch)
