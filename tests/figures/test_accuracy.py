@@ -10,10 +10,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from contactsim import dataset
+from contactsim import dataset, notation
 from contactsim.analysis.aggregate import AVERAGED
 from contactsim.evaluation.work_precision import error_cost
-from contactsim.figures import notation, style
+from contactsim.figures import style
 from contactsim.figures.diagnostics import accuracy, knobs
 from contactsim.figures.layout import framed
 from contactsim.observables.adhesion import SUMMARY

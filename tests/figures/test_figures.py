@@ -5,13 +5,13 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from contactsim import dataset
+from contactsim import dataset, notation
 from contactsim.analysis.reductions import TAKES, quantities, quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.evaluation.work_precision.case_config import PRICED
-from contactsim.figures import ch3, ch5, layout, notation, sketch, style
+from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.laws import HardWall
 from contactsim.study.plan import Plan

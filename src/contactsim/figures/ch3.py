@@ -11,9 +11,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import reference
+from contactsim import notation, reference
 from contactsim.analysis import ensemble
-from contactsim.figures import notation, style
+from contactsim.figures import style
 from contactsim.figures.maps import of_dataset, panels
 from contactsim.figures.parts import factors, resolution
 

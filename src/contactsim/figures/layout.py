@@ -18,8 +18,8 @@ from matplotlib.figure import Figure
 from contactsim import dataset, status, variables
 from contactsim.analysis import ensemble
 from contactsim.figures import style
-from contactsim.figures.notation import READ, SYMBOLS
 from contactsim.files import write_atomically
+from contactsim.notation import READ, SYMBOLS
 from contactsim.study.law_table import tabulated
 
 LINE_INCHES = 0.125

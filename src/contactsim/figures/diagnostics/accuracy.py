@@ -13,13 +13,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import dataset
+from contactsim import dataset, notation
 from contactsim.analysis.ensemble import converged
 from contactsim.error_control.forecast import transform_seconds
 from contactsim.evaluation.work_precision import error_cost
 from contactsim.evaluation.work_precision.cases import REFERENCE
 from contactsim.evaluation.work_precision.error_cost import ROUNDING
-from contactsim.figures import notation, style
+from contactsim.figures import style
 from contactsim.figures.diagnostics import knobs
 from contactsim.figures.layout import framed, save
 from contactsim.files import write_atomically

@@ -16,7 +16,7 @@ from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED,
 from contactsim.analysis.reductions import LIMIT
 from contactsim.figures import style
 from contactsim.figures.layout import LINE_INCHES, save
-from contactsim.figures.notation import READ
+from contactsim.notation import READ
 
 COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
 COLUMNS = {

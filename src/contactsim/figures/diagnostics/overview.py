@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
+from contactsim import notation
 from contactsim.evaluation.work_precision import error_cost
-from contactsim.figures import notation, style
+from contactsim.figures import style
 from contactsim.figures.diagnostics.knobs import LOOKS
 from contactsim.figures.layout import framed, save
 

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from contactsim import dataset
+from contactsim import dataset, notation
 from contactsim.analysis import ensemble
-from contactsim.figures import notation, style
+from contactsim.figures import style
 
 QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
 FAINTEST = 0.35

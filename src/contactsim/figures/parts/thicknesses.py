@@ -9,7 +9,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim.figures import notation, style
+from contactsim import notation
+from contactsim.figures import style
 
 FAINT = 0.35
 """Opacity of what is drawn beside what counts."""
