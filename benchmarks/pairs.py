@@ -124,6 +124,6 @@ def differences(ours: tuple[Array, Array], theirs: tuple[Array, Array], toleranc
     return {
         "differing": int(differ.sum()),
         "undecided": int(((pressure <= 1) & (gap <= 1)).sum()),
-        "largest_pressure": pressure.max(initial=0.0),
+        "max_pressure": pressure.max(initial=0.0),
         "largest_gap": gap.max(initial=0.0),
     }

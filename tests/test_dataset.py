@@ -31,7 +31,7 @@ def data():
             "relative_contact_area": (("hurst", "reduced_pressure"), [[0.1, np.nan], [0.2, 0.3]]),
             "status": (("hurst", "reduced_pressure"), np.array([[0, 1], [2, 0]], np.int8)),
             "iterations": ("reduced_pressure", np.array([3, 4], np.int32)),
-            "point": ("reduced_pressure", np.array(["one", "two"], object)),
+            "point_digest": ("reduced_pressure", np.array(["one", "two"], object)),
             "contact_bits": (("reduced_pressure", "byte"), draw.integers(0, 256, (2, 20000), np.uint8)),
             "contact_pressure": ("contact_point", draw.random(5000, np.float32)),
             "length": 160000.0,
@@ -148,7 +148,7 @@ def test_what_is_written_is_read_back_the_same(data, tmp_path):
     dataset.write(data, tmp_path / "new" / "folder" / "data.nc")
     found = dataset.read(tmp_path / "new" / "folder" / "data.nc")
     xr.testing.assert_identical(found, data)
-    for name in data.variables.keys() - {"point"}:  # text has no width in a file
+    for name in data.variables.keys() - {"point_digest"}:  # text has no width in a file
         assert found[name].dtype == data[name].dtype, name
 
 
@@ -246,10 +246,10 @@ def test_a_solver_has_no_option_named_like_a_key_of_a_surface_or_a_body():
 
 
 @pytest.mark.parametrize(
-    ("control", "slid", "unit"),
+    ("control", "sliding_distance", "unit"),
     [("approach", False, "nm"), ("mean_pressure", False, "GPa"), ("mean_pressure", True, "nm")],
 )
-def test_values_along_a_path_are_in_the_unit_of_what_is_prescribed(control, slid, unit):
+def test_values_along_a_path_are_in_the_unit_of_what_is_prescribed(control, sliding_distance, unit):
     data = xr.Dataset({"control": control}, {"snapshot": [0.1, 0.2], "increment": [0.1]})
-    found = dataset.described(data.assign(slid=("snapshot", [1.0, 2.0])) if slid else data)
+    found = dataset.described(data.assign(sliding_distance=("snapshot", [1.0, 2.0])) if sliding_distance else data)
     assert found.snapshot.attrs["units"] == found.increment.attrs["units"] == unit

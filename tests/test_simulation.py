@@ -81,7 +81,7 @@ def test_a_record_tells_cost_and_certificate():
     assert record.transforms > 0
     assert record.iterations > 0
     assert record.certificate.met(1e-3)
-    assert record.certificate.smallest_pressure >= 0
+    assert record.certificate.min_pressure >= 0
 
 
 @pytest.mark.parametrize(

@@ -93,8 +93,8 @@ SHOWN = (
         "mean_gap",
         "non_uniformity",
     ),
-    *("approach", "slid", "line_load", "friction_force", "repulsive_length", "overclosure", "slip"),
-    *("residual", "jump", "beyond", "transforms", "status"),
+    *("approach", "sliding_distance", "line_load", "friction_force", "contact_length", "max_interpenetration", "slip"),
+    *("residual", "jump", "validity_flags", "transforms", "status"),
 )
 """What is printed of a simulation, as far as its scene has it."""
 NARROW = 17
@@ -203,7 +203,7 @@ def cost_scene(options: argparse.Namespace) -> None:
 
 def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
     """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
-    data = labelled(data, settings, [""] * data.step.size).drop_vars("point")
+    data = labelled(data, settings, [""] * data.step.size).drop_vars("point_digest")
     return data if "step" in data.dims else dataset.described(derived(data))
 
 

@@ -74,16 +74,16 @@ def described(data: xr.Dataset) -> xr.Dataset:
             or ("1", f"option {base}")
         )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
-    if "control" in data and "slid" not in data and bool((data["control"] == "mean_pressure").all()):
+    if "control" in data and "sliding_distance" not in data and bool((data["control"] == "mean_pressure").all()):
         for name in ALONG_LOAD & set(data.variables):
             data[name].attrs["units"] = "GPa"
     if "status" in data:
         values = [status.value[0] for status in Status]
         meanings = " ".join(status.name.lower() for status in Status)
         data["status"].attrs.update(flag_values=np.array(values, np.int8), flag_meanings=meanings)
-    if "beyond" in data:
+    if "validity_flags" in data:
         masks = np.array(list(FLAGS.values()), np.int8)
-        data["beyond"].attrs.update(flag_masks=masks, flag_meanings=" ".join(FLAGS))
+        data["validity_flags"].attrs.update(flag_masks=masks, flag_meanings=" ".join(FLAGS))
     return data
 
 

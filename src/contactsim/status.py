@@ -41,7 +41,7 @@ def is_solved(numbers: xr.DataArray) -> xr.DataArray:
 
 
 LIMITS = {
-    "overclosure": (3.0, "overlap over the laws' length"),
+    "max_interpenetration": (3.0, "overlap over the laws' length"),
     "slip": (2.0, "slip under repulsion over the laws' length"),
     "process_zone_step": (0.2, "grid spacing over the process zone"),
     "rms_gradient": (0.45, "rms slope"),
@@ -53,7 +53,7 @@ fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %, at more 
 of the square, a tenth, is what small slopes leave out.
 """
 FLAGS = {name: 1 << place for place, name in enumerate(LIMITS)}
-"""Bits of `beyond`, one for each limit."""
+"""Bits of `validity_flags`, one for each limit."""
 
 
 def process_zone(contact_modulus: float, strength: float, reach: float) -> float:
@@ -61,15 +61,15 @@ def process_zone(contact_modulus: float, strength: float, reach: float) -> float
     return float(np.e * contact_modulus * reach / strength)
 
 
-def beyond(numbers: Mapping[str, float]) -> int:
-    """Which limits a state's numbers are beyond, as bits of `FLAGS`; a number that does not exist is within."""
+def validity_flags(numbers: Mapping[str, float]) -> int:
+    """Return the limits that a state's numbers exceed, as bits of `FLAGS`; a missing number exceeds none."""
     return sum(FLAGS[name] for name, (limit, _) in LIMITS.items() if numbers.get(name, 0.0) > limit)
 
 
 def told(data: xr.Dataset) -> list[str]:
     """In words, what the states of a dataset are beyond, how far and how many of them; empty if nothing is."""
     found = []
-    flags = data.beyond.fillna(0).astype(int)
+    flags = data.validity_flags.fillna(0).astype(int)
     for name, (limit, words) in LIMITS.items():
         share = float(((flags & FLAGS[name]) > 0).mean())
         if share:

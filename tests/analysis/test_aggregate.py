@@ -30,7 +30,7 @@ def numbers(hurst, member, companion=False, loads=PRESSURES):
         "relative_contact_area": np.asarray(loads) * (1.5 + 0.3 * hurst + 0.1 * draw.random(len(loads))),
         "relative_contact_area_subgrid": np.asarray(loads) * 1.4,
         "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(loads))),
-        "rms_gradient_contact_bond": GRADIENT * (1 - 0.1 * draw.random(len(loads))),
+        "rms_gradient_contact_pairs": GRADIENT * (1 - 0.1 * draw.random(len(loads))),
         "mean_gap": draw.random(len(loads)),
     }
 
@@ -50,7 +50,7 @@ def runs(tmp_path):
                     data = xr.Dataset(
                         {name: (load, values) for name, values in found.items()}
                         | {"mean_pressure": (load, pressure), "status": (load, np.array(status, np.int8))}
-                        | {"point": (load, [f"digest{row}" for row in range(len(loads))])}
+                        | {"point_digest": (load, [f"digest{row}" for row in range(len(loads))])}
                         | {"contact_bits": ((load, "byte"), np.zeros((len(loads), 8), np.uint8))}
                         | {"contact_pressure": ("contact_point", np.zeros(5 + member, np.float32))}
                         | {"profile_real": ("mode", np.ones(4)), "profile_imag": ("mode", np.ones(4))}
@@ -122,8 +122,8 @@ def test_proportionality_factors_follow_from_area_gradient_and_pressure(runs):
         # Rounding of a handful of products.
         np.testing.assert_allclose(one.kappa, area / PRESSURES, rtol=1e-14)
         np.testing.assert_allclose(one.kappa_r, area * gradient * MODULUS / pressure, rtol=1e-14)
-        bond = found["rms_gradient_contact_bond"]
-        np.testing.assert_allclose(one.kappa_r_bond, area * bond * MODULUS / pressure, rtol=1e-14)
+        bond = found["rms_gradient_contact_pairs"]
+        np.testing.assert_allclose(one.kappa_r_pairs, area * bond * MODULUS / pressure, rtol=1e-14)
         np.testing.assert_allclose(one.reduced_pressure_contact, pressure / (gradient * MODULUS), rtol=1e-14)
 
 

@@ -201,7 +201,7 @@ def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_ta
     other = dataset.read(tmp_path / "two.nc")
     assert (other.line_load == data.line_load).all()
     assert other.transforms.sum() == 0
-    assert (other.point != data.point).all()
+    assert (other.point_digest != data.point_digest).all()
     other_decision = tmp_path / "other.json"
     other_decision.write_text(json.dumps(json.loads(decision.read_text()) | {"left_out": []}))
     run(

@@ -48,7 +48,7 @@ ASPERITY = {
 }
 PATH_CASE = {name: CASE[name] for name in ("title", "caption", "size")} | {
     "study": "asperity",
-    "quantities": ["pull_off_load_loading", "final_repulsive_length"],
+    "quantities": ["pull_off_load_loading", "final_contact_length"],
     "thesis_increment": 0.02,
     "settled": {"points": 64, "tolerance": 1.0e-4, "increment": 0.5},
     "reference": {"points": 256, "tolerance": 1.0e-7, "increment": 0.05},

@@ -353,7 +353,7 @@ def test_everything_that_can_be_priced_has_a_symbol():
 
 
 def test_proportionality_is_shown_by_the_definitions_that_were_measured():
-    pairs = {name: data.assign(kappa_r_bond=0.9 * data.kappa_r) for name, data in JOBS.items()}
+    pairs = {name: data.assign(kappa_r_pairs=0.9 * data.kappa_r) for name, data in JOBS.items()}
     for jobs, names in ((JOBS, ["Eq. 3.8"]), (pairs, ["Eq. 3.8", "pairs in contact"])):
         panel = drawn(jobs)[0][0, -1]
         assert [text.get_text() for text in panel.get_legend().get_texts()] == names

@@ -76,7 +76,7 @@ def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
     assert {"kappa_r_mean", "kappa_r_standard_error", "kappa_r_grid_error"} <= set(shown)
     errors = {(line.get_color(), line.get_linestyle()): line.get_ydata() for line in axes[3].lines}
     assert len(errors) == 2 * data.hurst.size
-    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_bond", style.PAIRS)):
+    for name, color in (("kappa_r", style.CONTACT), ("kappa_r_pairs", style.PAIRS)):
         for value in data.hurst.values:
             drawn = errors[color, style.hurst(value)["linestyle"]]
             assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst=value))

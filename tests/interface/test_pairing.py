@@ -236,5 +236,5 @@ def test_a_scene_that_does_not_slide_is_what_it_was():
 
 
 def test_pressing_steps_have_no_slide():
-    assert [step.slid for step in pressures([0.1]).steps] == [0.0]
-    assert [step.slid for step in LoadPath((Slide((0.0, 1.0), 0.5, HELD),)).steps] == [0.0, 0.5, 1.0]
+    assert [step.sliding_distance for step in pressures([0.1]).steps] == [0.0]
+    assert [step.sliding_distance for step in LoadPath((Slide((0.0, 1.0), 0.5, HELD),)).steps] == [0.0, 0.5, 1.0]

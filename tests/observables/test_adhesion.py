@@ -46,7 +46,7 @@ def test_pull_off_is_found_on_each_leg_with_what_the_increments_leave_open():
 def test_a_path_that_only_loads_has_no_unloading():
     found = pull_off(APPROACH[:4], LOAD[:4]) | largest_jumps(APPROACH[:4], np.zeros(4))
     assert all(np.isnan(found[name]) for name in found if "unloading" in name)
-    assert found["largest_jump_loading"] == 0.0
+    assert found["max_jump_loading"] == 0.0
     assert legs(APPROACH) == (slice(0, 4), slice(4, 7))
 
 
@@ -80,7 +80,7 @@ def test_states_that_did_not_converge_are_no_pull_off_and_no_last_state():
     found = summarised(data)
     assert set(SUMMARY) <= set(found)
     assert float(found.pull_off_load_loading) == 4.5
-    assert (float(found.largest_jump_loading), float(found.largest_jump_unloading)) == (2.0, 6.0)
+    assert (float(found.max_jump_loading), float(found.max_jump_unloading)) == (2.0, 6.0)
     assert np.isnan(found.final_load)
 
 

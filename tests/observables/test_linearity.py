@@ -60,14 +60,14 @@ def test_a_curve_is_read_on_loading_alone_and_ends_where_a_state_is_unknown():
     area = np.maximum(deep, 0.0) / 40 + 0.2 * (np.arange(deep.size) > 21)
     found = dict(zip(AREA_LOAD, curve_numbers(deep, area, 0.01 * area, np.full(43, 0.1), 0.2), strict=True))
     assert found["nonlinearity"] == found["nonlinearity_reduced"] == pytest.approx(0.0, abs=1e-7)
-    assert found["area_at_twelve"] == pytest.approx(0.3)
-    assert found["pressure_at_twelve"] == pytest.approx(0.003)
-    assert found["gradient_at_fiftieth"] == pytest.approx(0.5)
+    assert found["area_at_12nm"] == pytest.approx(0.3)
+    assert found["pressure_at_12nm"] == pytest.approx(0.003)
+    assert found["gradient_ratio_at_area_0_02"] == pytest.approx(0.5)
     assert [found[name] for name in LEVELS] == pytest.approx([0.01 * level for level in LEVELS.values()])
     pressure = np.where(deep == 10.0, np.nan, 0.01 * area)
     found = dict(zip(AREA_LOAD, curve_numbers(deep, area, pressure, np.full(43, 0.1), 0.2), strict=True))
-    assert np.isnan(found["area_at_twelve"])
-    assert found["pressure_at_tenth"] == pytest.approx(0.001)
+    assert np.isnan(found["area_at_12nm"])
+    assert found["pressure_at_area_0_1"] == pytest.approx(0.001)
 
 
 def path(load, jump=None, status=0) -> xr.Dataset:
@@ -112,9 +112,9 @@ def test_an_open_or_unknown_loop_dissipates_nothing_that_is_known():
 def test_a_hard_wall_is_read_by_its_own_area_and_approach():
     deep = np.linspace(-1.0, 20.0, 22)
     area = np.maximum(deep, 0.0) / 40
-    columns = {"approach_found": deep - 10, "relative_contact_area": area, "normalised_pressure": area / 50}
+    columns = {"approach": deep - 10, "relative_contact_area": area, "normalised_pressure": area / 50}
     columns |= {"rms_gradient_contact": np.full(22, 0.1), "status": np.zeros(22)}
     data = xr.Dataset({name: ("step", values) for name, values in columns.items()})
     found = related(data.assign(rms_gradient=0.2, approach_first_touch=-10.0))
-    assert float(found.area_at_twelve) == pytest.approx(0.3)
-    assert float(found.gradient_at_fiftieth) == pytest.approx(0.5)
+    assert float(found.area_at_12nm) == pytest.approx(0.3)
+    assert float(found.gradient_ratio_at_area_0_02) == pytest.approx(0.5)

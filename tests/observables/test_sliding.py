@@ -241,16 +241,16 @@ def dataset(**changes: object) -> xr.Dataset:
 
 def test_a_slide_becomes_a_dataset_with_its_slips():
     data = dataset()
-    slid = data.slid.values
-    assert np.isnan(slid[:20]).all()
-    np.testing.assert_allclose(slid[20:], np.linspace(0, 11, 111), atol=1e-9)
+    sliding_distance = data.sliding_distance.values
+    assert np.isnan(sliding_distance[:20]).all()
+    np.testing.assert_allclose(sliding_distance[20:], np.linspace(0, 11, 111), atol=1e-9)
     np.testing.assert_allclose(data.snapshot, [0.0, 4.0])
     found = friction.slid(data)
     told = found[[*sliding.EVENT, "event_periods"]].dropna("event")
-    assert told.event.size == int(found.slips) >= 2
-    assert float(found.first_periods) == pytest.approx(1.0, abs=0.15)
+    assert told.event.size == int(found.slip_count) >= 2
+    assert float(found.first_slip_periods) == pytest.approx(1.0, abs=0.15)
     np.testing.assert_allclose(told.event_periods, 1.0, atol=0.15)
-    np.testing.assert_allclose(np.diff(told.event_slide), LATTICE, atol=2e-3)
+    np.testing.assert_allclose(np.diff(told.event_sliding_distance), LATTICE, atol=2e-3)
     np.testing.assert_array_less(told.event_width, 5e-4)
     assert (told.event_force_before > told.event_force_after).all()
     assert (told.event_released_energy > 0).all()
@@ -260,14 +260,16 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     assert largest <= float(found.static_friction) <= 1.005 * largest
     finer = friction.slid(dataset_of(0.0125)).static_friction
     assert abs(float(found.static_friction - finer)) <= float(found.static_friction_increment_error) < 1e-2 * largest
-    assert 0 < float(found.onset_repulsive_length) < float(found.initial_repulsive_length)
-    assert 0 < float(found.reattached) <= 1
+    assert 0 < float(found.onset_contact_length) < float(found.initial_contact_length)
+    assert 0 < float(found.reattached_fraction) <= 1
     assert float(found.slip.max()) <= LATTICE / 2 + 1e-9
 
 
 def test_the_layer_stores_a_part_of_the_work_where_nothing_slips():
     data = dataset().isel(step=slice(20, 60))
-    work = np.cumsum(np.diff(data.slid) * (data.friction_force.values[1:] + data.friction_force.values[:-1]) / 2)
+    work = np.cumsum(
+        np.diff(data.sliding_distance) * (data.friction_force.values[1:] + data.friction_force.values[:-1]) / 2
+    )
     stored = data.elastic_energy.values[1:] - data.elastic_energy.values[0]
     assert (stored > 0).all()
     assert (stored < work).all()
@@ -287,11 +289,15 @@ def test_edges_lie_between_nodes_and_wrap_around():
     assert sliding.contact_ends(x - 100.0, x, 1.0) == (-32.5, 31.5)
 
 
-def line(slid: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01) -> friction.Slide:
-    slid, force = np.array(slid, float), np.array(force, float)
-    slipped = np.isin(np.arange(slid.size), after)
-    wide = np.where(slipped | np.isin(np.arange(slid.size), np.array(after, int) - 1), width, 0.0)
-    return friction.Slide(slid, force, np.full(slid.size, np.nan), slipped, wide, np.arange(slid.size))
+def line(
+    sliding_distance: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01
+) -> friction.Slide:
+    sliding_distance, force = np.array(sliding_distance, float), np.array(force, float)
+    slipped = np.isin(np.arange(sliding_distance.size), after)
+    wide = np.where(slipped | np.isin(np.arange(sliding_distance.size), np.array(after, int) - 1), width, 0.0)
+    return friction.Slide(
+        sliding_distance, force, np.full(sliding_distance.size, np.nan), slipped, wide, np.arange(sliding_distance.size)
+    )
 
 
 def test_the_onset_is_before_the_first_slip_or_at_the_first_maximum():
@@ -331,8 +337,8 @@ def test_peeling_at_one_edge_is_asymmetric():
 
 
 def test_a_force_is_averaged_over_whole_lattice_constants():
-    slid = np.linspace(0, 10, 1001)
-    wave = line(slid, 2 + np.sin(2 * np.pi * slid / 3.0))
+    sliding_distance = np.linspace(0, 10, 1001)
+    wave = line(sliding_distance, 2 + np.sin(2 * np.pi * sliding_distance / 3.0))
     mean, error = friction.average_force(wave, 3.0)
     assert mean == pytest.approx(2.0, abs=1e-4)
     assert abs(mean - 2.0) <= error < 1e-3
@@ -344,10 +350,17 @@ def test_a_force_is_averaged_over_whole_lattice_constants():
 
 def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
     data = friction.slid(dataset_without_slips())
-    assert float(data.slips) == 0
-    assert np.isnan(data.event_slide).all()
-    assert float(data.initial_repulsive_length) > 0
-    for name in ("static_friction", "onset_slide", "first_drop", "mean_friction", "peeled", "quadratic_agreement"):
+    assert float(data.slip_count) == 0
+    assert np.isnan(data.event_sliding_distance).all()
+    assert float(data.initial_contact_length) > 0
+    for name in (
+        "static_friction",
+        "onset_sliding_distance",
+        "first_force_drop",
+        "mean_friction",
+        "peeled_fraction",
+        "quadratic_r_squared",
+    ):
         assert np.isnan(data[name]), name
 
 
@@ -357,7 +370,7 @@ def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
 def test_a_fast_smooth_slide_is_no_slip(modulus, slips, increments, increment):
     scene, how = flat(modulus, 0.2, [0.0, 5.0], increment), INCREMENTS[increments]()
     data = simulate_path(scene, solver("newton"), points=16, tolerance=1e-7, increments=how)
-    assert (float(friction.slid(data).slips) > 0) == slips
+    assert (float(friction.slid(data).slip_count) > 0) == slips
 
 
 @pytest.mark.parametrize("increment", [0.1, 0.7, 11.0])
@@ -366,7 +379,7 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
     found = friction.slid(simulate_path(scene, solver("newton"), points=16, tolerance=1e-7))
     slides = np.linspace(0.0, 11.0, 110001)
     drops = np.flatnonzero(np.diff(exact(70.0, 0.2, slides)) < -0.01)
-    np.testing.assert_array_less(np.abs(found.event_slide - slides[drops + 1]), found.event_width + 2e-4)
+    np.testing.assert_array_less(np.abs(found.event_sliding_distance - slides[drops + 1]), found.event_width + 2e-4)
     np.testing.assert_allclose(found.event_force_before / 100, exact(70.0, 0.2, slides)[drops], rtol=6e-3)
     np.testing.assert_allclose(found.event_force_after / 100, exact(70.0, 0.2, slides)[drops + 1], rtol=6e-3)
     assert np.isnan(found.event_length_after).all()
@@ -375,7 +388,7 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
 def test_a_solver_without_predictions_sees_slips_in_increments_of_half_a_nanometre():
     scene = probe(path_of(0.0, [0.0, 11.0], 0.5))
     data = simulate_path(scene, solver("mass_weighted_verlet"), points=64, tolerance=1e-6)
-    assert float(friction.slid(data).slips) == 2
+    assert float(friction.slid(data).slip_count) == 2
 
 
 def test_a_frictionless_slide_has_no_force():

@@ -18,7 +18,7 @@ from support.smooth import LENGTH, along, scene_of
 
 
 def flagged(data, name):
-    return (data.beyond.values & status.FLAGS[name]) > 0
+    return (data.validity_flags.values & status.FLAGS[name]) > 0
 
 
 def test_the_process_zone_is_that_of_the_specification():
@@ -28,17 +28,17 @@ def test_the_process_zone_is_that_of_the_specification():
 
 def test_every_limit_has_its_bit_and_missing_numbers_are_within():
     assert sorted(status.FLAGS.values()) == [1, 2, 4, 8]
-    assert status.beyond({}) == 0
+    assert status.validity_flags({}) == 0
     for name, (limit, _) in status.LIMITS.items():
-        assert status.beyond({name: limit}) == 0
-        assert status.beyond({name: 1.01 * limit}) == status.FLAGS[name]
+        assert status.validity_flags({name: limit}) == 0
+        assert status.validity_flags({name: 1.01 * limit}) == status.FLAGS[name]
 
 
 def test_overlap_is_flagged_from_where_it_is_too_deep(caplog):
     with caplog.at_level(logging.WARNING, "contactsim.paths.record"):
         data = simulate(scene_of(NormalCohesiveZone(0.002), along(-1, 20, 1.0)), points=128, tolerance=1e-6)
-    deep = flagged(data, "overclosure")
-    assert np.array_equal(deep, data.overclosure > 3)
+    deep = flagged(data, "max_interpenetration")
+    assert np.array_equal(deep, data.max_interpenetration > 3)
     assert 0 < deep.sum() < deep.size
     assert not flagged(data, "process_zone_step").any()
     assert "overlap over the laws' length up to" in caplog.text
@@ -69,9 +69,9 @@ def test_slopes_that_are_not_small_are_flagged(amplitude):
 
 
 def test_what_is_beyond_is_told_in_words_even_where_states_are_missing():
-    numbers = {"overclosure": [1.0, 4.0, np.nan, 5.0], "beyond": [0, 1, np.nan, 1]}
+    numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0], "validity_flags": [0, 1, np.nan, 1]}
     data = described(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
     assert status.told(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]
-    assert list(data.beyond.flag_masks) == [1, 2, 4, 8]
-    assert data.beyond.flag_meanings == "overclosure slip process_zone_step rms_gradient"
+    assert list(data.validity_flags.flag_masks) == [1, 2, 4, 8]
+    assert data.validity_flags.flag_meanings == "max_interpenetration slip process_zone_step rms_gradient"
     assert not status.told(data.isel(step=[0]))

@@ -94,7 +94,7 @@ def rebuilt(data):
         pressure[contact] = data.contact_pressure.values[begin : begin + count]
         begin += count
         displacement = np.fft.irfft(np.fft.rfft(pressure) * compliance, int(n))
-        states.append((contact, pressure, displacement - heights - data.approach_found.values[row]))
+        states.append((contact, pressure, displacement - heights - data.approach.values[row]))
     assert begin == data.contact_pressure.size
     return heights, states
 
@@ -135,10 +135,10 @@ def test_the_file_holds_the_certificate_and_the_numbers_of_the_profile(place):
     assert data.rms_height.item() == pytest.approx(heights.std(), rel=1e-12)
     assert data.rms_gradient.item() == pytest.approx(np.sqrt(np.mean(slope**2)), rel=1e-12)
     assert data.approach_first_touch.item() == -heights.max()
-    assert (data.approach_found > data.approach_first_touch).all()
+    assert (data.approach > data.approach_first_touch).all()
     assert (data.non_uniformity <= 1e-3).all()
     assert (data.penetration <= 1e-3).all()
-    assert (data.smallest_pressure == 0).all()
+    assert (data.min_pressure == 0).all()
     assert (data.load_error <= 1e-12).all()
     assert (data.transforms > 0).all()
     np.testing.assert_allclose(data.mean_pressure, np.array(LOADS) * 2.0 * 0.01, rtol=1e-12)
@@ -233,7 +233,7 @@ def test_other_settings_reuse_nothing(place, solved, changes):
 
 
 def test_each_point_is_named_by_all_that_made_it_and_not_by_the_other_loads(place):
-    names = [set(dataset.read(place(settings_of(loads)).data).point.values) for loads in ([0.1], [0.02, 0.1])]
+    names = [set(dataset.read(place(settings_of(loads)).data).point_digest.values) for loads in ([0.1], [0.02, 0.1])]
     assert names[0] < names[1]
 
 
@@ -297,7 +297,7 @@ def test_costs_keep_the_seconds_of_points_taken_over(place):
     assert before.items() < after.items()
     assert len(after) == 3
     assert all(seconds > 0 for seconds in after.values())
-    assert set(after) == set(dataset.read(files.data).point.values)
+    assert set(after) == set(dataset.read(files.data).point_digest.values)
 
 
 def test_seconds_stand_in_the_costs_and_never_in_the_dataset(place, monkeypatch):
@@ -325,7 +325,7 @@ def test_damaged_costs_do_not_stop_a_run(place, content):
     files.costs.write_text(content)
     place(settings_of([0.1]))
     assert files.data.read_bytes() == good
-    assert list(seconds_of(files)) == [dataset.read(files.data).point.item()]
+    assert list(seconds_of(files)) == [dataset.read(files.data).point_digest.item()]
 
 
 def test_the_table_of_costs_has_a_row_for_each_solved_load(place):
@@ -335,7 +335,7 @@ def test_the_table_of_costs_has_a_row_for_each_solved_load(place):
     data = dataset.read(files.data)
     assert table.reduced_pressure.tolist() == LOADS
     assert table.transforms.tolist() == data.transforms.values.tolist()
-    assert table.seconds.tolist() == [seconds_of(files)[name] for name in data.point.values]
+    assert table.seconds.tolist() == [seconds_of(files)[name] for name in data.point_digest.values]
     assert (table.status == 0).all()
     assert (table.points == 256).all()
     assert set(table.run) == {str(files.data)}

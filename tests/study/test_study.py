@@ -676,5 +676,5 @@ def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tm
     coarse = dataset.read(runs[2]["path"]).mean_pressure.values
     assert np.allclose(data.mean_pressure_grid_error, np.abs(one - coarse))
     assert np.allclose(data.normalised_pressure_mean, data.mean_pressure_mean / data.contact_modulus)
-    assert np.allclose(data.relative_repulsive_area, data.repulsive_length / data.length)
+    assert np.allclose(data.relative_repulsive_area, data.contact_length / data.length)
     assert data.gradient_ratio_interacting_mean.dims == ("step",)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactsim.errors import SceneError
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_bonds, rms_height, spectrum
+from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_pairs, rms_height, spectrum
 
 
 def wave(points, mode=3):
@@ -32,13 +32,13 @@ def test_eq_3_8_counts_a_slope_that_leads_out_of_the_contact_and_pairs_do_not():
     where = np.array([False, True, True, False, False])
     # squared slopes to the right of each point: 0, 1, 9, 16, 0
     assert rms_gradient(heights, 1.0, where) ** 2 == pytest.approx(((0 + 1) / 2 + (1 + 9) / 2) / 2)
-    assert rms_gradient_bonds(heights, 1.0, where) == pytest.approx(1.0)
+    assert rms_gradient_pairs(heights, 1.0, where) == pytest.approx(1.0)
 
 
 def test_the_last_and_the_first_point_are_neighbours():
     heights = np.array([2.0, 0.0, 0.0, 0.0])
     ends = np.array([True, False, False, True])
-    assert rms_gradient_bonds(heights, 1.0, ends) == pytest.approx(2.0)
+    assert rms_gradient_pairs(heights, 1.0, ends) == pytest.approx(2.0)
 
 
 def test_no_points_give_nan():
@@ -46,7 +46,7 @@ def test_no_points_give_nan():
     for value in (
         rms_height(np.ones(4), nowhere),
         rms_gradient(np.ones(4), 1.0, nowhere),
-        rms_gradient_bonds(np.ones(4), 1.0, nowhere),
+        rms_gradient_pairs(np.ones(4), 1.0, nowhere),
         rms_curvature(np.ones(4), 1.0, nowhere),
     ):
         assert np.isnan(value)

@@ -27,7 +27,7 @@ SOLVERS = {"newton": {}, "mass_weighted_verlet": {"budget": 300}, "energy_minimi
 CASE = PathCase(scene_of(NormalCohesiveZone(2.0), along(-8.0, 0.0, 4.0)), parts=4)
 FRICTION = PathCase(scene_of(CohesiveZone(2.0, 1.0), along(-8.0, 0.0, 4.0)))
 HONEST = {
-    ("newton", "deep_path"): "overclosure",
+    ("newton", "deep_path"): "max_interpenetration",
     ("mass_weighted_verlet", "deep_path"): "budget",
     ("mass_weighted_verlet", "past_pull_off"): "budget",
     ("energy_minimisation", "deep_step"): "budget",

@@ -66,7 +66,7 @@ def test_areas_shrink_with_the_threshold_and_those_that_repel_are_the_least(stud
     data = studies["rough_adhesive"]
     lengths = [data[name] for name in INTERACTING]
     assert all((tight <= wide).all() for tight, wide in itertools.pairwise(lengths))
-    assert (data.repulsive_length <= data[CRITERION] + data.length / data.points).all()
+    assert (data.contact_length <= data[CRITERION] + data.length / data.points).all()
 
 
 def test_curves_go_through_every_state_and_symbols_through_those_of_the_whole_grid(studies):
@@ -99,7 +99,7 @@ def test_the_cycle_dissipates_less_on_rougher_lines_and_pulls_more_when_it_is_pu
 
 def test_contact_by_five_criteria_is_shown_for_both_ends_of_the_works(studies):
     shown = ch5.thresholds(studies["rough_adhesive"], panels(3))
-    assert set(shown.criterion) == {"repulsive_length", *INTERACTING}
+    assert set(shown.criterion) == {"contact_length", *INTERACTING}
     assert sorted(shown.work_of_separation.unique()) == [0.07, 10.5]
     assert isinstance(shown, pd.DataFrame)
 

@@ -24,7 +24,7 @@ from contactsim.observables.linearity import AREA_LOAD, related
 from contactsim.observables.peeling import ONSET, THRESHOLD
 from contactsim.variables import ERRORS, LOADS
 
-APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point")
+APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
 """What stays with the runs."""
 
 AVERAGED = (
@@ -32,9 +32,9 @@ AVERAGED = (
     "relative_contact_area_subgrid",
     "kappa",
     "kappa_r",
-    "kappa_r_bond",
+    "kappa_r_pairs",
     "rms_gradient_contact",
-    "rms_gradient_contact_bond",
+    "rms_gradient_contact_pairs",
     "reduced_pressure_contact",
     "mean_gap",
 )
@@ -125,7 +125,7 @@ def _of_contacts(data: xr.Dataset) -> xr.Dataset:
 def of_states(data: xr.Dataset) -> xr.Dataset:
     """States of smooth laws as parts of the whole, and what their paths amount to."""
     data = cycled(summarised(data))
-    data = slid(data) if "slid" in data else data
+    data = slid(data) if "sliding_distance" in data else data
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     for part in ("repulsive", "interacting"):
         ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
@@ -154,7 +154,7 @@ def derived(data: xr.Dataset) -> xr.Dataset:
 
     data = data.assign(
         kappa_r=kappa(data.rms_gradient_contact),
-        kappa_r_bond=kappa(data.rms_gradient_contact_bond),
+        kappa_r_pairs=kappa(data.rms_gradient_contact_pairs),
         reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
     )
     if "reduced_pressure" in data.dims:

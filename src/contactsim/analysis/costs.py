@@ -24,6 +24,6 @@ def _of_run(run: dict) -> pd.DataFrame:
     load = data.status.dims[0]
     told = {"run": run["path"], **run["coordinates"], "member": run["member"], "companion": run["companion"]}
     told |= {load: data[load].values, "points": data.points.item(), "transforms": data.transforms.values}
-    seconds = [spent["seconds"][str(name)] for name in data.point.values]
+    seconds = [spent["seconds"][str(name)] for name in data.point_digest.values]
     told |= {"seconds": seconds, "memory_mib": spent["peak_memory_of_last_run"], "status": data.status.values}
     return pd.DataFrame(told)

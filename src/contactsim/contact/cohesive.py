@@ -69,7 +69,7 @@ class InterfaceProblem:
     shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
     derived: factor (m,) by which the tangential displacement follows the normal one, where it is read but not exerted;
     approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work;
-    origin: approach (nm) at which those of load steps are zero; slid: how far (nm) the upper body has moved along x.
+    origin: approach (nm) at which those of load steps are zero; sliding_distance: how far (nm) the upper body has moved along x.
     """
 
     grid: Grid
@@ -82,7 +82,7 @@ class InterfaceProblem:
     approach: float | None = 0.0
     load: float | None = None
     origin: float = 0.0
-    slid: float = 0.0
+    sliding_distance: float = 0.0
 
     @property
     def unknowns(self) -> tuple[int, int]:
@@ -130,8 +130,8 @@ class InterfaceProblem:
         """The same scene at another load step."""
         normal = step.normal
         if normal.control is Trait.APPROACH:
-            return replace(self, approach=normal.value + self.origin, load=None, slid=step.slid)
-        return replace(self, approach=None, load=normal.value, slid=step.slid)
+            return replace(self, approach=normal.value + self.origin, load=None, sliding_distance=step.sliding_distance)
+        return replace(self, approach=None, load=normal.value, sliding_distance=step.sliding_distance)
 
     def coarser(self, points: int, tolerance: float) -> InterfaceProblem:
         """The same scene on fewer points, an even number: without the waves that these cannot carry, in heights too."""
@@ -170,8 +170,8 @@ class InterfaceProblem:
         gap += self.shape
         if self.approach is not None:
             gap[0] -= self.approach
-        if self.slid:
-            gap[1] += self.slid
+        if self.sliding_distance:
+            gap[1] += self.sliding_distance
         return gap
 
     @property

@@ -163,7 +163,7 @@ class WallProblem:
         certificate = Certificate(
             non_uniformity=float(np.abs(touching, out=touching).max(initial=0.0)),
             penetration=0.0 - min(lowest, 0.0),
-            smallest_pressure=float(pressure.min()),
+            min_pressure=float(pressure.min()),
             load_error=0.0 if not self.load else float(abs(pressure.mean() / self.load - 1)),
             approach=approach,
         )
@@ -174,20 +174,20 @@ class WallProblem:
 class Certificate:
     """How far a field of pressure is from the solution; lengths in grid steps.
 
-    non_uniformity: largest |gap| in contact; penetration: largest overlap elsewhere; smallest_pressure: in
+    non_uniformity: largest |gap| in contact; penetration: largest overlap elsewhere; min_pressure: in
     E*·step/spacing, never negative; load_error: relative; approach: that belongs to the pressure.
     """
 
     non_uniformity: float
     penetration: float
-    smallest_pressure: float
+    min_pressure: float
     load_error: float
     approach: float
 
     def met(self, tolerance: float) -> bool:
         """Whether this is a solution to within `tolerance` grid steps (NaN is not)."""
         worst = max(self.non_uniformity, self.penetration)
-        return worst <= tolerance and self.smallest_pressure >= 0 and self.load_error <= 1e-12
+        return worst <= tolerance and self.min_pressure >= 0 and self.load_error <= 1e-12
 
 
 def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressure: float) -> Array:

@@ -213,7 +213,7 @@ def _take_over(data: xr.Dataset, settings: dict, source: str, files: Files, told
     begin = time.process_time()
     (dim,) = data.transforms.dims
     spent = {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}
-    data = data.drop_vars("point").assign(spent | dict(told)).assign(seconds=(dim, np.zeros(data[dim].size)))
+    data = data.drop_vars("point_digest").assign(spent | dict(told)).assign(seconds=(dim, np.zeros(data[dim].size)))
     if dim != "step":
         data = data.rename({dim: "step"})
     logger.info("taken over from a run whose scene is the same without %s", told["left_out"])

@@ -33,8 +33,8 @@ along a path by smooth laws; asperities that slide."""
 MEASURES = {
     LINE: ("relative_contact_area_subgrid",),
     SURFACE: ("relative_contact_area_subgrid",),
-    PATH: ("pull_off_load_loading", "final_repulsive_length"),
-    ROUGH_PATH: ("final_repulsive_length", "final_interacting_length"),
+    PATH: ("pull_off_load_loading", "final_contact_length"),
+    ROUGH_PATH: ("final_contact_length", "final_interacting_length"),
     SLIDE: ("static_friction",),
 }
 """The quantities whose relative error is asked for where nothing else is said."""

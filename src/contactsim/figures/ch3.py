@@ -28,7 +28,7 @@ TABLE = {
     "rms_gradient_contact": r"$\bar g_r$" + "\ncomputed",
     "kappa_r_exact": r"$\kappa_r$" + "\nexact",
     "kappa_r": r"$\kappa_r$" + "\ncomputed",
-    "kappa_r_bond": r"$\kappa_r$" + "\nof pairs",
+    "kappa_r_pairs": r"$\kappa_r$" + "\nof pairs",
 }
 
 
@@ -46,7 +46,7 @@ def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
             x = pressure[part]
             bars = one.kappa_r_grid_error[part] if "kappa_r_grid_error" in one else None
             axes.errorbar(x, one.kappa_r[part], bars, color=style.CONTACT, alpha=fade, **look)
-            axes.plot(x, one.kappa_r_bond[part], "+" if mark == "o" else "x", color=style.PAIRS, ms=5, alpha=fade)
+            axes.plot(x, one.kappa_r_pairs[part], "+" if mark == "o" else "x", color=style.PAIRS, ms=5, alpha=fade)
         shown.append(axes.axhline(exact, color=style.EXACT, lw=1, ls="-" if mark == "o" else "--", label=words))
         shown.append(Line2D([], [], color="#777777", ls="", marker=mark, mfc="white", ms=4, label=name))
         rows.append(one.to_dataframe().reset_index().assign(body=name))
@@ -69,7 +69,7 @@ def table_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame
     return rows
 
 
-AVERAGES = ("relative_contact_area", "kappa", "kappa_r", "kappa_r_bond")
+AVERAGES = ("relative_contact_area", "kappa", "kappa_r", "kappa_r_pairs")
 
 
 def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
@@ -86,9 +86,9 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
         style.with_errors(middle, whole, one, "kappa", color=style.WHOLE, **look)
         for panel in (middle, right):
             style.with_errors(panel, contact, one, "kappa_r", color=style.CONTACT, **look)
-        style.with_errors(right, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
+        style.with_errors(right, contact, one, "kappa_r_pairs", color=style.PAIRS, **look)
         style.grid_error(last, contact, one, "kappa_r", color=style.CONTACT, **look)
-        style.grid_error(last, contact, one, "kappa_r_bond", color=style.PAIRS, **look)
+        style.grid_error(last, contact, one, "kappa_r_pairs", color=style.PAIRS, **look)
     dense = np.geomspace(*data.reduced_pressure.values[[0, -1]], 100)
     persson = reference.persson_area(dense)
     left.plot(dense, persson, color=style.EXACT, lw=0.8)
@@ -129,7 +129,7 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
         for x, name, color in (
             (whole, "kappa", style.WHOLE),
             (contact, "kappa_r", style.CONTACT),
-            (contact, "kappa_r_bond", style.PAIRS),
+            (contact, "kappa_r_pairs", style.PAIRS),
         ):
             style.with_errors(middle, x, one, name, color=color, **look)
             style.grid_error(right, x, one, name, color=color, **look)
@@ -196,7 +196,7 @@ def fig_3_5(
         panel.axhline(smooth, color=style.EXACT, lw=0.8)
         panel.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=r"$\kappa^{1D}/\kappa^{2D}$")
     style.letters(axes)
-    names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_bond"}
+    names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_pairs"}
     keys = {words: colours[quantity] for words, quantity in names.items()}
     axes[0].legend(handles=style.hurst_key(surface.hurst.values) + style.key(keys, {}), loc="upper right", ncols=2)
     axes[0].set_ylim(top=axes[0].get_ylim()[1] + 0.3 * np.ptp(axes[0].get_ylim()))

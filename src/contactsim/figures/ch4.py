@@ -220,7 +220,7 @@ def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     grid = Grid((one.x.size,), (float(one.length),))
     shift = one.x.size // 2 - int(np.argmax(here.heights.values))
     traction = np.stack([np.roll(here[f"{name}_traction"].values, shift) for name in ("normal", "tangential")])
-    reach = 1.2 * float(one.final_repulsive_length)
+    reach = 1.2 * float(one.final_contact_length)
     middle = grid.positions()[one.x.size // 2]
     found = inside(body, grid, traction, _depths(reach)).between(middle - reach, middle + reach)
     return stress.draw(replace(found, position=found.position - middle), axes)

@@ -20,7 +20,7 @@ from contactsim.figures.parts import interfaces, thicknesses
 from contactsim.figures.parts import rough_curves as rough
 from contactsim.observables.adhesion import CRITERION, INTERACTING, LEGS
 
-AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_bond", "reduced_pressure_contact")
+AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_pairs", "reduced_pressure_contact")
 SHOWN, COVERED, CLOSE_UP = 0.12, 0.3, 0.05
 """Parts of the period that pictures of the interface show."""
 
@@ -187,7 +187,7 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         told = str(less.decision.isel(member=0).item())
         lines.append(f"{words}: {spent[0] / spent[1]:.2g} of the work; {told}")
         twice = {"saved": spent[1] / spent[0], "transforms": spent[0], "transforms_whole": spent[1], "decision": told}
-        same = less.member.values, "area_at_twelve"
+        same = less.member.values, "area_at_12nm"
         change = abs(less[same[1]].mean("member") / more[same[1]].sel(member=same[0]).mean("member") - 1)
         rows.append({"poisson_ratio": ratio, "work_ratio": work, "change_of_mean": float(change)} | twice)
     table = pd.DataFrame(rows)
@@ -230,7 +230,7 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     rows = []
     for panel, work in zip(axes, chosen, strict=False):
         one = rough.prepared(data.sel(work_of_separation=work))
-        areas = {name: converged(one[name], one) / one.length for name in ("repulsive_length", *INTERACTING)}
+        areas = {name: converged(one[name], one) / one.length for name in ("contact_length", *INTERACTING)}
         middle = areas[CRITERION].mean("member")
         for (name, area), color in zip(areas.items(), style.shades(range(len(areas))).values(), strict=True):
             mean, error = area.mean("member"), area.std("member", ddof=1) / np.sqrt(area.count("member"))

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from contactsim import dataset, reference
 from contactsim.figures import ch2, style
 from contactsim.figures.parts import slide_curves as curves
-from contactsim.observables.adhesion import repulsive_length
+from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import EVENT
 
 LATTICES = (1.0, 1.5, 2.0, 2.44, 4.88)
@@ -94,7 +94,7 @@ def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
             axes.errorbar(ratio, scale * one[name].values, error, fmt="o", ls=line, label=words, **look)
         shown = {name: scale * one[name].values for name in ("mean_friction", "average_friction")}
         rows.append(
-            pd.DataFrame({"modulus_over_strength": ratio} | shown | {"slips": one.slips.values}).assign(
+            pd.DataFrame({"modulus_over_strength": ratio} | shown | {"slips": one.slip_count.values}).assign(
                 thickness=thickness, critical=critical
             )
         )
@@ -124,7 +124,7 @@ def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     axes.plot(curve.relative_slide, curve.force, color=style.CONTACT, lw=1.2, label=r"$\bar F$")
     axes.plot(curve.relative_slide, curve.load, color=style.CONTACT, lw=1.2, ls="--", label=r"$\bar L$")
     axes.axhline(0.0, color=style.EXACT, lw=0.5)
-    for place in slips.event_slide.values:
+    for place in slips.event_sliding_distance.values:
         axes.axvline(place / float(one.length), color="#999999", lw=0.5, ls=":")
     axes.set(xlabel=curves.SLIDE, ylabel=r"$\bar F$, $\bar L$")
     area = axes.twinx()
@@ -176,10 +176,10 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     for approach, colour in style.shades(data.slide_approach.values).items():
         one = data.sel(slide_approach=approach).isel(member=0)
         curve, period = curves.curve(one), float(one.length)
-        part = curve[curve.slide <= float(one.onset_slide) + 1e-9]
+        part = curve[curve.slide <= float(one.onset_sliding_distance) + 1e-9]
         left.plot(part.force, part.area, ".", color=colour, ms=2.2, label=rf"$\bar\delta={approach / curves.START:g}$")
         force = part.force.values * period * curves.MODULUS
-        fit = (float(one.initial_repulsive_length) - float(one.quadratic_coefficient) * force**2) / period
+        fit = (float(one.initial_contact_length) - float(one.quadratic_coefficient) * force**2) / period
         left.plot(part.force, np.maximum(fit, 0.0), color=colour, lw=0.8)
         left.plot(part.force.iloc[-1], part.area.iloc[-1], "o", color="black", ms=3.5)
         rows.append(part[["force", "area"]].assign(approach=approach, fit=fit, study="a"))
@@ -189,7 +189,7 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     for other, colour, mark in ((data, "black", "o"), (weak, style.WHOLE, "s"), (slippery, style.CONTACT, "^")):
         law, one = dataset.settings_of(other)["cohesive_zone"], other.isel(member=0)
         period = float(other.length.max())
-        area, scale = one.onset_repulsive_length / period, 1 / (period * curves.MODULUS)
+        area, scale = one.onset_contact_length / period, 1 / (period * curves.MODULUS)
         force = one.static_friction * scale
         words = rf"$\bar\varphi_n={law['work_of_separation']:g}$, $\varphi_t/\varphi_n={law['work_ratio']:g}$"
         right.plot(area, force, mark, color=colour, ms=4, mfc="none", label=words)
@@ -227,7 +227,7 @@ def peel_and_slip(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.plot(curve.slide, curve[name], color=colour, lw=1.1)
         panel.plot(curve.slide.iloc[-1], curve[name].iloc[-1], "o", color=colour, ms=4)
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=words)
-    size = repulsive_length(now.normal_gap.values, float(one.length) / one.x.size)
+    size = contact_length(now.normal_gap.values, float(one.length) / one.x.size)
     axes[0].set_title(rf"$U_x={float(now.snapshot):g}$ nm, contact {size:.0f} nm", fontsize=9)
     return curve
 
@@ -271,7 +271,10 @@ def open_choices(
             curve = curves.curve(one)
             wide = np.linspace(THICK, THIN, other[dim].size)[len(panel.lines)]
             panel.plot(curve.slide, curve.force * float(one.length), color=colour, lw=wide, label=f"{value:g}")
-            numbers = {key: float(one[key]) for key in ("static_friction", "peeled", "reattached", "first_periods")}
+            numbers = {
+                key: float(one[key])
+                for key in ("static_friction", "peeled_fraction", "reattached_fraction", "first_slip_periods")
+            }
             rows.append(pd.DataFrame([numbers | {"choice": words, "value": float(value)}]))
         panel.set(xlabel=r"$U_x$ (nm)", ylabel=r"$F/E$ (nm)")
         curves.headroom(panel, 0.35)

@@ -26,13 +26,13 @@ LINE_INCHES = 0.125
 """Height of a line of caption or footer."""
 FILM_DPI, CLOSE = 110, 1e-6
 """Of a film's frames; of a slide, nm: what is nearer counts as the same."""
-PRICED = {name: READ[name] for name in ("kappa", "kappa_r", "kappa_r_bond")} | {
-    "final_repulsive_length": "contact",
+PRICED = {name: READ[name] for name in ("kappa", "kappa_r", "kappa_r_pairs")} | {
+    "final_contact_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
     "pull_off_load_unloading": "on unloading",
 }
 """Quantities whose errors a footer tells, and how."""
-PRICED_SLIDES = {name: SYMBOLS[name] for name in ("static_friction", "first_drop", "reattached")}
+PRICED_SLIDES = {name: SYMBOLS[name] for name in ("static_friction", "first_force_drop", "reattached_fraction")}
 """The same of slides."""
 
 
@@ -70,7 +70,7 @@ def film(
     writer = PillowWriter(fps=frames_per_second)
     with writer.saving(figure, str(path), dpi=FILM_DPI):
         for count, value in enumerate(data.snapshot.values):
-            reached = ~(data.slid.isel(member=0) > value + CLOSE)
+            reached = ~(data.sliding_distance.isel(member=0) > value + CLOSE)
             for panel in every:
                 panel.clear()
             draw(data.isel(snapshot=slice(count + 1), step=np.flatnonzero(reached)), panels)
@@ -110,7 +110,7 @@ def footer_text(data: xr.Dataset, costs: pd.DataFrame) -> str:
         f"{members} members" if members > 1 else "1 member",
         f"{lost} of {total} solutions unconverged and left out",
     ]
-    if "beyond" in data and (far := status.told(data)):
+    if "validity_flags" in data and (far := status.told(data)):
         parts.append(f"beyond the model: {', '.join(far)} of the states")
     parts += errors_told(data)
     return " · ".join([*parts, f"study solved in {costs.seconds.sum():.3g} CPU s"])

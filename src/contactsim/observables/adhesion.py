@@ -15,26 +15,26 @@ from contactsim.grid import Array
 from contactsim.status import is_solved
 
 INTERACTING = {
-    "interacting_length_tenth": 1e-1,
-    "interacting_length_hundredth": 1e-2,
-    "interacting_length_thousandth": 1e-3,
-    "interacting_length_millionth": 1e-6,
+    "interacting_length_0_1": 1e-1,
+    "interacting_length_0_01": 1e-2,
+    "interacting_length_0_001": 1e-3,
+    "interacting_length_1e_6": 1e-6,
 }
 """Parts of the strength beyond which two surfaces interact."""
-CRITERION = "interacting_length_hundredth"
+CRITERION = "interacting_length_0_01"
 """The one of Chapter 5, where it says no more than that the threshold approaches zero."""
-AREAS = {"relative_repulsive_area": "repulsive_length", "relative_interacting_area": CRITERION}
+AREAS = {"relative_repulsive_area": "contact_length", "relative_interacting_area": CRITERION}
 """Parts of the period, and the lengths that they come from."""
 OPENINGS, PULLS = np.linspace(-3.0, 12.0, 61), np.linspace(-6.0, 1.0, 71)
 """Edges of histograms: gaps in the laws' length, normal tractions in their strength; the ends hold what lies beyond."""
 FINAL = {
-    "final_repulsive_length": "repulsive_length",
+    "final_contact_length": "contact_length",
     "final_interacting_length": CRITERION,
     "final_load": "line_load",
     "final_repulsive_load": "repulsive_load",
     "final_adhesive_load": "adhesive_load",
-    "final_pressure": "largest_pressure",
-    "final_pull": "largest_pull",
+    "final_max_pressure": "max_pressure",
+    "final_max_tensile_traction": "max_tensile_traction",
     "final_slip": "slip",
 }
 """What is read at the largest approach, and of which number of a state."""
@@ -46,14 +46,14 @@ SUMMARY = (
     "pull_off_load_unloading",
     "pull_off_approach_loading",
     "pull_off_approach_unloading",
-    "largest_jump_loading",
-    "largest_jump_unloading",
+    "max_jump_loading",
+    "max_jump_unloading",
     *FINAL,
 )
 """What a path amounts to; the slip only where a law reads the tangential gap."""
 
 
-def repulsive_length(gap: Array, spacing: float) -> float:
+def contact_length(gap: Array, spacing: float) -> float:
     """Length, nm, over which the normal gap (n,), nm, is negative; its ends lie between nodes, to second order."""
     after = np.concatenate((gap[1:], gap[:1]))
     inside, crossing = (gap < 0) & (after < 0), (gap < 0) != (after < 0)
@@ -64,9 +64,9 @@ def repulsive_length(gap: Array, spacing: float) -> float:
 def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
-    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; repulsive_length,
-    lengths for `INTERACTING`, mean_gap, smallest_gap, nm; largest_pressure and largest_pull: normal traction at its
-    largest, GPa; overclosure: deepest overlap, and slip: largest tangential gap where there is repulsion, of springs
+    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; contact_length,
+    lengths for `INTERACTING`, mean_gap, min_gap, nm; max_pressure and max_tensile_traction: normal traction at its
+    largest, GPa; max_interpenetration: deepest overlap, and slip: largest tangential gap where there is repulsion, of springs
     that to the nearest site, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
@@ -80,11 +80,11 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
         "adhesive_load": pull * length,
         "mean_pressure": mean,
         "mean_gap": float(gap[0].mean()),
-        "repulsive_length": repulsive_length(gap[0], spacing),
-        "smallest_gap": smallest,
-        "largest_pressure": max(pushed, 0.0),
-        "largest_pull": max(pulled, 0.0),
-        "overclosure": max(-smallest, 0.0) / problem.reach,
+        "contact_length": contact_length(gap[0], spacing),
+        "min_gap": smallest,
+        "max_pressure": max(pushed, 0.0),
+        "max_tensile_traction": max(pulled, 0.0),
+        "max_interpenetration": max(-smallest, 0.0) / problem.reach,
     }
     numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
     if len(gap) > 1:
@@ -156,9 +156,7 @@ def legs(approach: Array) -> tuple[slice, slice]:
 def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
     """Largest jump (nm) on loading and on unloading, zero where there is none; NaN where there is no such leg."""
     parts = zip(LEGS, (jump[part] for part in legs(approach)), strict=True)
-    return {
-        f"largest_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts
-    }
+    return {f"max_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts}
 
 
 def summarised(data: xr.Dataset) -> xr.Dataset:

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from contactsim.grid import Array
-from contactsim.surfaces.statistics import rms_gradient, rms_gradient_bonds
+from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
 
 KEPT = ("contact", "pressure", "profile", "fields")
 """What a run may keep beside its numbers; all but the last by default."""
@@ -94,7 +94,7 @@ def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, 
     """Numbers of one hard-wall state; heights, pressure, gap: (n,) or (ny, nx) in nm, GPa, nm; spacings nm.
 
     relative_contact_area, of points, and with edges between points; contact_edges; rms_gradient_contact (Eqs 3.8–3.9)
-    and rms_gradient_contact_bond (pairs with both ends in
+    and rms_gradient_contact_pairs (pairs with both ends in
     contact), NaN where there is none; mean_gap, nm; mean_pressure, GPa.
     """
     contact = touching(pressure)
@@ -103,7 +103,7 @@ def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, 
         "relative_contact_area_subgrid": relative_contact_area_subgrid(pressure, gap),
         "contact_edges": contact_edges(contact),
         "rms_gradient_contact": rms_gradient(heights, spacing, contact),
-        "rms_gradient_contact_bond": rms_gradient_bonds(heights, spacing, contact),
+        "rms_gradient_contact_pairs": rms_gradient_pairs(heights, spacing, contact),
         "mean_gap": float(gap.mean()),
         "mean_pressure": float(pressure.mean()),
     }

@@ -18,8 +18,8 @@ from contactsim.observables.sliding import EVENT, TOUCHING
 from contactsim.status import is_solved
 
 COLUMNS = (
-    *("slid", "friction_force", "line_load", "repulsive_length", "mean_gap"),
-    *("contact_trailing", "contact_leading"),
+    *("sliding_distance", "friction_force", "line_load", "contact_length", "mean_gap"),
+    *("contact_trailing_edge", "contact_leading_edge"),
 )
 """Numbers of the states that all of this comes from."""
 
@@ -28,11 +28,11 @@ COLUMNS = (
 class Slide:
     """A slide as a line through its states and both sides of its slips.
 
-    slid (nm), force (N/m), length (nm): (place,); after: whether a place is the far side of a slip, (place,); width: of
+    sliding_distance (nm), force (N/m), length (nm): (place,); after: whether a place is the far side of a slip, (place,); width: of
     the slide between both sides of it, nm; state: number of the state, on the slide, that a place is or comes after.
     """
 
-    slid: Array
+    sliding_distance: Array
     force: Array
     length: Array
     after: Array
@@ -44,17 +44,17 @@ class Slide:
         """Through states on a slide (state,) and slips (event,); first: step with which the slide begins."""
         places: list[tuple[float, ...]] = []
         steps = told["event_step"] - first
-        for state, (slid, force, length) in enumerate(zip(*(columns[name] for name in LINE), strict=True)):
+        for state, (sliding_distance, force, length) in enumerate(zip(*(columns[name] for name in LINE), strict=True)):
             for slip in np.flatnonzero(steps == state):
-                here, width = told["event_slide"][slip], told["event_width"][slip]
-                back = here - np.sign(slid - columns["slid"][state - 1]) * width
+                here, width = told["event_sliding_distance"][slip], told["event_width"][slip]
+                back = here - np.sign(sliding_distance - columns["sliding_distance"][state - 1]) * width
                 before, after = (told[f"event_force_{side}"][slip] for side in ("before", "after"))
                 lengths = [told[f"event_length_{side}"][slip] for side in ("before", "after")]
                 places.append((back, before, lengths[0], 0.0, width, state - 1))
                 places.append((here, after, lengths[1], 1.0, width, state - 1))
-            places.append((slid, force, length, 0.0, 0.0, state))
-        slid, force, length, after, width, state = np.array(places).T
-        return cls(slid, force, length, after > 0, width, state.astype(int))
+            places.append((sliding_distance, force, length, 0.0, 0.0, state))
+        sliding_distance, force, length, after, width, state = np.array(places).T
+        return cls(sliding_distance, force, length, after > 0, width, state.astype(int))
 
     @property
     def onset(self) -> int | None:
@@ -68,9 +68,14 @@ class Slide:
     def blurred(self, place: int) -> float:
         """By how much (N/m) the force at a side of a slip may be off, which lies anywhere within its width."""
         beside = place + 1 if self.after[place] else place - 1
-        if not 0 <= beside < self.slid.size or self.slid[beside] == self.slid[place]:
+        if (
+            not 0 <= beside < self.sliding_distance.size
+            or self.sliding_distance[beside] == self.sliding_distance[place]
+        ):
             return 0.0
-        slope = (self.force[place] - self.force[beside]) / (self.slid[place] - self.slid[beside])
+        slope = (self.force[place] - self.force[beside]) / (
+            self.sliding_distance[place] - self.sliding_distance[beside]
+        )
         return float(self.width[place] * abs(slope))
 
     def missed(self, place: int) -> float:
@@ -81,13 +86,19 @@ class Slide:
         """
         if self.after[place]:
             return self.blurred(place)
-        if place + 1 < self.slid.size and self.after[place + 1]:
-            if place < 2 or self.after[place - 1] or self.slid[place - 1] == self.slid[place - 2]:
+        if place + 1 < self.sliding_distance.size and self.after[place + 1]:
+            if (
+                place < 2
+                or self.after[place - 1]
+                or self.sliding_distance[place - 1] == self.sliding_distance[place - 2]
+            ):
                 return float(abs(self.force[place] - self.force[place - 1])) + self.blurred(place)
-            slope = (self.force[place - 1] - self.force[place - 2]) / (self.slid[place - 1] - self.slid[place - 2])
-            ahead = self.force[place - 1] + slope * (self.slid[place] - self.slid[place - 1])
+            slope = (self.force[place - 1] - self.force[place - 2]) / (
+                self.sliding_distance[place - 1] - self.sliding_distance[place - 2]
+            )
+            ahead = self.force[place - 1] + slope * (self.sliding_distance[place] - self.sliding_distance[place - 1])
             return float(abs(ahead - self.force[place])) + self.blurred(place)
-        beside = [other for other in (place - 1, place + 1) if 0 <= other < self.slid.size]
+        beside = [other for other in (place - 1, place + 1) if 0 <= other < self.sliding_distance.size]
         changes = [float(abs(self.force[place] - self.force[other])) for other in beside]
         return sum(changes) / 8 if len(changes) == 2 else min(changes, default=np.nan)
 
@@ -96,7 +107,7 @@ class Slide:
 
         That of a curve is a twelfth of the change of slope; a slip may lie anywhere within its width.
         """
-        steps, changes = np.diff(self.slid), np.diff(self.force)
+        steps, changes = np.diff(self.sliding_distance), np.diff(self.force)
         found = float(np.sum(steps * (self.force[1:] + self.force[:-1]) / 2))
         moving = np.flatnonzero((np.abs(steps) > 0) & ~self.after[1:])
         slopes = changes[moving] / steps[moving]
@@ -108,7 +119,7 @@ class Slide:
         return Slide(*(getattr(self, entry.name)[begin:] for entry in fields(self)))
 
 
-LINE = ("slid", "friction_force", "repulsive_length")
+LINE = ("sliding_distance", "friction_force", "contact_length")
 """Columns that a slide is a line through."""
 
 
@@ -122,40 +133,46 @@ def summed(
     known in the beginning, where the force still rises at the end.
     """
     found, errors = dict.fromkeys(ONSET, np.nan), dict.fromkeys(ERRORS, np.nan)
-    known = np.isfinite(columns["slid"])
+    known = np.isfinite(columns["sliding_distance"])
     part = {name: values[known] for name, values in columns.items()}
     if known.sum() < 3 or np.isnan(part["friction_force"]).any():
         return found, errors
-    part["repulsive_length"] = np.where(np.abs(part["mean_gap"]) <= TOUCHING, np.nan, part["repulsive_length"])
-    line, lengths = Slide.through(part, told, int(np.flatnonzero(known)[0])), part["repulsive_length"]
+    part["contact_length"] = np.where(np.abs(part["mean_gap"]) <= TOUCHING, np.nan, part["contact_length"])
+    line, lengths = Slide.through(part, told, int(np.flatnonzero(known)[0])), part["contact_length"]
     slips = np.flatnonzero(line.after)
-    found |= {"initial_repulsive_length": lengths[0], "initial_load": part["line_load"][0], "slips": float(slips.size)}
+    found |= {
+        "initial_contact_length": lengths[0],
+        "initial_load": part["line_load"][0],
+        "slip_count": float(slips.size),
+    }
     onset = line.onset
     if onset is None:
         return found, errors
     state = int(line.state[onset])
     found["static_friction"], errors["static_friction"] = line.force[onset], line.missed(onset)
-    found["onset_slide"] = line.slid[onset]
-    errors["onset_slide"] = float(line.width[onset] or np.abs(np.diff(part["slid"])).max())
-    found["onset_repulsive_length"] = line.length[onset]
+    found["onset_sliding_distance"] = line.sliding_distance[onset]
+    errors["onset_sliding_distance"] = float(line.width[onset] or np.abs(np.diff(part["sliding_distance"])).max())
+    found["onset_contact_length"] = line.length[onset]
     ends = [onset + int(how(line.force[onset:])) for how in (np.argmax, np.argmin)]
     found["mean_friction"], errors["mean_friction"] = line.force[ends].mean(), sum(map(line.missed, ends)) / 2
     found["average_friction"], errors["average_friction"] = average_force(line.since(onset), period)
-    found["asymmetry"] = asymmetry(part["contact_trailing"], part["contact_leading"], state)
-    half = int(np.argmin(np.abs(part["slid"] - line.slid[onset] / 2)))
-    found["asymmetry_early"] = asymmetry(part["contact_trailing"], part["contact_leading"], half)
+    found["peel_asymmetry"] = asymmetry(part["contact_trailing_edge"], part["contact_leading_edge"], state)
+    half = int(np.argmin(np.abs(part["sliding_distance"] - line.sliding_distance[onset] / 2)))
+    found["peel_asymmetry_halfway"] = asymmetry(part["contact_trailing_edge"], part["contact_leading_edge"], half)
     fitted = quadratic_law(line.force[: onset + 1], line.length[: onset + 1])
-    found["quadratic_coefficient"], found["quadratic_agreement"] = fitted
+    found["quadratic_coefficient"], found["quadratic_r_squared"] = fitted
     share = 1 / lengths[0] if lengths[0] > 0 else np.nan
-    found["peeled"] = 1 - line.length[onset] * share
+    found["peeled_fraction"] = 1 - line.length[onset] * share
     if slips.size:
         first = slips[0]
-        found["first_drop"] = (line.force[first - 1] - line.force[first]) * np.sign(line.slid[first] or 1.0)
-        errors["first_drop"] = line.blurred(first - 1) + line.blurred(first)
-        found["first_periods"] = told["event_slip"][0] / period
-        found["first_released_energy"] = told["event_released_energy"][0]
-        found["reattached"] = line.length[first] * share
-        found["regained"] = (line.length[first] - line.length[first - 1]) * share
+        found["first_force_drop"] = (line.force[first - 1] - line.force[first]) * np.sign(
+            line.sliding_distance[first] or 1.0
+        )
+        errors["first_force_drop"] = line.blurred(first - 1) + line.blurred(first)
+        found["first_slip_periods"] = told["event_slip"][0] / period
+        found["first_slip_released_energy"] = told["event_released_energy"][0]
+        found["reattached_fraction"] = line.length[first] * share
+        found["regained_fraction"] = (line.length[first] - line.length[first - 1]) * share
     found["loop_energy"], errors["loop_energy"] = loop(line)
     return found, errors
 
@@ -165,12 +182,16 @@ def average_force(line: Slide, period: float) -> tuple[float, float]:
 
     NaN where there is no whole one, or where the slide turns.
     """
-    if line.slid.size < 2 or np.any(np.diff(line.slid) < 0) or not line.slid[-1] - line.slid[0] >= period:
+    if (
+        line.sliding_distance.size < 2
+        or np.any(np.diff(line.sliding_distance) < 0)
+        or not line.sliding_distance[-1] - line.sliding_distance[0] >= period
+    ):
         return np.nan, np.nan
-    span = period * int((line.slid[-1] - line.slid[0]) / period + 1e-9)
-    begin = line.slid[-1] - span
-    kept = line.since(int(np.searchsorted(line.slid, begin, "right")))
-    force = float(np.interp(begin, line.slid, line.force))
+    span = period * int((line.sliding_distance[-1] - line.sliding_distance[0]) / period + 1e-9)
+    begin = line.sliding_distance[-1] - span
+    kept = line.since(int(np.searchsorted(line.sliding_distance, begin, "right")))
+    force = float(np.interp(begin, line.sliding_distance, line.force))
     first = begin, force, np.nan, False, 0.0, 0
     parts = zip(first, fields(kept), strict=True)
     whole = Slide(*(np.concatenate(([one], getattr(kept, entry.name))) for one, entry in parts))
@@ -183,10 +204,10 @@ def loop(line: Slide) -> tuple[float, float]:
 
     NaN where the slide does not come back to where it turned.
     """
-    ways = np.sign(np.round(np.diff(line.slid), 9))
+    ways = np.sign(np.round(np.diff(line.sliding_distance), 9))
     moving = np.flatnonzero(ways)
     turns = moving[1:][np.diff(ways[moving]) != 0]
-    if len(turns) < 2 or abs(line.slid[-1] - line.slid[turns[0]]) > 1e-9:
+    if len(turns) < 2 or abs(line.sliding_distance[-1] - line.sliding_distance[turns[0]]) > 1e-9:
         return np.nan, np.nan
     return line.since(int(turns[0])).work()
 
@@ -219,7 +240,7 @@ def slid(data: xr.Dataset) -> xr.Dataset:
         return data
     fitted = xr.apply_ufunc(
         threshold_law,
-        data.onset_repulsive_length,
+        data.onset_contact_length,
         data.static_friction,
         input_core_dims=[[ALONG], [ALONG]],
         output_core_dims=[[]] * len(THRESHOLD),

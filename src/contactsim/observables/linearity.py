@@ -18,14 +18,14 @@ from contactsim.observables.adhesion import legs
 
 LARGEST = 0.3
 """Relative area up to which a curve is held against a straight line: beyond, a contact begins to be complete."""
-LEVELS = {"pressure_at_fiftieth": 0.02, "pressure_at_tenth": 0.1, "pressure_at_third": 1 / 3}
+LEVELS = {"pressure_at_area_0_02": 0.02, "pressure_at_area_0_1": 0.1, "pressure_at_area_one_third": 1 / 3}
 """Relative areas at which the pressure is read."""
 DEEP = 12.0
 """Approach (nm) beyond first touch at which the area is read."""
 AREA_LOAD = (
     *("nonlinearity", "curvature", "nonlinearity_reduced", "curvature_reduced"),
     *LEVELS,
-    *("area_at_twelve", "pressure_at_twelve", "gradient_at_fiftieth"),
+    *("area_at_12nm", "pressure_at_12nm", "gradient_ratio_at_area_0_02"),
 )
 """What the curve of area against load amounts to; `_reduced` of p_r*, else of p/E*."""
 KINDS = {
@@ -80,13 +80,13 @@ def curve_numbers(indentation: Array, area: Array, pressure: Array, gradient: Ar
     found += [first_reached(area, level, pressure) for level in LEVELS.values()]
     found += [first_reached(indentation, DEEP, one) for one in (area, pressure)]
     share = gradient / whole if whole > 0 else np.full_like(gradient, np.nan)
-    return *found, first_reached(area, LEVELS["pressure_at_fiftieth"], share)
+    return *found, first_reached(area, LEVELS["pressure_at_area_0_02"], share)
 
 
 def related(data: xr.Dataset) -> xr.Dataset:
     """A study of paths with what its curves of area against load amount to; they end where one did not converge."""
     name = next(kind for kind in KINDS if kind in data)
-    approach = data.get("approach", data.get("approach_found"))
+    approach = data.approach
     pressure = converged(data.normalised_pressure, data)
     whole = data.rms_gradient.mean("step") if "step" in data.rms_gradient.dims else data.rms_gradient
     columns = xr.apply_ufunc(

@@ -14,27 +14,34 @@ ONSET = (
     "static_friction",
     "mean_friction",
     "average_friction",
-    "onset_slide",
-    "onset_repulsive_length",
-    "initial_repulsive_length",
+    "onset_sliding_distance",
+    "onset_contact_length",
+    "initial_contact_length",
     "initial_load",
-    "peeled",
-    "reattached",
-    "regained",
-    "asymmetry_early",
-    "asymmetry",
+    "peeled_fraction",
+    "reattached_fraction",
+    "regained_fraction",
+    "peel_asymmetry_halfway",
+    "peel_asymmetry",
     "quadratic_coefficient",
-    "quadratic_agreement",
-    "slips",
-    "first_drop",
-    "first_periods",
-    "first_released_energy",
+    "quadratic_r_squared",
+    "slip_count",
+    "first_force_drop",
+    "first_slip_periods",
+    "first_slip_released_energy",
     "loop_energy",
 )
 """What a slide amounts to."""
-ERRORS = ("static_friction", "mean_friction", "average_friction", "onset_slide", "first_drop", "loop_energy")
+ERRORS = (
+    "static_friction",
+    "mean_friction",
+    "average_friction",
+    "onset_sliding_distance",
+    "first_force_drop",
+    "loop_energy",
+)
 """Those of which it is known what the increments leave open."""
-THRESHOLD = ("shear_strength", "friction_without_contact", "threshold_agreement")
+THRESHOLD = ("shear_strength", "friction_without_contact", "threshold_r_squared")
 """Eq. 6.9 fitted over the approaches of a study."""
 ALONG = "slide_approach"
 """The dimension along which Eq. 6.9 is fitted."""

@@ -15,12 +15,12 @@ import xarray as xr
 
 from contactsim.contact.cohesive import InterfaceProblem
 from contactsim.grid import Array
-from contactsim.observables.adhesion import repulsive_length
+from contactsim.observables.adhesion import contact_length
 from contactsim.paths.continuation import Leap
 
 EVENT = (
     "event_step",
-    "event_slide",
+    "event_sliding_distance",
     "event_width",
     "event_force_before",
     "event_force_after",
@@ -37,16 +37,16 @@ TOUCHING = 1e-4
 def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array) -> dict[str, float]:
     """Numbers of one state on a slide: gap (2, n), nm; displacement (exerted, m).
 
-    slid, nm; contact_trailing, contact_leading: outermost edges of what is under repulsion, nm, NaN without;
+    sliding_distance, nm; contact_trailing_edge, contact_leading_edge: outermost edges of what is under repulsion, nm, NaN without;
     contact_slip: mean tangential gap where surfaces are closest, nm; elastic_energy of the bodies, nJ/m.
     """
     close = gap[0] <= gap[0].min() + problem.law.reach
     weighted = problem.balanced(np.zeros_like(displacement), displacement) * problem.weights
     trailing, leading = contact_ends(gap[0], problem.shape[0], problem.grid.spacing[0])
     return {
-        "slid": problem.slid,
-        "contact_trailing": trailing,
-        "contact_leading": leading,
+        "sliding_distance": problem.sliding_distance,
+        "contact_trailing_edge": trailing,
+        "contact_leading_edge": leading,
         "contact_slip": float(gap[1, close].mean()),
         "elastic_energy": 0.5 * float(np.vdot(displacement, weighted).real) * problem.grid.lengths[0],
     }
@@ -83,15 +83,15 @@ def slip_numbers(problem: InterfaceProblem, leap: Leap, step: int) -> dict[str, 
         numbers["force"] = (
             float(state.traction[1:].mean() * problem.grid.lengths[0]) if len(state.traction) > 1 else 0.0
         )
-        numbers["length"] = repulsive_length(state.gap[0], problem.grid.spacing[0])
+        numbers["length"] = contact_length(state.gap[0], problem.grid.spacing[0])
         if abs(state.gap[0].mean()) <= TOUCHING:
             numbers["length"] = np.nan
         sides.append(numbers)
     before, after = sides
     return {
         "event_step": step,
-        "event_slide": leap.step.slid,
-        "event_width": abs(leap.step.slid - leap.left.slid),
+        "event_sliding_distance": leap.step.sliding_distance,
+        "event_width": abs(leap.step.sliding_distance - leap.left.sliding_distance),
         "event_force_before": before["force"],
         "event_force_after": after["force"],
         "event_length_before": before["length"],

@@ -113,7 +113,7 @@ class Walk:
                 last[0, 0] = here.yielded
             stands = LoadStep(to.normal.control, place)
         if to.control is Trait.SLIDE:
-            stands = LoadStep(Trait.SLIDE, step.slid, held=stands)
+            stands = LoadStep(Trait.SLIDE, step.sliding_distance, held=stands)
         place = stands.value
         self.last, self._pace = last, None
         self.stands = stands, replace(state, displacement=last)
@@ -142,7 +142,7 @@ class Walk:
         if step.held is None or self.stands is None or len(here.held) < 2 or here.held[1]:
             return self.last
         start = self.last.copy()
-        start[1, 0] -= step.slid - self.stands[0].slid
+        start[1, 0] -= step.sliding_distance - self.stands[0].sliding_distance
         return start
 
     @property

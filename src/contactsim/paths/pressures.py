@@ -98,12 +98,12 @@ def _point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Seq
     contact = result.contact
     spacing = Grid(heights.shape, lengths).spacing
     numbers = wall_observables(heights, spacing, result.pressure, result.gap) | {
-        "approach_found": result.approach,
+        "approach": result.approach,
         "iterations": result.record.iterations,
         "transforms": result.record.transforms,
         "non_uniformity": certificate.non_uniformity,
         "penetration": certificate.penetration,
-        "smallest_pressure": float(result.pressure.min()),
+        "min_pressure": float(result.pressure.min()),
         "load_error": certificate.load_error,
         "status": result.status.value[0],
         "contact_points": int(contact.sum()),
@@ -164,12 +164,12 @@ def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
         ends = np.cumsum(data.contact_points.values)
         load = data.status.dims[0]
         seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}
-        apart = set(data.dims) - {"mean_pressure"} | {"point"}
+        apart = set(data.dims) - {"mean_pressure"} | {"point_digest"}
         names = [name for name, item in data.variables.items() if item.dims == data.status.dims and name not in apart]
         found = {}
         for row, end in enumerate(ends):
             numbers = {name: data[name].values[row].item() for name in names}
-            name = str(data.point.values[row])
+            name = str(data.point_digest.values[row])
             arrays = {
                 str(key): item.values[row]
                 for key, item in data.variables.items()

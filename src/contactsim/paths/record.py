@@ -102,9 +102,9 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
     }
     if scene.sliding:
         numbers = {"friction_force": 0.0} | numbers | slide_observables(problem, gap, state.displacement)
-        numbers["slid"] = state.step.slid if state.step.held else np.nan
+        numbers["sliding_distance"] = state.step.sliding_distance if state.step.held else np.nan
     return numbers | {
-        "beyond": status.beyond(numbers),
+        "validity_flags": status.validity_flags(numbers),
         "residual": state.residual,
         "status": state.status.value[0],
         "solved_points": state.points,
@@ -133,7 +133,7 @@ def _collected(
     scene: Scene, problem: InterfaceProblem, rows: list[dict], fields: dict[int, dict[str, Array]]
 ) -> xr.Dataset:
     heights = -problem.shape[0]
-    kinds = {"status": np.int8, "beyond": np.int8, "iterations": np.int32, "solved_points": np.int32}
+    kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "solved_points": np.int32}
     variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
     coordinates = {}
     if fields:

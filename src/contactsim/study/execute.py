@@ -103,4 +103,4 @@ def labelled(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
     """A simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
     load, values = settings["load"]["name"], _places(settings)
     data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
-    return dataset.described(data.assign(seed=settings["seed"], point=(load, np.array(names, object))))
+    return dataset.described(data.assign(seed=settings["seed"], point_digest=(load, np.array(names, object))))

@@ -2,7 +2,7 @@
 
 Root-mean-square height, gradient and curvature by finite differences on the periodic grid, and the power spectrum.
 Eq. 3.8 gives a contact point the mean of its two squared slopes, one of which leads out of the contact at an edge of
-a patch: the statistic then depends on the grid. `rms_gradient_bonds` counts only the slopes between two points that
+a patch: the statistic then depends on the grid. `rms_gradient_pairs` counts only the slopes between two points that
 are both in contact; in the limit of a fine grid the two agree, on real grids the second is there already.
 """
 
@@ -70,7 +70,7 @@ def local_squares(heights: Array, spacing: float) -> Array:
     return _squares(strip, 1, spacing)[0]
 
 
-def rms_gradient_bonds(heights: Array, spacing: float | Sequence[float], where: Array) -> float:
+def rms_gradient_pairs(heights: Array, spacing: float | Sequence[float], where: Array) -> float:
     """Root-mean-square slope over neighbouring pairs with both ends in `where`; NaN without such a pair.
 
     Over a surface the mean squares of the pairs along each axis are added. heights: (n,) or (ny, nx) and spacing (one,

@@ -44,7 +44,7 @@ WORK_FEATURES = {
 }
 CHOSEN = ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")
 """Features that follow from what a user chooses: a scene is not outside what was measured because of them."""
-STEEP = ("pull_off_load_loading", "static_friction", "final_load", "onset_repulsive_length")
+STEEP = ("pull_off_load_loading", "static_friction", "final_load", "onset_contact_length")
 """Quantities whose error's order in the grid is fitted: the process zone is resolved or is not."""
 NOISE, WRONG = {"points": 5e-4}, 0.15
 """Relative errors below which a setting of a knob says nothing of those that are asked for, and above which."""

@@ -56,7 +56,7 @@ READ = {
     SURFACE: (*MEASURES[SURFACE], COUNTED),
     PATH: MEASURES[PATH],
     ROUGH_PATH: MEASURES[ROUGH_PATH],
-    SLIDE: (*MEASURES[SLIDE], "onset_repulsive_length"),
+    SLIDE: (*MEASURES[SLIDE], "onset_contact_length"),
 }
 """Quantities whose errors relations are known of."""
 TYPICAL = 0.02

@@ -2,7 +2,7 @@
 
 An exact load, an exact end, or the load of a twin makes a path right; else it is certified, and where a case asks for
 it on the branch of smaller increments. Overlap so deep that the laws are continued there, which the result itself
-reports as overclosure, is a failure.
+reports as interpenetration, is a failure.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ def judge_path(case: PathCase, method: str | PathSolver) -> Verdict:
     if [state.status for state in states] != case.statuses:
         ends = ", ".join(state.status.name.lower() for state in states)
         return Verdict(Outcome.WRONG, spent, f"ended {case.ends.name.lower()} in truth, not {ends}")
-    if overclosure(problem, fit) > OVERCLOSED:
-        reason = f"overclosure {overclosure(problem, fit):.3g}: the overlap, in laws' lengths, is beyond any law"
+    if max_interpenetration(problem, fit) > OVERCLOSED:
+        reason = f"interpenetration {max_interpenetration(problem, fit):.3g}: no law describes so many of its lengths"
         return Verdict(Outcome.FAILED, spent, reason)
     known = case.exact is not None or case.ends is not Status.CONVERGED or case.twin is not None
     return Verdict(Outcome.RIGHT if known else Outcome.CERTIFIED, spent)
@@ -63,7 +63,7 @@ def path_faults(case: PathCase, problem: InterfaceProblem, states: Sequence[Path
     """
     sound = []
     for state in states:
-        if overclosure(problem, [state]) > OVERCLOSED:
+        if max_interpenetration(problem, [state]) > OVERCLOSED:
             break
         sound.append(state)
     for state in sound:
@@ -101,11 +101,11 @@ def _off(loads: Array, wanted: Array | None) -> float:
     return float(np.abs(loads - wanted[: len(loads)]).max() / np.abs(wanted).max())
 
 
-def overclosure(problem: InterfaceProblem, states: Sequence[PathState]) -> float:
+def max_interpenetration(problem: InterfaceProblem, states: Sequence[PathState]) -> float:
     """Deepest overlap, in the laws' lengths, as the results report it."""
     deepest = 0.0
     for state in states:
         here = problem.at(state.step)
         gap = here.gap(state.displacement)
-        deepest = max(deepest, state_observables(here, gap, here.traction(gap))["overclosure"])
+        deepest = max(deepest, state_observables(here, gap, here.traction(gap))["max_interpenetration"])
     return deepest

@@ -105,7 +105,7 @@ class PathCase:
         gap = self.shape + self.points * np.fft.irfft(waves, self.points)
         if step.normal.control is Trait.APPROACH:
             gap[0] -= step.normal.value
-        gap[1] += step.slid
+        gap[1] += step.sliding_distance
         return gap
 
     def traction(self, gap: Array) -> Array:

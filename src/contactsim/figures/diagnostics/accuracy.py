@@ -179,7 +179,7 @@ def _grid_dependence(axes: Axes, values: xr.Dataset, quantity: str, across: str)
     Hurst exponents are kept apart.
     """
     part = values.isel(setting=np.flatnonzero(values.knob == "points"))
-    definitions = {"kappa_r": ("Eq. 3.8", style.CONTACT), "kappa_r_bond": ("pairs in contact", style.PAIRS)}
+    definitions = {"kappa_r": ("Eq. 3.8", style.CONTACT), "kappa_r_pairs": ("pairs in contact", style.PAIRS)}
     definitions = {name: look for name, look in definitions.items() if name in part}
     for name, (_, color) in (definitions or {quantity: ("", style.CONTACT)}).items():
         known = converged(part[name], part)

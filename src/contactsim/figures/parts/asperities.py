@@ -39,14 +39,14 @@ def profiles(panel: Axes, parts: list[xr.Dataset], work: float) -> pd.DataFrame:
         here = one.isel(member=0).sel(snapshot=INDENTED, method="nearest", tolerance=style.SAME)
         strength = float(one.strength.isel(member=0)) if "member" in one.strength.dims else float(one.strength)
         traction = here.normal_traction.values[order] / strength
-        size = float(one.final_repulsive_length.isel(member=0))
+        size = float(one.final_contact_length.isel(member=0))
         words = rf"{ratio_words(ratio)}, $l_{{\mathrm{{rep}}}}/R$ = {size / radius:.4f}"
         color = style.CONTACT if ratio else style.WHOLE
         panel.plot(place / radius, traction, color=color, ls=friction(ratio), lw=1.1, label=words)
         widest = max(widest, float(np.abs(place[np.abs(traction) > 0.01]).max()))
         rows.append(
             pd.DataFrame({"position": place, "normal_traction": traction * strength}).assign(
-                work_ratio=ratio, repulsive_length=size
+                work_ratio=ratio, contact_length=size
             )
         )
     panel.axhline(0.0, color=style.EXACT, lw=0.5)
@@ -65,8 +65,8 @@ def sizes(parts: list[xr.Dataset]) -> pd.DataFrame:
     for one in parts:
         radius = curves.radius(one)
         found = {"work_ratio": one.work_ratio.values}
-        found["size_ratio"] = one.final_repulsive_length.isel(member=0).values / radius
-        error = one.get("final_repulsive_length_grid_error")
+        found["size_ratio"] = one.final_contact_length.isel(member=0).values / radius
+        error = one.get("final_contact_length_grid_error")
         found["error"] = np.full(one.work_ratio.size, np.nan) if error is None else error.values / radius
         rows.append(pd.DataFrame(found))
     return pd.concat(rows).sort_values("work_ratio", ignore_index=True)

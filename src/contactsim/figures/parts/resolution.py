@@ -13,7 +13,7 @@ from contactsim import dataset, notation
 from contactsim.analysis import ensemble
 from contactsim.figures import style
 
-QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_bond": style.PAIRS}
+QUANTITIES = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_pairs": style.PAIRS}
 FAINTEST = 0.35
 """Opacity of the smallest load."""
 CORNER = {"fontsize": 6.5, "ha": "right", "va": "top"}

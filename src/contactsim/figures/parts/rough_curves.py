@@ -35,7 +35,7 @@ WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
 
 def prepared(data: xr.Dataset) -> xr.Dataset:
     """With δ, the approach beyond first touch (nm), and of a hard wall the gradient in contact over all of it."""
-    data = data.assign(indentation=(data.get("approach", data.get("approach_found")) - data.approach_first_touch))
+    data = data.assign(indentation=data.approach - data.approach_first_touch)
     data["indentation"] = data.indentation.mean([dim for dim in data.indentation.dims if dim != "step"])
     if "relative_contact_area" not in data:
         return data

@@ -25,10 +25,10 @@ def curve(one: xr.Dataset) -> pd.DataFrame:
 
     one: one member of one variant; states that did not converge are NaN.
     """
-    part = one.isel(step=np.flatnonzero(np.isfinite(one.slid.values)))
+    part = one.isel(step=np.flatnonzero(np.isfinite(one.sliding_distance.values)))
     period = float(one.length)
     numbers = {name: converged(part[name], part).values for name in NUMBERS}
-    found = {"slide": part.slid.values, "relative_slide": part.slid.values / period}
+    found = {"slide": part.sliding_distance.values, "relative_slide": part.sliding_distance.values / period}
     found |= {word: numbers[name] / period / (MODULUS if is_force else 1) for name, (word, is_force) in NUMBERS.items()}
     return pd.DataFrame(found)
 
@@ -36,16 +36,16 @@ def curve(one: xr.Dataset) -> pd.DataFrame:
 NUMBERS = {
     "friction_force": ("force", True),
     "line_load": ("load", True),
-    "repulsive_length": ("area", False),
-    "contact_trailing": ("trailing", False),
-    "contact_leading": ("leading", False),
+    "contact_length": ("area", False),
+    "contact_trailing_edge": ("trailing", False),
+    "contact_leading_edge": ("leading", False),
 }
 """What is read off states, its name in a curve, and whether it is a force."""
 
 
 def stages(one: xr.Dataset, states: pd.DataFrame) -> list[int]:
     """The states A to E of a slide: before it, peeling, before the first slip, and after it."""
-    slips = one.event_slide.dropna("event").values
+    slips = one.event_sliding_distance.dropna("event").values
     after = int(np.searchsorted(states.slide.values, slips[0] - 1e-9)) if slips.size else len(states) - 1
     before = after - 1
     half = int(BARELY * before)

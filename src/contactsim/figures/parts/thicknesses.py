@@ -41,9 +41,9 @@ def curves(data: xr.Dataset, axes: list[Axes]) -> None:
         style.with_errors(area, pressure, one, "relative_contact_area", **look)
         style.with_errors(factor, pressure, one, "kappa_r", **look)
         if thickness == thickest:
-            style.with_errors(factor, pressure, one, "kappa_r_bond", **look, alpha=FAINT)
+            style.with_errors(factor, pressure, one, "kappa_r_pairs", **look, alpha=FAINT)
         style.grid_error(last, pressure, one, "kappa_r", **look)
-        style.grid_error(last, pressure, one, "kappa_r_bond", **look, alpha=FAINT)
+        style.grid_error(last, pressure, one, "kappa_r_pairs", **look, alpha=FAINT)
         if thickness < thickest:
             for name, alpha in SHADES.items():
                 moved, error = one[f"{name}_change"], one[f"{name}_change_standard_error"]
