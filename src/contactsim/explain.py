@@ -131,7 +131,8 @@ def _slide(scene: Scene) -> str:
     slides = [step for step in scene.path.steps if step.held is not None]
     if not slides:
         return ""
-    ends = f"from {min(step.sliding_distance for step in slides):g} to {max(step.sliding_distance for step in slides):g} nm"
+    distances = [step.sliding_distance for step in slides]
+    ends = f"from {min(distances):g} to {max(distances):g} nm"
     return f"; the upper body slides along x {ends} in {len(slides)} steps, at {slides[-1].held.text}"
 
 

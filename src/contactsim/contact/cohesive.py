@@ -69,7 +69,8 @@ class InterfaceProblem:
     shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
     derived: factor (m,) by which the tangential displacement follows the normal one, where it is read but not exerted;
     approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work;
-    origin: approach (nm) at which those of load steps are zero; sliding_distance: how far (nm) the upper body has moved along x.
+    origin: approach (nm) at which those of load steps are zero; sliding_distance: how far (nm) the upper body has moved
+    along x.
     """
 
     grid: Grid

@@ -102,7 +102,7 @@ class LoadStep:
         return self
 
     @property
-    def slid(self) -> float:
+    def sliding_distance(self) -> float:
         """Distance (nm) that the upper body has moved along x."""
         return self.value if self.held else 0.0
 

@@ -66,8 +66,8 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
 
     line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; contact_length,
     lengths for `INTERACTING`, mean_gap, min_gap, nm; max_pressure and max_tensile_traction: normal traction at its
-    largest, GPa; max_interpenetration: deepest overlap, and slip: largest tangential gap where there is repulsion, of springs
-    that to the nearest site, over the laws' lengths.
+    largest, GPa; max_interpenetration: deepest overlap, and slip: largest tangential gap where there is repulsion, of
+    springs that to the nearest site, over the laws' lengths.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength

@@ -28,8 +28,8 @@ COLUMNS = (
 class Slide:
     """A slide as a line through its states and both sides of its slips.
 
-    sliding_distance (nm), force (N/m), length (nm): (place,); after: whether a place is the far side of a slip, (place,); width: of
-    the slide between both sides of it, nm; state: number of the state, on the slide, that a place is or comes after.
+    sliding_distance (nm), force (N/m), length (nm): (place,); after: whether a place is the far side of a slip,
+    (place,); width: of the slide between both sides of it, nm; state: number of the state that a place is or follows.
     """
 
     sliding_distance: Array

@@ -37,8 +37,8 @@ TOUCHING = 1e-4
 def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array) -> dict[str, float]:
     """Numbers of one state on a slide: gap (2, n), nm; displacement (exerted, m).
 
-    sliding_distance, nm; contact_trailing_edge, contact_leading_edge: outermost edges of what is under repulsion, nm, NaN without;
-    contact_slip: mean tangential gap where surfaces are closest, nm; elastic_energy of the bodies, nJ/m.
+    sliding_distance, nm; contact_trailing_edge, contact_leading_edge: outermost edges of what is under repulsion, nm,
+    NaN without; contact_slip: mean tangential gap where surfaces are closest, nm; elastic_energy of the bodies, nJ/m.
     """
     close = gap[0] <= gap[0].min() + problem.law.reach
     weighted = problem.balanced(np.zeros_like(displacement), displacement) * problem.weights
