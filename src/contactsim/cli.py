@@ -18,7 +18,6 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.aggregate import combined, derived, of_states
 from contactsim.analysis.tiers import compared, is_within, summary
 from contactsim.contact.scene import Scene
 from contactsim.error_control.control import reach
@@ -28,6 +27,7 @@ from contactsim.error_control.options import chosen
 from contactsim.errors import SceneError
 from contactsim.evaluation import budget
 from contactsim.explain import explain
+from contactsim.observables.derived import combine_runs, derive_contact_factors, summarise_paths
 from contactsim.solvers.registry import solver
 from contactsim.status import Status, is_solved
 from contactsim.study.execute import asked_of, labelled, simulate
@@ -160,7 +160,7 @@ def _reached(data: xr.Dataset) -> str:
     """What came of an accuracy that was asked for: errors relative to what was found."""
     ending = "_estimated_error"
     names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
-    whole = of_states(combined([(data, {"member": 0})])) if "step" in data.dims else data
+    whole = summarise_paths(combine_runs([(data, {"member": 0})])) if "step" in data.dims else data
     errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
     met, found = (
         "reached" if data.reached else "not reached",
@@ -204,7 +204,7 @@ def cost_scene(options: argparse.Namespace) -> None:
 def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
     """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
     data = labelled(data, settings, [""] * data.step.size).drop_vars("point_digest")
-    return data if "step" in data.dims else dataset.described(derived(data))
+    return data if "step" in data.dims else dataset.described(derive_contact_factors(data))
 
 
 def compare_tiers(options: argparse.Namespace) -> None:

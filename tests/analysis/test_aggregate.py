@@ -7,12 +7,14 @@ import pytest
 import xarray as xr
 from scipy.stats import t as student
 
-from contactsim import dataset, reference
+from contactsim import dataset, reference, variables
 from contactsim.analysis import aggregate
-from contactsim.analysis.aggregate import AVERAGED, load_name
+from contactsim.analysis.aggregate import AVERAGED
 from contactsim.analysis.ensemble import departure, relative_change, unconverged
 from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fits
 from contactsim.errors import SceneError
+from contactsim.observables import derived
+from contactsim.observables.derived import load_dimension
 from contactsim.status import Status
 
 PRESSURES = [0.01, 0.1, 0.3]
@@ -110,7 +112,7 @@ def test_everything_has_units_and_a_long_name_and_the_study_is_stamped(runs):
 
 
 def test_contact_sets_pressures_and_profiles_stay_with_the_runs(runs):
-    assert not set(aggregate.APART) & set(made(runs()).variables)
+    assert not set(derived.RUN_ONLY_VARIABLES) & set(made(runs()).variables)
 
 
 def test_proportionality_factors_follow_from_area_gradient_and_pressure(runs):
@@ -132,7 +134,7 @@ def test_a_cylinder_has_its_half_width_beside_the_exact_one(runs):
     np.testing.assert_allclose(data.half_width_exact, np.array(PRESSURES) * 50.0, rtol=1e-15)
     np.testing.assert_allclose(data.half_width, data.relative_contact_area * 640.0 / 2, rtol=1e-15)
     assert "kappa" not in data
-    assert load_name(data) == "contact_ratio"
+    assert load_dimension(data) == "contact_ratio"
 
 
 def test_a_varied_radius_gives_each_cylinder_its_own_exact_half_width(runs):
@@ -488,8 +490,8 @@ def test_an_aggregated_study_can_be_written_and_read(runs, tmp_path):
 
 
 def test_a_load_is_named_by_the_dimension_that_it_is():
-    for name in aggregate.LOADS:
-        assert load_name(SimpleNamespace(dims=("member", name))) == name
+    for name in variables.LOADS:
+        assert load_dimension(SimpleNamespace(dims=("member", name))) == name
 
 
 def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_from_the_grid_error(runs):

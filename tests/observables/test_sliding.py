@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 
 from contactsim import reference
-from contactsim.analysis.aggregate import combined
 from contactsim.contact.cohesive import InterfaceProblem, pose_interface
 from contactsim.contact.loading import LoadPath, LoadStep, Slide, sweep
 from contactsim.contact.scene import Body, Scene
@@ -19,6 +18,7 @@ from contactsim.evaluation.work_precision.knobs import solutions
 from contactsim.interface.laws import CohesiveZone
 from contactsim.interface.pairing import Windowed
 from contactsim.observables import friction, peeling, sliding
+from contactsim.observables.derived import combine_runs
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.record import simulate_path
@@ -418,7 +418,7 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
 
 
 def test_a_slide_is_priced_whole_with_its_slips():
-    found = solutions(combined([(dataset(), {"member": 0})]))
+    found = solutions(combine_runs([(dataset(), {"member": 0})]))
     assert found.transforms.item() == dataset().transforms.sum().item()
     assert found.static_friction.item() == friction.slid(dataset()).static_friction.item()
     assert "event" not in found.dims

@@ -16,16 +16,12 @@ from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fits
-from contactsim.observables.adhesion import AREAS, SUMMARY, summarised
-from contactsim.observables.contact import proportionality
-from contactsim.observables.friction import slid
-from contactsim.observables.hysteresis import CYCLE, cycled
-from contactsim.observables.linearity import AREA_LOAD, related
+from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.derived import combine_runs, summarise_approaches, summarise_paths
+from contactsim.observables.hysteresis import CYCLE
+from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET, THRESHOLD
-from contactsim.variables import ERRORS, LOADS
-
-APART = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
-"""What stays with the runs."""
+from contactsim.variables import ERRORS
 
 AVERAGED = (
     "relative_contact_area",
@@ -78,32 +74,12 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     return dataset.stamped(dataset.described(data), settings["title"], settings, source)
 
 
-def load_name(data: xr.Dataset) -> str:
-    """The dimension along which the load varies."""
-    return next(name for name in LOADS if name in data.dims)
-
-
-def combined(parts: list[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
-    """Datasets of runs, each with its place among the varied keys and members, as one, with κ and κ_r."""
-    for dim in ("step", "event"):  # paths of a study may differ in length, and in how often they slip
-        longest = max((data.sizes.get(dim, 0) for data, _ in parts), default=0)
-        if any(data.sizes.get(dim, longest) < longest for data, _ in parts):
-            parts = [(data.reindex({dim: np.arange(longest)}), place) for data, place in parts]
-    places = [
-        data.drop_vars([*APART, *place], errors="ignore").expand_dims({name: [at] for name, at in place.items()})
-        for data, place in parts
-    ]
-    data = xr.combine_by_coords(places, combine_attrs="drop", join="outer", compat="no_conflicts")
-    for name in {"points", "length", "contact_modulus", "seed", "points_y", "length_y"} & set(data):
-        if (data[name] == data[name].values.flat[0]).all():
-            data[name] = data[name].values.flat[0]
-    return data if "step" in data.dims else derived(data)
-
-
 def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     """Paths with what they amount to, and its change on halving the grid, on solving more tightly, and with no less."""
     smooth = "line_load" in fine  # else a hard wall pressed through given approaches
-    made, names = (of_states, AVERAGED_STATES) if smooth else (_of_contacts, (*AVERAGED, "normalised_pressure"))
+    made, names = (
+        (summarise_paths, AVERAGED_STATES) if smooth else (summarise_approaches, (*AVERAGED, "normalised_pressure"))
+    )
     data = made(fine)
     if data.member.size > 1:
         data = data.merge(_ensemble(data, names))
@@ -117,21 +93,6 @@ def _paths(fine: xr.Dataset, runs: list[dict]) -> xr.Dataset:
     return data
 
 
-def _of_contacts(data: xr.Dataset) -> xr.Dataset:
-    """States of a hard wall with their pressure over the modulus, and what their curve amounts to."""
-    return related(data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus))
-
-
-def of_states(data: xr.Dataset) -> xr.Dataset:
-    """States of smooth laws as parts of the whole, and what their paths amount to."""
-    data = cycled(summarised(data))
-    data = slid(data) if "sliding_distance" in data else data
-    ratios = {name: data[length] / data.length for name, length in AREAS.items()}
-    for part in ("repulsive", "interacting"):
-        ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
-    return related(data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus}))
-
-
 def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
     """What errors are measured by, as far as there is such: suffix and dataset."""
     for error in ERRORS:
@@ -141,29 +102,7 @@ def _others(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
 
 
 def _read(runs: list[dict]) -> xr.Dataset:
-    return combined([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs])
-
-
-def derived(data: xr.Dataset) -> xr.Dataset:
-    """Loads on their own at a hard wall, with κ, κ_r, the reduced pressure in contact and the size of a round one."""
-    area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
-
-    def kappa(gradient: xr.DataArray) -> xr.DataArray:
-        """κ with that gradient."""
-        return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
-
-    data = data.assign(
-        kappa_r=kappa(data.rms_gradient_contact),
-        kappa_r_pairs=kappa(data.rms_gradient_contact_pairs),
-        reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
-    )
-    if "reduced_pressure" in data.dims:
-        data["kappa"] = area / data.reduced_pressure
-    if "contact_ratio" in data.dims and "length_y" in data:
-        data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
-    elif "contact_ratio" in data.dims:
-        data["half_width"] = area * data.length / 2
-    return data
+    return combine_runs([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs])
 
 
 def _ensemble(data: xr.Dataset, names: Sequence[str] = AVERAGED) -> xr.Dataset:

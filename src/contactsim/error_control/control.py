@@ -20,10 +20,10 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.aggregate import combined, of_states
 from contactsim.error_control.options import SAFETY, chosen, coarser, left_open, on_grid, on_points, rescaled
 from contactsim.error_control.scaling import MEASURES, ORDERS, SECOND, Kind, kind_of, relations
 from contactsim.grid import Array
+from contactsim.observables.derived import combine_runs, summarise_paths
 from contactsim.solvers.registry import solver
 from contactsim.status import is_solved
 from contactsim.study.execute import asked_of, keep, names_of, simulate
@@ -99,7 +99,7 @@ def outcome(settings: dict, names: Sequence[str], threads: int = 1, begun: Outco
         **asked,
     )
     if is_smooth(settings):
-        whole = of_states(combined([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
+        whole = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
         return Outcome(
             settings, data, {name: np.atleast_1d(whole[name].values.astype(float)) for name in names}, np.empty(0)
         )

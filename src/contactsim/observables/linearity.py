@@ -12,9 +12,9 @@ from itertools import takewhile
 import numpy as np
 import xarray as xr
 
-from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
 from contactsim.observables.adhesion import legs
+from contactsim.status import is_solved
 
 LARGEST = 0.3
 """Relative area up to which a curve is held against a straight line: beyond, a contact begins to be complete."""
@@ -87,7 +87,7 @@ def related(data: xr.Dataset) -> xr.Dataset:
     """A study of paths with what its curves of area against load amount to; they end where one did not converge."""
     name = next(kind for kind in KINDS if kind in data)
     approach = data.approach
-    pressure = converged(data.normalised_pressure, data)
+    pressure = data.normalised_pressure.where(is_solved(data.status))
     whole = data.rms_gradient.mean("step") if "step" in data.rms_gradient.dims else data.rms_gradient
     columns = xr.apply_ufunc(
         curve_numbers,

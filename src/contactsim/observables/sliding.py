@@ -15,8 +15,6 @@ import xarray as xr
 
 from contactsim.contact.cohesive import InterfaceProblem
 from contactsim.grid import Array
-from contactsim.observables.adhesion import contact_length
-from contactsim.paths.continuation import Leap
 
 EVENT = (
     "event_step",
@@ -68,37 +66,6 @@ def contact_ends(gap: Array, shape: Array, spacing: float) -> tuple[float, float
         share = 0.5 if not 0 <= beside < count else here[place] / (here[place] - here[beside])
         ends.append((place + (beside - place) * share - count // 2) * spacing)
     return float(ends[0]), float(ends[1])
-
-
-def slip_numbers(problem: InterfaceProblem, leap: Leap, step: int) -> dict[str, float]:
-    """Numbers of one slip (`EVENT`), by the step during which it came.
-
-    event_width: of the slide between both sides, nm; event_slip: how far the contact slipped, nm; the energy, nJ/m, is
-    what the bodies release, of which the interface keeps a part.
-    """
-    sides = []
-    for at, state in ((leap.left, leap.before), (leap.step, leap.after)):
-        here = problem.at(at)
-        numbers = slide_observables(here, state.gap, state.displacement)
-        numbers["force"] = (
-            float(state.traction[1:].mean() * problem.grid.lengths[0]) if len(state.traction) > 1 else 0.0
-        )
-        numbers["length"] = contact_length(state.gap[0], problem.grid.spacing[0])
-        if abs(state.gap[0].mean()) <= TOUCHING:
-            numbers["length"] = np.nan
-        sides.append(numbers)
-    before, after = sides
-    return {
-        "event_step": step,
-        "event_sliding_distance": leap.step.sliding_distance,
-        "event_width": abs(leap.step.sliding_distance - leap.left.sliding_distance),
-        "event_force_before": before["force"],
-        "event_force_after": after["force"],
-        "event_length_before": before["length"],
-        "event_length_after": after["length"],
-        "event_released_energy": before["elastic_energy"] - after["elastic_energy"],
-        "event_slip": abs(after["contact_slip"] - before["contact_slip"]),
-    }
 
 
 def slips_of(slips: Sequence[Mapping[str, float]]) -> xr.Dataset:

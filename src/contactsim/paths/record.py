@@ -15,9 +15,10 @@ from contactsim.contact.cohesive import InterfaceProblem, pose_interface
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
-from contactsim.observables.sliding import slide_observables, slip_numbers, slips_of
+from contactsim.observables.sliding import slide_observables, slips_of
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Increments, Requested
+from contactsim.paths.slips import slip_numbers
 from contactsim.solvers.cohesive.base import PathSolver
 from contactsim.study.scenes import increments_of
 from contactsim.surfaces.statistics import local_squares

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.aggregate import combined
 from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, kind_of, solutions
+from contactsim.observables.derived import combine_runs
 from contactsim.provenance import computing_digest, digest
 from contactsim.solvers.registry import installed, module_of, peer_version, solver
 from contactsim.study.execute import labelled, simulate
@@ -93,7 +93,7 @@ class Case:
             while len(times) < self.settings["repeats"] and not (times and times[-1] > LONG):
                 parts = [(simulated(run.settings), run) for run in runs]
                 times.append(float(sum(data.seconds.sum() for data, _ in parts)))
-            data = combined(
+            data = combine_runs(
                 [
                     (labelled(data, run.settings, [""] * data.step.size), run.coordinates | {"member": run.member})
                     for data, run in parts

@@ -14,9 +14,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from contactsim.analysis.aggregate import load_name
 from contactsim.evaluation.work_precision.cases import REFERENCE
 from contactsim.evaluation.work_precision.knobs import KNOBS, solutions
+from contactsim.observables.derived import load_dimension
 from contactsim.status import is_solved
 
 ROUNDING = 1e-10
@@ -58,7 +58,7 @@ def _size(data: xr.Dataset) -> float:
 def _ensembles(case_settings: dict, study: xr.Dataset, default: str) -> Iterable[dict]:
     """The standard error of ensembles of two members up to all, from the study's own scatter."""
     most, loads = study.member.size, case_settings["load"]
-    chosen = solutions(study.sel({load_name(study): loads}, method="nearest") if loads else study)
+    chosen = solutions(study.sel({load_dimension(study): loads}, method="nearest") if loads else study)
     for members in range(2, most + 1) if most > 1 else ():
         row = {"solver": default, "knob": "members", "points": int(study.points), "members": members}
         for name in case_settings["quantities"]:

@@ -14,10 +14,11 @@ from pathlib import Path
 
 import xarray as xr
 
-from contactsim.analysis.aggregate import AVERAGED, of_states
+from contactsim.analysis.aggregate import AVERAGED
 from contactsim.errors import SceneError
 from contactsim.interface.pairing import Windowed
 from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.derived import summarise_paths
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET
@@ -207,7 +208,7 @@ def solutions(data: xr.Dataset) -> xr.Dataset:
         return data
     failed = ~is_solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
-    found = of_states(data)
+    found = summarise_paths(data)
     return found[[name for name in WholeSlide.quantities if name in found]].assign(
         transforms=data.transforms.sum("step"), status=first
     )

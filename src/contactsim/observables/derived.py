@@ -1,0 +1,98 @@
+"""Combine the datasets of single runs, and derive from their states the numbers that depend on several variables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from contactsim.observables.adhesion import AREAS, summarised
+from contactsim.observables.contact import proportionality
+from contactsim.observables.friction import slid
+from contactsim.observables.hysteresis import cycled
+from contactsim.observables.linearity import related
+from contactsim.variables import LOADS
+
+RUN_ONLY_VARIABLES = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
+"""Variables that stay with the single runs."""
+SHARED_SCALARS = ("points", "length", "contact_modulus", "seed", "points_y", "length_y")
+"""Variables that become scalars where all runs have the same value."""
+
+
+def load_dimension(data: xr.Dataset) -> str:
+    """Return the name of the dimension along which the load varies."""
+    return next(name for name in LOADS if name in data.dims)
+
+
+def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
+    """Return one dataset of several runs.
+
+    Parameters
+    ----------
+    runs
+        The dataset of each run, and its coordinates: the values of the varied keys and the member.
+
+    Returns
+    -------
+    Dataset with a dimension for each coordinate. Paths of unequal length are filled up with NaN. Loads on their own
+    have the contact factors of `derive_contact_factors`.
+    """
+    for dim in ("step", "event"):  # paths of a study may differ in length, and in how often they slip
+        longest = max((data.sizes.get(dim, 0) for data, _ in runs), default=0)
+        if any(data.sizes.get(dim, longest) < longest for data, _ in runs):
+            runs = [(data.reindex({dim: np.arange(longest)}), coordinates) for data, coordinates in runs]
+    expanded = [
+        data.drop_vars([*RUN_ONLY_VARIABLES, *coordinates], errors="ignore").expand_dims(
+            {name: [value] for name, value in coordinates.items()}
+        )
+        for data, coordinates in runs
+    ]
+    data = xr.combine_by_coords(expanded, combine_attrs="drop", join="outer", compat="no_conflicts")
+    for name in set(SHARED_SCALARS) & set(data):
+        if (data[name] == data[name].values.flat[0]).all():
+            data[name] = data[name].values.flat[0]
+    return data if "step" in data.dims else derive_contact_factors(data)
+
+
+def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
+    """Return loads on their own at a hard wall with κ, κ_r, the reduced pressure in contact and the contact's size.
+
+    Notes
+    -----
+    κ, of dimension `reduced_pressure`, is Eq. 3.1 and κ_r is Eq. 3.3. A contact of a cylinder has a `half_width`, that
+    of a sphere a `contact_radius`, both in nm.
+    """
+    area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
+
+    def kappa(gradient: xr.DataArray) -> xr.DataArray:
+        """Return κ for that gradient."""
+        return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
+
+    data = data.assign(
+        kappa_r=kappa(data.rms_gradient_contact),
+        kappa_r_pairs=kappa(data.rms_gradient_contact_pairs),
+        reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
+    )
+    if "reduced_pressure" in data.dims:
+        data["kappa"] = area / data.reduced_pressure
+    if "contact_ratio" in data.dims and "length_y" in data:
+        data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
+    elif "contact_ratio" in data.dims:
+        data["half_width"] = area * data.length / 2
+    return data
+
+
+def summarise_approaches(data: xr.Dataset) -> xr.Dataset:
+    """Return approaches to a hard wall with their normalised pressure and the summary of their area-load curves."""
+    return related(data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus))
+
+
+def summarise_paths(data: xr.Dataset) -> xr.Dataset:
+    """Return cohesive paths with relative areas, normalised pressures and the summaries of their curves."""
+    data = cycled(summarised(data))
+    data = slid(data) if "sliding_distance" in data else data
+    ratios = {name: data[length] / data.length for name, length in AREAS.items()}
+    for part in ("repulsive", "interacting"):
+        ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
+    return related(data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus}))
