@@ -21,7 +21,7 @@ import measure
 import report
 from records import Table, on_one_thread
 
-from contactsim.solvers.registry import installed
+from contactsim.solvers.registry import is_installed
 from contactsim.study.plan import Plan
 
 HERE = Path(__file__).resolve().parent
@@ -55,7 +55,7 @@ def comparisons(sizes: tuple[int, ...], solvers: tuple[str, ...], hursts: tuple[
 def compared(plan: Plan, table: Table, sizes: tuple[int, ...], hursts: tuple[float, ...], rounds: int) -> None:
     """Single loads with every solver."""
     solvers = ("active_set", "polonsky_keer", "verlet", "tamaas")
-    if not installed("tamaas"):
+    if not is_installed("tamaas"):
         logger.warning("tamaas is not installed and left out: pip install -e .[benchmark]")
         solvers = solvers[:-1]
     tolerance = plan.studies["rough_line"].settings["tolerance"]

@@ -15,11 +15,11 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from contactsim.contact.hard_wall import Certificate, Scale, WallProblem, pose
+from contactsim.contact.hard_wall import Certificate, HardWallProblem, Scale, pose_hard_wall
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array, Grid, Tally
 from contactsim.solvers.base import solve
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import scene_of
 
@@ -74,12 +74,12 @@ def sweep(plan: Plan, case: dict, rounds: int) -> dict:
     least, largest = plan.figures["fig_3_2"].settings["select"]["reduced_pressure"]
     loads = [p for p in plan.studies["rough_line"].settings["load"]["values"] if least <= p <= largest]
     scene, heights = posed(plan, case, loads)
-    method, spent, results = solver(case["solver"]), np.zeros((rounds, 3)), []
+    method, spent, results = make_solver(case["solver"]), np.zeros((rounds, 3)), []
     for row in spent:
         results.clear()
         for step in scene.path.steps:
             begin = time.thread_time()
-            problem, scale = pose(scene, step, heights, case["tolerance"], 1)
+            problem, scale = pose_hard_wall(scene, step, heights, case["tolerance"], 1)
             problem.tally = problem.compliance.tally = ByGrid(heights.size)
             results.append(solve(method, problem, scale))
             seconds = time.thread_time() - begin
@@ -97,9 +97,9 @@ def sweep(plan: Plan, case: dict, rounds: int) -> dict:
     }
 
 
-def single(problem: WallProblem, scale: Scale, name: str) -> dict:
+def single(problem: HardWallProblem, scale: Scale, name: str) -> dict:
     """One load with one solver, whose only budget is time."""
-    result = solve(solver(name, budget=10**9), problem, scale)
+    result = solve(make_solver(name, budget=10**9), problem, scale)
     return {
         "status": result.status.name,
         "area": result.relative_contact_area,
@@ -114,7 +114,7 @@ def compare(plan: Plan, case: dict, rounds: int) -> dict:
 
     def once(name: str) -> dict:
         begin = time.thread_time()
-        problem, scale = pose(scene, scene.path.steps[0], heights, case["tolerance"], 1)
+        problem, scale = pose_hard_wall(scene, scene.path.steps[0], heights, case["tolerance"], 1)
         return single(problem, scale, name) | {"seconds": time.thread_time() - begin}
 
     def turns() -> dict:

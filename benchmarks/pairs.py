@@ -16,10 +16,10 @@ import peers
 from measure import CAP, LONG, in_child, posed, worst
 from scipy.fft import rfft2
 
-from contactsim.contact.hard_wall import Scale, WallProblem, pose
+from contactsim.contact.hard_wall import HardWallProblem, Scale, pose_hard_wall
 from contactsim.grid import Array
 from contactsim.solvers.base import solve
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
 
 OURS = "conjugate_gradients"
@@ -27,13 +27,13 @@ OURS = "conjugate_gradients"
 
 TICKS = 0.3
 """CPU seconds for which the unit is timed in each round."""
-Posing = Callable[[], tuple[WallProblem, Scale]]
+Posing = Callable[[], tuple[HardWallProblem, Scale]]
 
 
 def surface(plan: Plan, case: dict) -> tuple[Posing, Array]:
     """What poses the case anew, and its heights (nm)."""
     scene, heights = posed(plan, case, [case["reduced_pressure"]], "rough_surface")
-    return lambda: pose(scene, scene.path.steps[0], heights, case["tolerance"], 1), heights
+    return lambda: pose_hard_wall(scene, scene.path.steps[0], heights, case["tolerance"], 1), heights
 
 
 def search(plan: Plan, case: dict, rung: int) -> dict:
@@ -45,7 +45,7 @@ def search(plan: Plan, case: dict, rung: int) -> dict:
 def compare(plan: Plan, case: dict, rounds: int, settings: str) -> dict:
     """Ours and the peer's in turns, in a child process with a cap on its CPU time."""
     posing, heights = surface(plan, case)
-    solve(solver(OURS), *posing())  # compiles
+    solve(make_solver(OURS), *posing())  # compiles
     measured = in_child(lambda: turns(posing, heights, case["solver"], settings, rounds))
     return measured or {"status": f"not finished in {CAP} s", "seconds": CAP, "load_average": os.getloadavg()[0]}
 
@@ -59,7 +59,7 @@ def turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int)
     while len(spent) < rounds and (not spent or spent[-1][2] < LONG):
         unit = transform(heights)
         problem, scale = posing()
-        own, own_seconds = timed(lambda: solve(solver(OURS), *posing()))
+        own, own_seconds = timed(lambda: solve(make_solver(OURS), *posing()))
         (pressure, transforms), seconds = timed(lambda: solved(posing, name, settings))
         spent.append((unit, own_seconds, seconds))
     units, ours, theirs = np.array(spent).T
@@ -67,7 +67,7 @@ def turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int)
     own_certificate, own_gap = problem.certify(own.pressure / scale.pressure)
     both = ((own.pressure / scale.pressure, own_gap), (pressure, gap))
     return {
-        "status": "CONVERGED" if certificate.met(problem.tolerance) else "BUDGET",
+        "status": "CONVERGED" if certificate.met(problem.tolerance) else "MAX_ITERATIONS",
         "settings": settings,
         "area": (pressure > 0).mean(),
         "certificate": worst(certificate),
@@ -106,7 +106,7 @@ def solved(posing: Posing, name: str, settings: str) -> tuple[Array, float]:
     problem, scale = posing()
     if name == "aspher":
         return peers.pressed(problem, peers.Settings.read(settings))
-    result = solve(solver(name, budget=10**9), problem, scale)
+    result = solve(make_solver(name, budget=10**9), problem, scale)
     return result.pressure / scale.pressure, result.record.transforms
 
 

@@ -11,7 +11,7 @@ import itertools
 import time
 from dataclasses import dataclass
 
-from contactsim.contact.hard_wall import WallProblem
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.grid import Array
 
 RUNGS = tuple(10 ** (-power / 2) for power in range(8, 29))
@@ -38,7 +38,7 @@ class Settings:
         return cls(float(tolerance), precision, float(coarse))
 
 
-def pressed(problem: WallProblem, settings: Settings) -> tuple[Array, float]:
+def pressed(problem: HardWallProblem, settings: Settings) -> tuple[Array, float]:
     """Pressure (ny, nx), and the transforms made: two a product and two a preconditioning, one of which an iteration.
 
     Without units, as the problem is: spacing 1, E* = 1.
@@ -66,7 +66,7 @@ def pressed(problem: WallProblem, settings: Settings) -> tuple[Array, float]:
     return result.pressure, spent
 
 
-def quickest(problem: WallProblem, rung: int) -> tuple[Settings, int]:
+def quickest(problem: HardWallProblem, rung: int) -> tuple[Settings, int]:
     """The settings with the least CPU time, each at the loosest tolerance that is certified; and its place in RUNGS.
 
     rung: where to begin. Raises ValueError if nothing is certified.
@@ -87,7 +87,7 @@ def quickest(problem: WallProblem, rung: int) -> tuple[Settings, int]:
     return found[min(found)]
 
 
-def seconds(problem: WallProblem, settings: Settings) -> float:
+def seconds(problem: HardWallProblem, settings: Settings) -> float:
     """CPU seconds of a solution; infinite if it is not certified."""
     begin = time.process_time()
     pressure, _ = pressed(problem, settings)

@@ -11,7 +11,7 @@ import pytest
 import contactsim
 from contactsim import provenance
 from contactsim.provenance import canonical, digest, imports_of, modules_used, source_digest, versions
-from contactsim.solvers.registry import SOLVERS, module_of
+from contactsim.solvers.registry import SOLVERS, solver_module
 
 SOURCE = Path(contactsim.__file__).parent
 MODULES = sorted(
@@ -51,13 +51,13 @@ def test_marching_uses_what_it_imports_directly_or_not_and_no_figure_and_no_solv
         "contactsim.solvers.base",
     } <= set(used)
     assert not [name for name in used if "figures" in name]
-    assert not set(map(module_of, SOLVERS)) & set(used)
+    assert not set(map(solver_module, SOLVERS)) & set(used)
     assert "contactsim.analysis.aggregate" not in used
     assert list(used) == sorted(used)
 
 
 def test_marching_with_a_solver_uses_that_one_only():
-    solvers = set(map(module_of, SOLVERS))
+    solvers = set(map(solver_module, SOLVERS))
     for module in solvers:
         assert solvers & set(modules_used("contactsim.study.execute", module)) == {module}
 

@@ -28,7 +28,7 @@ from contactsim.errors import SceneError
 from contactsim.evaluation import budget
 from contactsim.explain import explain
 from contactsim.observables.derived import combine_runs, derive_contact_factors, summarise_paths
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.status import Status, is_solved
 from contactsim.study.execute import asked_of, labelled, simulate
 from contactsim.study.keys import COMPANIONS
@@ -177,7 +177,7 @@ def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     if "accuracy" in settings:
         found = reach(settings, **settings["accuracy"], threads=threads)
         return found.data, found.last.settings
-    scene, method = scene_of(settings), solver(**settings["solver"])
+    scene, method = scene_of(settings), make_solver(**settings["solver"])
     points = points_of(settings, scene.upper.surface)
     given = {"tolerance": settings["tolerance"], "method": method, "threads": threads}
     return simulate(scene, points=points, **given, **asked_of(settings)), settings

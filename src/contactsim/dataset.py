@@ -51,7 +51,7 @@ SETTINGS = {
     "normal_length": ("nm", "normal characteristic length"),
     "tangential_length": ("nm", "tangential characteristic length"),
     "lattice_constant": ("nm", "lattice constant of the sites that springs join"),
-    "window": ("1", "window of the springs, over the tangential characteristic length"),
+    "tangential_cutoff": ("1", "tangential cutoff of the lattice, over the tangential characteristic length"),
     "depth": ("1", "largest gap that springs bridge, over the normal characteristic length"),
     "weight": ("1", "weight of a spring"),
     "approach": ("nm", "approach at which surfaces slide"),

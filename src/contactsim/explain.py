@@ -16,7 +16,7 @@ from contactsim.dataset import SETTINGS
 from contactsim.interface.laws import EFFECTS
 from contactsim.interface.pairing import Pairing
 from contactsim.paths.increments import Increments
-from contactsim.solvers.registry import SOLVERS, installed, solver, solver_class
+from contactsim.solvers.registry import SOLVERS, is_installed, make_solver, solver_class
 from contactsim.traits import Trait
 
 COMPONENTS = {"n": "normal", "t": "tangential"}
@@ -71,7 +71,7 @@ def explain(
     scene: Scene, points: int, method: str, increments: Increments | None = None, asked: Sequence[str] = ()
 ) -> Explanation:
     """Explain a scene on a grid of `points`, with the solver named `method` and, of smooth laws, increments."""
-    chosen = solver(method)
+    chosen = make_solver(method)
     size = math.prod(scene.upper.surface.shape(points))
     return Explanation(
         bodies=(_body(scene, "upper"), _body(scene, "lower")),
@@ -162,7 +162,7 @@ def _left_out(scene: Scene) -> dict[str, str]:
 
 
 def _why_not(scene: Scene, name: str) -> str:
-    if not installed(name):
+    if not is_installed(name):
         return "is not installed"
     missing = sorted(trait.value for trait in scene.traits - solver_class(name).accepts)
     return f"does not take {missing[0]}" if missing else ""

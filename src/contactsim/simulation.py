@@ -12,16 +12,15 @@ from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
 from contactsim.contact import loading
-from contactsim.contact.hard_wall import pose
+from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.laws import HardWall
 from contactsim.paths.pressures import simulate_loads
 from contactsim.paths.record import simulate_path
-from contactsim.solvers.base import Result, Solver, require, solve
-from contactsim.solvers.registry import solver as named
-from contactsim.solvers.registry import usual
+from contactsim.solvers.base import HardWallSolver, Result, require, solve
+from contactsim.solvers.registry import default_solver, make_solver
 from contactsim.surfaces.measured import Sampled
 from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.shapes import Flat
@@ -39,7 +38,7 @@ def press(
     thickness: float | None = None,
     poisson_ratio: float | None = None,
     tolerance: float = 1e-3,
-    solver: str | Solver | None = None,
+    solver: str | HardWallSolver | None = None,
     threads: int = 1,
 ) -> Result:
     """Press a rigid periodic profile into an elastic half-space or layer, without adhesion or friction.
@@ -56,7 +55,7 @@ def press(
 
     tolerance: of gap in contact and of overlap outside, in grid steps (the typical height difference of neighbouring
     points); close to full contact, and on flat tops at a light load, choose it well below the mean gap, and below p*,
-    in such steps. solver: a name, or a solver with options of its own; without it, the usual one of the dimension.
+    in such steps. solver: a name, or a solver with options of its own; the default one of the dimension without it.
     Units are free but consistent: lengths in one, pressures in that of E*.
 
     Returns pressure, never negative, gap and contact, each shaped as heights; relative_contact_area; approach; status;
@@ -79,9 +78,9 @@ def press(
     path = loading.pressures([mean_pressure]) if approach is None else loading.approaches([approach])
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), path)
-    method = usual(scene) if solver is None else named(solver) if isinstance(solver, str) else solver
+    method = default_solver(scene) if solver is None else make_solver(solver) if isinstance(solver, str) else solver
     require(method, scene)
-    return solve(method, *pose(scene, path.steps[0], profile.heights, tolerance, threads))
+    return solve(method, *pose_hard_wall(scene, path.steps[0], profile.heights, tolerance, threads))
 
 
 def _elasticity(contact_modulus: float, thickness: float | None, poisson_ratio: float | None) -> Elasticity:
@@ -97,19 +96,19 @@ def simulate(
     *,
     points: int | None = None,
     tolerance: float = 1e-3,
-    method: str | Solver | None = None,
+    method: str | HardWallSolver | None = None,
     threads: int = 1,
     **given: object,
 ) -> xr.Dataset:
     """Follow a scene's load path; the workflow's runs are this function.
 
     points: of the grid along x, None for those of a measured surface; tolerance: in grid steps or, of smooth laws, in
-    parts of their strength; method: a solver or the name of one, None for the usual one; given: what
+    parts of their strength; method: a solver or the name of one, None for the default one; given: what
     `simulate_loads`, at a hard wall, or `simulate_path` takes besides, None being as good as left out.
     Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
     reproducible.
     """
-    method = usual(scene) if method is None else named(method) if isinstance(method, str) else method
+    method = default_solver(scene) if method is None else make_solver(method) if isinstance(method, str) else method
     require(method, scene)
     smooth = Trait.SMOOTH in scene.traits
     _refuse_unused(smooth, given)

@@ -13,10 +13,10 @@ class Status(Enum):
     """How a solution ended; the number is stored in datasets, the sentence explains it."""
 
     CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
-    BUDGET = (1, "not converged: the budget of iterations is spent")
+    MAX_ITERATIONS = (1, "not converged: the largest number of iterations is reached")
     NON_FINITE = (2, "failed: a value that is not finite appeared")
-    PULLED_OFF = (3, "no equilibrium: the load pulls the bodies apart")
-    BROKEN_OFF = (4, "not tried: the path broke off before")
+    NO_EQUILIBRIUM = (3, "no equilibrium: the load pulls the bodies apart")
+    SKIPPED = (4, "skipped: the path ended at an earlier step")
     INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
 
     @property

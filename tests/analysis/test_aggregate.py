@@ -21,7 +21,7 @@ PRESSURES = [0.01, 0.1, 0.3]
 HURSTS = [0.2, 0.8]
 MODULUS = 2.0
 GRADIENT = 0.01
-CONVERGED, BUDGET, NON_FINITE, *_ = (status.value[0] for status in Status)
+CONVERGED, MAX_ITERATIONS, NON_FINITE, *_ = (status.value[0] for status in Status)
 SETTINGS = {"title": "A study", "fit_limits": None, "surface": {"radius": 50.0}}
 
 
@@ -170,7 +170,7 @@ def test_every_averaged_quantity_has_mean_error_and_grid_error(runs):
 
 
 def test_unconverged_solutions_are_left_out_of_means_and_errors_and_counted(runs):
-    data = made(runs(bad={(0.2, 1, False, 0): BUDGET, (0.8, 2, False, 2): NON_FINITE}))
+    data = made(runs(bad={(0.2, 1, False, 0): MAX_ITERATIONS, (0.8, 2, False, 2): NON_FINITE}))
     assert unconverged(data) == (2, 24)
     for hurst, row, members in ((0.2, 0, [0, 2, 3]), (0.8, 2, [0, 1, 3]), (0.2, 1, range(4))):
         values = by_hand("mean_gap", hurst, row, members)
@@ -181,16 +181,16 @@ def test_unconverged_solutions_are_left_out_of_means_and_errors_and_counted(runs
 
 
 def test_what_did_not_converge_stays_in_the_dataset_with_its_status(runs):
-    data = made(runs(bad={(0.2, 1, False, 0): BUDGET}))
+    data = made(runs(bad={(0.2, 1, False, 0): MAX_ITERATIONS}))
     one = data.sel(hurst=0.2, member=1).isel(reduced_pressure=0)
-    assert one.status.item() == BUDGET
+    assert one.status.item() == MAX_ITERATIONS
     assert one.mean_gap.item() == numbers(0.2, 1)["mean_gap"][0]
     assert data.status.attrs["flag_meanings"].startswith("converged budget non_finite ")
 
 
 def test_one_converged_member_has_a_mean_but_no_error_and_none_has_neither(runs):
-    one = {(0.2, member, False, 0): BUDGET for member in (1, 2, 3)}
-    none = {(0.8, member, False, 0): BUDGET for member in range(4)}
+    one = {(0.2, member, False, 0): MAX_ITERATIONS for member in (1, 2, 3)}
+    none = {(0.8, member, False, 0): MAX_ITERATIONS for member in range(4)}
     data = made(runs(bad=one | none)).isel(reduced_pressure=0)
     assert data.sel(hurst=0.2).mean_gap_mean.item() == numbers(0.2, 0)["mean_gap"][0]
     assert np.isnan(data.sel(hurst=0.8).mean_gap_mean)
@@ -221,7 +221,7 @@ def test_the_grid_error_is_the_change_of_the_mean_over_the_members_of_both_grids
 
 
 def test_a_member_unconverged_on_either_grid_is_left_out_of_the_grid_error(runs):
-    data = made(runs(companions=3, bad={(0.2, 0, False, 0): BUDGET, (0.2, 2, True, 0): BUDGET}))
+    data = made(runs(companions=3, bad={(0.2, 0, False, 0): MAX_ITERATIONS, (0.2, 2, True, 0): MAX_ITERATIONS}))
     expected = abs(by_hand("mean_gap", 0.2, 0, [1]) - by_hand("mean_gap", 0.2, 0, [1], True)).item()
     found = data.mean_gap_grid_error.sel(hurst=0.2).isel(reduced_pressure=0).item()
     assert found == pytest.approx(expected, rel=1e-12)
@@ -239,7 +239,7 @@ def ensemble(values, bad=()):
     """A dataset of one quantity over (hurst, member, reduced_pressure), unconverged at the places in `bad`."""
     status = np.zeros(np.shape(values), np.int8)
     for place in bad:
-        status[place] = BUDGET
+        status[place] = MAX_ITERATIONS
     dims = ("hurst", "member", "reduced_pressure")
     coordinates = dict(zip(dims, (np.arange(n) / 10 for n in np.shape(values)), strict=True))
     return xr.Dataset({"kappa": (dims, values), "status": (dims, status)}, coordinates)

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadStep, approaches
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from support.cases import refusal
@@ -144,8 +144,10 @@ def test_moving_the_scene_by_whole_nodes_moves_the_answer(name):
     heights = scene.heights(256)
     fields = []
     for shift in (0, 37):
-        problem = pose_interface(scene, np.roll(heights, shift), 1e-9)
-        state = solver("newton").flow(problem.at(LoadStep(Trait.APPROACH, 1.0)), np.zeros(problem.unknowns, complex))
+        problem = pose_cohesive(scene, np.roll(heights, shift), 1e-9)
+        state = make_solver("newton").flow(
+            problem.at(LoadStep(Trait.APPROACH, 1.0)), np.zeros(problem.unknowns, complex)
+        )
         assert state.settled
         fields.append(np.roll(problem.field(state.displacement), -shift, axis=1))
     assert np.abs(fields[1] - fields[0]).max() < 1e-8
@@ -162,7 +164,7 @@ def test_the_answer_does_not_depend_on_the_kind_of_grid():
 @pytest.mark.parametrize("kind", [HalfSpace, Layer])
 @pytest.mark.parametrize("points", [64, 63])
 def test_the_tangent_is_the_derivative_of_the_residual(name, control, kind, points):
-    problem = pose_interface(scene_of(LAWS[name], lower=body(kind, 0.3)), scene_of(LAWS[name]).heights(points), 1e-7)
+    problem = pose_cohesive(scene_of(LAWS[name], lower=body(kind, 0.3)), scene_of(LAWS[name]).heights(points), 1e-7)
     step = LoadStep(Trait.APPROACH, 0.5) if control == "approach" else LoadStep(Trait.MEAN_PRESSURE, 1e-3)
     problem, rng = problem.at(step), np.random.default_rng(2)
     field = 0.3 * rng.standard_normal((problem.unknowns[0], points))
@@ -180,7 +182,7 @@ def test_the_tangent_is_the_derivative_of_the_residual(name, control, kind, poin
 @pytest.mark.parametrize("points", [64, 63])
 def test_the_residual_is_the_derivative_of_the_energy(control, points):
     scene = scene_of(NormalCohesiveZone(2.0))
-    problem, rng = pose_interface(scene, scene.heights(points), 1e-7), np.random.default_rng(2)
+    problem, rng = pose_cohesive(scene, scene.heights(points), 1e-7), np.random.default_rng(2)
     problem = problem.at(LoadStep(*((Trait.APPROACH, 0.5) if control == "approach" else (Trait.MEAN_PRESSURE, 1e-3))))
     state = problem.coefficients(0.3 * rng.standard_normal((1, points)))
     change = problem.coefficients(1e-4 * rng.standard_normal((1, points)))
@@ -196,7 +198,7 @@ def test_a_tolerance_that_is_not_positive_is_refused(value):
 
     def pose():
         try:
-            pose_interface(scene, scene.heights(16), value)
+            pose_cohesive(scene, scene.heights(16), value)
         except SceneError as error:
             raise error.within("scene.yaml") from None
 

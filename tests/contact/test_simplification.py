@@ -10,11 +10,11 @@ import pytest
 import yaml
 
 from contactsim import cli, dataset
-from contactsim.analysis import aggregate
 from contactsim.contact.simplification import LEFT_OUT, left_out
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.observables.adhesion import summarised
 from contactsim.study import execute
 from contactsim.study.study import Study
 from support.smooth import LAYER, scene_of
@@ -93,7 +93,7 @@ def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path
     assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
     error = data.pull_off_load_loading_left_out_error
     files = [tmp_path / f"{run.variant}_left_out.nc" for run in study.runs() if run.companion]
-    whole = [aggregate.summarised(dataset.read(file)).pull_off_load_loading for file in files]
+    whole = [summarised(dataset.read(file)).pull_off_load_loading for file in files]
     assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
     assert (error > 5).all()
 

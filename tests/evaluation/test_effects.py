@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact import loading
-from contactsim.contact.hard_wall import pose
+from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
@@ -19,7 +19,7 @@ from contactsim.explain import explain
 from contactsim.figures.sketch import save_sketch
 from contactsim.interface.laws import HardWall
 from contactsim.solvers.base import solve
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study.execute import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from support.cases import ALL, press, rough
@@ -33,8 +33,8 @@ def scene(lower=None, upper=None, effects=WALL, path=None):
 
 
 def solved(subject, points=256, name="active_set"):
-    problem, scale = pose(subject, subject.path.steps[0], subject.heights(points), 1e-6, 1)
-    return solve(solver(name), problem, scale)
+    problem, scale = pose_hard_wall(subject, subject.path.steps[0], subject.heights(points), 1e-6, 1)
+    return solve(make_solver(name), problem, scale)
 
 
 def test_a_wall_alone_has_one_component():
@@ -87,7 +87,7 @@ def test_complete_contact_costs_next_to_nothing():
 @pytest.mark.parametrize("name", ALL)
 def test_peak_memory_is_the_few_fields_that_are_explained(name):
     points, peaks = 2**15, []
-    method = solver(name) if name == "active_set" else solver(name, budget=2)
+    method = make_solver(name) if name == "active_set" else make_solver(name, budget=2)
     heights = rough(points)
     for pressure in (1e-3, 0.1, 0.3, 1.0):
         tracemalloc.start()
@@ -127,7 +127,7 @@ print((peak() - before) * 2**10 / points**2 / 8)
 def test_a_run_of_a_surface_never_holds_more_than_the_fields_that_are_explained(threads):
     command = [sys.executable, "-c", PRESS_A_SURFACE, str(threads)]
     peak = float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    told = solver("conjugate_gradients").fields
+    told = make_solver("conjugate_gradients").fields
     assert 0.8 * told < peak < told  # doubles a point, of the whole process, the libraries' own memory included
 
 
@@ -138,8 +138,8 @@ def test_an_iteration_takes_the_transforms_that_are_explained(name):
     batch = {"active_set": "inner_budget", "polonsky_keer": "batch", "verlet": "batch"}[name]
     for iterations in (3, 8):
         alone = {"coarsest": points, "reduction": 1e-12} if name == "active_set" else {}
-        method = solver(name, **{batch: iterations, "budget": 1}, **alone)
-        problem, scale = pose(subject, subject.path.steps[0], rough(points), 1e-12, 1)
+        method = make_solver(name, **{batch: iterations, "budget": 1}, **alone)
+        problem, scale = pose_hard_wall(subject, subject.path.steps[0], rough(points), 1e-12, 1)
         counts.append(solve(method, problem, scale).record.transforms)
     assert (counts[1] - counts[0]) / 5 == explain(subject, points, name).transforms
 
@@ -174,6 +174,6 @@ def test_a_surface_is_explained_by_all_its_points_and_drawn_through_its_middle(t
     subject = Scene(Body(Flat.facing(ball), HalfSpace(1.0)), Body(ball), (HardWall(),), loading.pressures([1e-3]))
     told = explain(subject, 32, "conjugate_gradients")
     assert told.unknowns == 32 * 32
-    assert told.megabytes == pytest.approx(32 * 32 * 8 * solver("conjugate_gradients").fields / 1e6)
+    assert told.megabytes == pytest.approx(32 * 32 * 8 * make_solver("conjugate_gradients").fields / 1e6)
     save_sketch(subject, 32, tmp_path / "sketch.png")
     assert (tmp_path / "sketch.png").read_bytes().startswith(b"\x89PNG")

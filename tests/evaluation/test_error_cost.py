@@ -59,7 +59,7 @@ def test_a_reference_without_a_value_leaves_no_error():
 
 def test_the_share_of_unconverged_solutions_is_told():
     data = job(GRIDS, [2.1, 2.1])
-    data["status"][1, 0] = Status.BUDGET.value[0]
+    data["status"][1, 0] = Status.MAX_ITERATIONS.value[0]
     assert table_of(active_set=data).unconverged[:2].tolist() == [0.0, 0.5]
 
 
@@ -75,7 +75,7 @@ def test_the_work_of_an_ensemble_is_its_members_and_its_error_falls_as_their_roo
 
 def test_an_ensemble_with_unconverged_solutions_says_so():
     data = study()
-    data["status"][0, 0] = Status.BUDGET.value[0]
+    data["status"][0, 0] = Status.MAX_ITERATIONS.value[0]
     table = error_cost.table(
         SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, data, "active_set"
     )
@@ -115,7 +115,7 @@ def test_an_ensemble_of_paths_has_the_standard_error_of_what_they_amount_to():
     assert found.members.tolist() == [2, 3]
     assert found.pull_off_load_loading.to_numpy() == pytest.approx([2 / np.sqrt(2) / 202, 2 / np.sqrt(3) / 202])
     assert found.work.tolist() == [2 * 30 * 64, 3 * 30 * 64]
-    study["status"][1, 2] = Status.BUDGET.value[0]
+    study["status"][1, 2] = Status.MAX_ITERATIONS.value[0]
     found = path_table(path_job([("points", 16, 1e-3, 0.5)], [220.0]), study).query("knob == 'members'")
     assert found.unconverged.to_numpy() == pytest.approx([1 / 3, 1 / 3])  # of the paths, not of their steps
 

@@ -24,7 +24,7 @@ from contactsim.evaluation.robustness.survey import gather, judge, read_settings
 from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, taken
 from contactsim.figures.layout import render
 from contactsim.solvers.base import State
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
 from contactsim.variables import VARIABLES
 from support.cases import ALL, ON_SURFACES
@@ -39,7 +39,7 @@ SETTINGS = yaml.safe_load((ROOT / "config/stability.yaml").read_text(encoding="u
 class Stuck:
     """A solver that believes that uniform pressure times a factor is the answer."""
 
-    accepts = solver("active_set").accepts
+    accepts = make_solver("active_set").accepts
     budget = 3
 
     def __init__(self, factor):
@@ -73,7 +73,7 @@ def solved(case):
         (replace(CASE, exact=None), "active_set", Outcome.CERTIFIED, ""),
         (replace(CASE, mean_pressure=-1.0), "active_set", Outcome.REFUSED, "nothing can pull"),
         (replace(CASE, mean_pressure=None, approach=0.0), "verlet", Outcome.REFUSED, "APPROACH"),
-        (CASE, solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "budget"),
+        (CASE, make_solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "budget"),
         (CASE, Stuck(1.0), Outcome.FAILED, "budget"),
         (CASE, "conjugate_gradients", Outcome.REFUSED, "LINE"),
         (SURFACE, "conjugate_gradients", Outcome.RIGHT, ""),
@@ -195,7 +195,7 @@ def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
     settings = Plan.read(ROOT / "config").stability
     assert settings["hazards"] == list(HAZARDS)
     assert set(settings["solvers"]) == {*ALL, *ON_SURFACES, *ON_PATHS}
-    assert settings["solvers"]["verlet"]["budget"] == solver("verlet").budget
+    assert settings["solvers"]["verlet"]["budget"] == make_solver("verlet").budget
 
 
 def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):

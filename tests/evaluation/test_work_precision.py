@@ -252,12 +252,12 @@ def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, mon
     one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
     data = cases.simulated(one.study_at(one.turned("newton")[0], "newton").runs()[0].settings)
     if place is not None:
-        data["status"][place] = Status.BUDGET.value[0]
-        data["status"][place:][1:] = Status.BROKEN_OFF.value[0]
+        data["status"][place] = Status.MAX_ITERATIONS.value[0]
+        data["status"][place:][1:] = Status.SKIPPED.value[0]
     monkeypatch.setattr(cases, "simulated", lambda settings: data)
     found, _ = one.measure("newton")
     assert float(error_cost._unconverged(found)) == share
-    assert found.status.item() == (0 if place is None else Status.BUDGET.value[0])
+    assert found.status.item() == (0 if place is None else Status.MAX_ITERATIONS.value[0])
 
 
 def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):

@@ -12,7 +12,7 @@ import contactsim
 from contactsim import dataset
 from contactsim.errors import SceneError
 from contactsim.figures import ch3, maps
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study.execute import simulate
 from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study
@@ -223,7 +223,7 @@ def test_what_cannot_be_drawn_is_refused_with_key_and_what_is_allowed():
     for spacing in (None, 0.0, -1.0, "1", (1.0, 2.0, 3.0), (1.0, np.nan)):
         error = refusal(lambda spacing=spacing: maps.draw(pressed(), spacing=spacing))
         assert (error.key, error.value) == ("spacing", spacing)
-    lost = pressed(solver=solver("conjugate_gradients", budget=1, inner_budget=1), tolerance=1e-12)
+    lost = pressed(solver=make_solver("conjugate_gradients", budget=1, inner_budget=1), tolerance=1e-12)
     assert refusal(lambda: maps.draw(lost, spacing=SPACING)).key == "status"
     data = simulated()
     assert refusal(lambda: maps.draw(data)).key == "step"

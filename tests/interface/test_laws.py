@@ -22,7 +22,7 @@ RNG = np.random.default_rng(5)
 
 def gaps(law, count=200):
     """Gaps from deep overlap to far apart, over the laws' lengths (reads, n)."""
-    normal = RNG.uniform(-1.5 * OVERCLOSED, 8.0, count) * law.reach
+    normal = RNG.uniform(-1.5 * OVERCLOSED, 8.0, count) * law.interaction_range
     sideways = RNG.uniform(-3.0, 3.0, count) * getattr(law, "tangential_length", 1.0)
     return np.stack([normal, sideways][: len(law.reads)])
 
@@ -49,7 +49,7 @@ def test_laws_together_are_their_sum_and_one_law_is_itself():
     assert np.array_equal(total[0], normal.traction(gap[:1])[0] + mixed.traction(gap)[0])
     assert np.array_equal(total[1], mixed.traction(gap)[1])
     assert (TWO.reads, TWO.exerts, TWO.traits) == (mixed.reads, mixed.exerts, normal.traits | mixed.traits)
-    assert (TWO.strength, TWO.reach) == (normal.strength + mixed.strength, 1.0)
+    assert (TWO.strength, TWO.interaction_range) == (normal.strength + mixed.strength, 1.0)
     assert TWO.tangential_length == mixed.tangential_length
     assert superposed((mixed,)) is mixed
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from contactsim import reference
-from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath, LoadStep, Slide, approaches, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Layer
 from contactsim.errors import SceneError
 from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
-from contactsim.interface.pairing import ALIGNED, Windowed
+from contactsim.interface.pairing import ALIGNED, Lattice
 from contactsim.interface.superposition import superposed
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
@@ -49,7 +49,7 @@ def test_springs_are_the_literal_sum_over_all_pairs_of_nodes(rough):
     points, lattice = 24, 1.7
     lower = 0.3 * np.sin(2 * np.pi * np.arange(points) / points) * rough
     gap = gaps(points)
-    springs = Windowed(lattice, window=8.0).joined(LAW, lower, points * lattice)
+    springs = Lattice(lattice, tangential_cutoff=8.0).joined(LAW, lower, points * lattice)
     upper, below = literal(gap, lower, lattice, LAW)
     np.testing.assert_allclose(springs.traction(gap), upper, rtol=0, atol=1e-13 * np.abs(upper).max())
     np.testing.assert_allclose(springs.reaction(gap), below, rtol=0, atol=1e-12 * np.abs(upper).max())
@@ -60,7 +60,7 @@ def test_springs_are_the_literal_sum_over_all_pairs_of_nodes(rough):
 def test_action_equals_reaction(lattice, rough):
     points = 64
     lower = 0.2 * np.cos(2 * np.pi * np.arange(points) / points) * rough
-    springs = Windowed(lattice).joined(LAW, lower, points * 1.7)
+    springs = Lattice(lattice).joined(LAW, lower, points * 1.7)
     gap = gaps(points)
     total = springs.traction(gap).sum(1)
     np.testing.assert_allclose(springs.reaction(gap).sum(1), -total, atol=3e-14 * np.abs(springs.traction(gap)).sum())
@@ -68,7 +68,7 @@ def test_action_equals_reaction(lattice, rough):
 
 def test_the_tangent_is_the_derivative_of_the_traction():
     points = 32
-    springs = Windowed(2.0).joined(LAW, 0.2 * np.sin(np.arange(points) * 2 * np.pi / points), 100.0)
+    springs = Lattice(2.0).joined(LAW, 0.2 * np.sin(np.arange(points) * 2 * np.pi / points), 100.0)
     gap = gaps(points, 1)
     gap[1] += 0.3  # away from where the window moves on
     traction, tangent = springs.tangent(gap)
@@ -82,7 +82,7 @@ def test_the_tangent_is_the_derivative_of_the_traction():
 
 def test_a_flat_lattice_sums_to_the_exact_series():
     lattice, gap = 1.95, np.stack((np.linspace(-1.0, 4.0, 50), np.linspace(-7.0, 7.0, 50)))
-    springs = Windowed(lattice, window=10.0).joined(LAW, np.zeros(50), 100.0)
+    springs = Lattice(lattice, tangential_cutoff=10.0).joined(LAW, np.zeros(50), 100.0)
     cosines, sines = reference.spring_sum(gap[1], lattice, LAW.tangential_length)
     opening = gap[0] / LAW.normal_length
     normal = LAW.work_of_separation / LAW.normal_length * opening * np.exp(-opening) * cosines
@@ -108,7 +108,7 @@ def test_sums_of_springs_have_their_known_strength_and_fall(ratio, largest, fall
 
 
 def test_a_slide_by_whole_lattice_constants_changes_nothing():
-    springs = Windowed(2.44).joined(LAW, np.zeros(16), 100.0)
+    springs = Lattice(2.44).joined(LAW, np.zeros(16), 100.0)
     gap = gaps(16)
     further = gap + [[0.0], [7 * 2.44]]
     np.testing.assert_allclose(springs.traction(further), springs.traction(gap), atol=1e-12)
@@ -117,7 +117,7 @@ def test_a_slide_by_whole_lattice_constants_changes_nothing():
 
 def test_a_rough_lattice_repeats_itself_after_a_period():
     lower, lattice = 0.3 * np.sin(2 * np.pi * np.arange(20) / 20), 2.0
-    springs = Windowed(lattice).joined(LAW, lower, 20 * lattice)
+    springs = Lattice(lattice).joined(LAW, lower, 20 * lattice)
     gap = gaps(20)
     again = springs.traction(gap + [[0.0], [20 * lattice]])
     np.testing.assert_allclose(again, springs.traction(gap), atol=1e-12)
@@ -125,7 +125,7 @@ def test_a_rough_lattice_repeats_itself_after_a_period():
 
 def test_a_window_of_the_own_node_is_aligned():
     gap = np.stack((np.linspace(-1, 4, 30), np.linspace(-0.9, 0.9, 30)))
-    own = Windowed(2.0, window=0.0).joined(LAW, np.zeros(30), 60.0)
+    own = Lattice(2.0, tangential_cutoff=0.0).joined(LAW, np.zeros(30), 60.0)
     np.testing.assert_array_equal(own.traction(gap), ALIGNED.joined(LAW, np.zeros(30), 60.0).traction(gap))
     for one, other in zip(own.tangent(gap), LAW.tangent(gap), strict=True):
         np.testing.assert_array_equal(one, other)
@@ -135,7 +135,7 @@ def test_a_window_of_the_own_node_is_aligned():
     "law", [LAW, CohesiveZone(2.0), NormalCohesiveZone(1.5), superposed((LAW, NormalCohesiveZone(1.0)))]
 )
 def test_any_law_can_be_a_spring(law):
-    springs = Windowed(1.5, window=3.0).joined(law, np.zeros(10), 15.0)
+    springs = Lattice(1.5, tangential_cutoff=3.0).joined(law, np.zeros(10), 15.0)
     gap = gaps(10)[: len(law.reads)]
     sites = 1.5 * (np.rint(gap[1:] / 1.5) + springs.offsets[:, None, None])
     each = [law.traction(np.concatenate((gap[:1], gap[1:] - site))) for site in sites]
@@ -146,23 +146,23 @@ def test_any_law_can_be_a_spring(law):
 
 def test_potentials_add():
     law = NormalCohesiveZone(1.5)
-    springs = Windowed(1.5, window=2.0, weight=0.5).joined(law, np.zeros(10), 15.0)
+    springs = Lattice(1.5, tangential_cutoff=2.0, weight=0.5).joined(law, np.zeros(10), 15.0)
     gap = gaps(10)[:1]
     np.testing.assert_allclose(springs.energy(gap), 0.5 * len(springs.offsets) * law.energy(gap))
 
 
 def test_weights_count_and_deep_gaps_do_not():
     gap = np.array([[1.0, 9.0, 11.0], [0.2, 0.2, 0.2]])
-    whole, half = (Windowed(2.0, weight=weight).joined(LAW, np.zeros(3), 6.0) for weight in (1.0, 0.5))
+    whole, half = (Lattice(2.0, weight=weight).joined(LAW, np.zeros(3), 6.0) for weight in (1.0, 0.5))
     np.testing.assert_allclose(half.traction(gap), 0.5 * whole.traction(gap))
-    cut = Windowed(2.0, depth=10.0).joined(LAW, np.zeros(3), 6.0).traction(gap)
+    cut = Lattice(2.0, normal_cutoff=10.0).joined(LAW, np.zeros(3), 6.0).traction(gap)
     np.testing.assert_array_equal(cut[:, :2], whole.traction(gap)[:, :2])
     assert not cut[:, 2].any()
 
 
 def test_springs_are_paid_for_in_range_only(monkeypatch):
     asked = []
-    springs = Windowed(2.0, window=5.0).joined(LAW, np.zeros(1000), 2000.0)
+    springs = Lattice(2.0, tangential_cutoff=5.0).joined(LAW, np.zeros(1000), 2000.0)
     count = len(springs.offsets)
     traction = CohesiveZone.traction
     monkeypatch.setattr(CohesiveZone, "traction", lambda law, gap: asked.append(gap.shape[1]) or traction(law, gap))
@@ -174,7 +174,7 @@ def test_springs_are_paid_for_in_range_only(monkeypatch):
 def test_strength_and_stiffness_bound_what_springs_do():
     gap = np.stack([each.ravel() for each in np.meshgrid(np.linspace(0, 3, 61), np.linspace(-2, 2, 81))])
     for lattice in (0.2, 1.0, 2.44, 5.0):
-        springs = Windowed(lattice).joined(LAW, np.zeros(8), 100.0)
+        springs = Lattice(lattice).joined(LAW, np.zeros(8), 100.0)
         traction, tangent = springs.tangent(gap)
         assert traction[0].max() <= springs.strength * (1 + 1e-12)
         assert traction[0].max() == pytest.approx(springs.strength, rel=1e-3)
@@ -190,8 +190,8 @@ def sliding(lower: object = None, upper: object = BODY, law: object = LAW, pairi
 @pytest.mark.parametrize(
     ("change", "key"),
     [
-        ({"lower": BODY, "pairing": Windowed(2.0)}, "pairing"),
-        ({"law": HardWall(), "pairing": Windowed(2.0)}, "effects"),
+        ({"lower": BODY, "pairing": Lattice(2.0)}, "pairing"),
+        ({"law": HardWall(), "pairing": Lattice(2.0)}, "effects"),
         ({"law": NormalCohesiveZone(2.0)}, "effects"),
     ],
 )
@@ -202,12 +202,16 @@ def test_what_cannot_be_joined_or_slid_is_refused(change, key):
 
 @pytest.mark.parametrize(
     "options",
-    [{"lattice_constant": 0.0}, {"lattice_constant": 2.0, "window": -1.0}, {"lattice_constant": 2.0, "depth": 0.0}]
+    [
+        {"lattice_constant": 0.0},
+        {"lattice_constant": 2.0, "tangential_cutoff": -1.0},
+        {"lattice_constant": 2.0, "normal_cutoff": 0.0},
+    ]
     + [{"lattice_constant": 2.0, "weight": float("nan")}, {"lattice_constant": True}],
 )
 def test_options_of_a_window_are_checked(options):
     with pytest.raises(SceneError, match="finite number"):
-        Windowed(**options)
+        Lattice(**options)
 
 
 def test_a_slide_needs_something_held_and_comes_last():
@@ -223,7 +227,7 @@ def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():
     scene = sliding(upper=replace(BODY, poisson_ratio=0.5), law=CohesiveZone(2.0))
     assert scene.components == ("n", "t")
     assert Trait.SLIDE in scene.traits
-    problem = pose_interface(scene, scene.heights(64), 1e-7).at(scene.path.steps[-1])
+    problem = pose_cohesive(scene, scene.heights(64), 1e-7).at(scene.path.steps[-1])
     np.testing.assert_array_equal(problem.gap(np.zeros(problem.unknowns, complex))[1], 2.0)
 
 
@@ -231,7 +235,7 @@ def test_a_scene_that_does_not_slide_is_what_it_was():
     scene = replace(sliding(), path=approaches([0.0]))
     assert not scene.sliding
     assert scene.pairing is ALIGNED
-    problem = pose_interface(scene, scene.heights(64), 1e-7)
+    problem = pose_cohesive(scene, scene.heights(64), 1e-7)
     assert problem.law is LAW
 
 

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from contactsim import reference
 from contactsim.contact import loading
-from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
@@ -147,7 +147,7 @@ def test_local_squares_give_the_gradient_over_any_part():
 
 
 def test_gradients_follow_both_criteria_and_are_none_without_contact():
-    problem = pose_interface(scene_of(LAWS["uncoupled"]), np.zeros(8), 1e-7)
+    problem = pose_cohesive(scene_of(LAWS["uncoupled"]), np.zeros(8), 1e-7)
     square = np.arange(8.0) ** 2
     gap = np.array([[-0.5, -0.1, 0.2, 1.0, 30.0, 30.0, 30.0, 30.0]])
     found = gradients(square, problem, gap, problem.traction(gap))
@@ -159,7 +159,7 @@ def test_gradients_follow_both_criteria_and_are_none_without_contact():
 
 
 def test_histograms_hold_every_point_and_their_ends_what_lies_beyond():
-    problem = pose_interface(scene_of(LAWS["uncoupled"]), np.zeros(4), 1e-7)
+    problem = pose_cohesive(scene_of(LAWS["uncoupled"]), np.zeros(4), 1e-7)
     gap = np.array([[-100.0, 0.1, 0.1, 100.0]])
     shares = histograms(problem, gap, problem.traction(gap))
     assert shares["normal_gap_share"][[0, 12, -1]].tolist() == [0.25, 0.5, 0.25]

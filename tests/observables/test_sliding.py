@@ -10,19 +10,19 @@ import pytest
 import xarray as xr
 
 from contactsim import reference
-from contactsim.contact.cohesive import InterfaceProblem, pose_interface
+from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, LoadStep, Slide, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.evaluation.work_precision.knobs import solutions
 from contactsim.interface.laws import CohesiveZone
-from contactsim.interface.pairing import Windowed
+from contactsim.interface.pairing import Lattice
 from contactsim.observables import friction, peeling, sliding
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.record import simulate_path
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
 
@@ -43,7 +43,7 @@ def flat(modulus: float, work: float, slides: list[float], increment: float = 0.
     body = Layer(modulus / (1 - RATIO**2), RATIO, 500.0)
     law = CohesiveZone(2.0, work / 2.0)
     path = path_of(0.0, slides, increment)
-    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, Windowed(LATTICE))
+    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, Lattice(LATTICE))
 
 
 def probe(path: LoadPath, law: CohesiveZone | None = None, **changes: object) -> Scene:
@@ -51,15 +51,15 @@ def probe(path: LoadPath, law: CohesiveZone | None = None, **changes: object) ->
     surface = Cylinder(length=1000.0, radius=2500.0)
     body = Layer(70.0 / (1 - RATIO**2), RATIO, 1000.0)
     law = law or CohesiveZone(2.0, 1.0)
-    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, Windowed(LATTICE, **changes))
+    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, Lattice(LATTICE, **changes))
 
 
 def walked(
     scene: Scene, points: int = 16, method: object = "newton", increments: object = None
-) -> tuple[InterfaceProblem, list[PathState], np.ndarray, np.ndarray]:
+) -> tuple[CohesiveProblem, list[PathState], np.ndarray, np.ndarray]:
     """Problem, states on the slide, their slides (nm) and forces over the period (GPa)."""
-    problem = pose_interface(scene, scene.heights(points), 1e-7)
-    method = solver(method) if isinstance(method, str) else method
+    problem = pose_cohesive(scene, scene.heights(points), 1e-7)
+    method = make_solver(method) if isinstance(method, str) else method
     states = list((increments or Requested()).follow(problem, method, scene.path.steps))
     assert {state.status.solved for state in states} == {True}
     states = [state for state in states if state.step.control is Trait.SLIDE]
@@ -103,7 +103,7 @@ def test_stick_slip_ends_where_the_body_is_stiffer_than_the_springs_soften(latti
     path = path_of(0.0, [0.0, about - 0.02], 0.05) >> LoadPath(
         (Slide((about - 0.02, about + 0.02), increment, HELD),), True
     )
-    scene = replace(flat(stiffness * 2 * (1 + RATIO) * 500.0, work, [0.0, 1.0]), path=path, pairing=Windowed(lattice))
+    scene = replace(flat(stiffness * 2 * (1 + RATIO) * 500.0, work, [0.0, 1.0]), path=path, pairing=Lattice(lattice))
     _, _, slides, force = walked(scene)
     gap = slides - force / stiffness
     fastest = increment / (1 - 1 / 1.01)  # of a smooth slide of a body 1 % too stiff
@@ -127,7 +127,7 @@ def test_an_exact_slide_carries_what_the_springs_pull():
 
 @cache
 def small_probe(increment: float = 0.1, points: int = 256, window: float = 5.0, depth: float | None = 40.0) -> tuple:
-    return walked(probe(path_of(0.0, [0.0, 11.0], increment), window=window, depth=depth), points)
+    return walked(probe(path_of(0.0, [0.0, 11.0], increment), tangential_cutoff=window, normal_cutoff=depth), points)
 
 
 def places(states: list[PathState]) -> list[float]:
@@ -152,10 +152,10 @@ def test_a_probe_sticks_slips_by_one_lattice_constant_and_peels():
     [
         ({"increment": 0.05}, 2e-3),
         ({"increment": 0.4}, 2e-2),
-        ({"window": 8.0}, 1e-6),
-        ({"window": 4.0}, 1e-6),
-        ({"depth": 1e6}, 1e-9),
-        ({"depth": 10.0}, 1e-3),
+        ({"tangential_cutoff": 8.0}, 1e-6),
+        ({"tangential_cutoff": 4.0}, 1e-6),
+        ({"normal_cutoff": 1e6}, 1e-9),
+        ({"normal_cutoff": 10.0}, 1e-3),
         ({"points": 512}, 1e-4),
     ],
 )
@@ -197,7 +197,7 @@ def test_a_slide_to_and_fro_is_antisymmetric_and_dissipates():
     _, _, slides, force = walked(scene, 256)
     first, second = slice(101, 301), slice(301, 501)
     np.testing.assert_allclose(-force[first], force[second], atol=1e-4 * force.max())
-    found = friction.slid(simulate_path(scene, solver("newton"), points=256, tolerance=1e-7))
+    found = friction.slid(simulate_path(scene, make_solver("newton"), points=256, tolerance=1e-7))
     assert float(found.loop_energy) > 100 * float(found.loop_energy_increment_error) > 0
     steps = np.diff(slides[first.start - 1 :])
     about = np.sum(steps * (force[first.start - 1 : -1] + force[first.start :]) / 2) * 1000.0
@@ -220,8 +220,8 @@ def test_without_tangential_work_nothing_resists():
 @cache
 def walked_frictionless() -> tuple:
     scene = probe(path_of(0.0, [0.0, 3.0], 0.25), CohesiveZone(2.0))
-    problem = pose_interface(scene, scene.heights(256), 1e-7)
-    states = list(Requested().follow(problem, solver("newton"), scene.path.steps))
+    problem = pose_cohesive(scene, scene.heights(256), 1e-7)
+    states = list(Requested().follow(problem, make_solver("newton"), scene.path.steps))
     return problem, [state for state in states if state.step.control is Trait.SLIDE], None, None
 
 
@@ -229,13 +229,13 @@ def walked_frictionless() -> tuple:
 def dataset_of(increment: float) -> xr.Dataset:
     """Of the slide up to its first slip, and a little on."""
     scene = probe(path_of(0.0, [0.0, 8.5], increment))
-    return simulate_path(scene, solver("newton"), points=256, tolerance=1e-7)
+    return simulate_path(scene, make_solver("newton"), points=256, tolerance=1e-7)
 
 
 @cache
 def dataset(**changes: object) -> xr.Dataset:
     scene = probe(path_of(0.0, [0.0, 11.0], 0.1), **changes)
-    data = simulate_path(scene, solver("newton"), points=256, tolerance=1e-7, snapshots=(0.0, 4.0))
+    data = simulate_path(scene, make_solver("newton"), points=256, tolerance=1e-7, snapshots=(0.0, 4.0))
     return data
 
 
@@ -369,14 +369,14 @@ def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
 @pytest.mark.parametrize(("modulus", "slips"), [(480.0, True), (526.0, False), (560.0, False)])  # critical: 517.7
 def test_a_fast_smooth_slide_is_no_slip(modulus, slips, increments, increment):
     scene, how = flat(modulus, 0.2, [0.0, 5.0], increment), INCREMENTS[increments]()
-    data = simulate_path(scene, solver("newton"), points=16, tolerance=1e-7, increments=how)
+    data = simulate_path(scene, make_solver("newton"), points=16, tolerance=1e-7, increments=how)
     assert (float(friction.slid(data).slip_count) > 0) == slips
 
 
 @pytest.mark.parametrize("increment", [0.1, 0.7, 11.0])
 def test_slips_are_found_one_by_one_whatever_the_increment(increment):
     scene = flat(70.0, 0.2, [0.0, 11.0], increment)
-    found = friction.slid(simulate_path(scene, solver("newton"), points=16, tolerance=1e-7))
+    found = friction.slid(simulate_path(scene, make_solver("newton"), points=16, tolerance=1e-7))
     slides = np.linspace(0.0, 11.0, 110001)
     drops = np.flatnonzero(np.diff(exact(70.0, 0.2, slides)) < -0.01)
     np.testing.assert_array_less(np.abs(found.event_sliding_distance - slides[drops + 1]), found.event_width + 2e-4)
@@ -387,13 +387,13 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
 
 def test_a_solver_without_predictions_sees_slips_in_increments_of_half_a_nanometre():
     scene = probe(path_of(0.0, [0.0, 11.0], 0.5))
-    data = simulate_path(scene, solver("mass_weighted_verlet"), points=64, tolerance=1e-6)
+    data = simulate_path(scene, make_solver("mass_weighted_verlet"), points=64, tolerance=1e-6)
     assert float(friction.slid(data).slip_count) == 2
 
 
 def test_a_frictionless_slide_has_no_force():
     scene = probe(path_of(0.0, [0.0, 3.0], 0.5), CohesiveZone(2.0))
-    data = friction.slid(simulate_path(scene, solver("newton"), points=128, tolerance=1e-7))
+    data = friction.slid(simulate_path(scene, make_solver("newton"), points=128, tolerance=1e-7))
     assert (data.friction_force == 0).all()
     assert np.isnan(data.static_friction)
 
@@ -401,7 +401,7 @@ def test_a_frictionless_slide_has_no_force():
 @cache
 def dataset_without_slips() -> xr.Dataset:
     scene = probe(path_of(0.0, [0.0, 1.0], 0.1))
-    return simulate_path(scene, solver("newton"), points=128, tolerance=1e-7)
+    return simulate_path(scene, make_solver("newton"), points=128, tolerance=1e-7)
 
 
 @pytest.mark.parametrize("turn", [9.42, 8.44, 10.9])

@@ -23,7 +23,9 @@ def flagged(data, name):
 
 def test_the_process_zone_is_that_of_the_specification():
     law = NormalCohesiveZone(2.0, 1.5)
-    assert status.process_zone(77.0, law.strength, law.reach) == pytest.approx(np.e**2 * 77.0 * 1.5**2 / 2.0)
+    assert status.process_zone(77.0, law.strength, law.interaction_range) == pytest.approx(
+        np.e**2 * 77.0 * 1.5**2 / 2.0
+    )
 
 
 def test_every_limit_has_its_bit_and_missing_numbers_are_within():
@@ -52,7 +54,7 @@ def test_slip_of_a_frictionless_contact_of_a_compressible_body_is_flagged():
 
 def test_a_grid_too_coarse_for_the_process_zone_is_flagged_and_one_fine_enough_is_not():
     law = NormalCohesiveZone(2.0)
-    zone = status.process_zone(scene_of(law).contact_modulus, law.strength, law.reach)
+    zone = status.process_zone(scene_of(law).contact_modulus, law.strength, law.interaction_range)
     for points in (64, 128, 256, 512):
         data = simulate(scene_of(law, approaches([-8.0])), points=points, tolerance=1e-6)
         assert flagged(data, "process_zone_step").all() == (LENGTH / points > 0.2 * zone)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact import loading
-from contactsim.contact.cohesive import pose_interface
+from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath, LoadStep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
@@ -14,7 +14,7 @@ from contactsim.errors import SceneError
 from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
 from contactsim.paths.continuation import PathState, Walk
 from contactsim.paths.increments import Nested
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study import execute
 from contactsim.study.execute import simulate
 from contactsim.study.plan import Plan
@@ -85,8 +85,8 @@ def test_fields_kept_are_those_of_the_whole_grid_wherever_a_state_was_solved():
 @pytest.mark.parametrize("name", LAWS)
 def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
     scene = scene_of(LAWS[name], along(0, 1, 1), surface=rough(256.0))
-    whole = pose_interface(scene, scene.heights(512), 1e-7)
-    coarse, posed = whole.coarser(64, 1e-3), pose_interface(scene, scene.heights(64), 1e-3)
+    whole = pose_cohesive(scene, scene.heights(512), 1e-7)
+    coarse, posed = whole.coarser(64, 1e-3), pose_cohesive(scene, scene.heights(64), 1e-3)
     assert coarse.tolerance == 1e-3 and coarse.unknowns == posed.unknowns
     assert np.allclose(coarse.stiffness.diagonal[:, :-1], posed.stiffness.diagonal[:, :-1], rtol=1e-12)
     if posed.derived is None and len(posed.shape) == 2:
@@ -130,9 +130,9 @@ def test_impossible_options_are_refused(options, key):
 
 def test_a_ratio_that_leaves_no_even_grid_is_refused():
     scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
-    problem = pose_interface(scene, scene.heights(72), 1e-7)
+    problem = pose_cohesive(scene, scene.heights(72), 1e-7)
     with pytest.raises(SceneError, match="half the grid's 72 points"):
-        list(Nested([0.0]).follow(problem, solver("newton"), scene.path.steps))
+        list(Nested([0.0]).follow(problem, make_solver("newton"), scene.path.steps))
 
 
 def test_a_value_to_settle_that_is_no_step_is_refused():
@@ -145,7 +145,7 @@ def test_a_value_to_settle_that_is_no_step_is_refused():
 def test_a_tolerance_that_doing_nothing_would_meet_is_refused():
     scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
     with pytest.raises(SceneError, match=r"at most 0[.]1") as caught:
-        pose_interface(scene, scene.heights(64), 10.0)
+        pose_cohesive(scene, scene.heights(64), 10.0)
     assert caught.value.key == "tolerance"
 
 

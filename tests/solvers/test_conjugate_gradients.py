@@ -9,14 +9,14 @@ from scipy.optimize import nnls
 import contactsim
 from contactsim import reference
 from contactsim.contact import loading
-from contactsim.contact.hard_wall import pose
+from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.laws import HardWall
 from contactsim.solvers.base import require, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.surfaces.shapes import Flat, Sinusoid, Sphere
@@ -42,9 +42,9 @@ def press(
     surface = heights if hasattr(heights, "heights") else Heights(np.asarray(heights, float), spacing)
     path = loading.pressures([pressure]) if approach is None else loading.approaches([approach])
     scene = Scene(Body(Flat.facing(surface), body or HalfSpace(1.0)), Body(surface), (HardWall(),), path)
-    method = solver("conjugate_gradients", **options)
+    method = make_solver("conjugate_gradients", **options)
     require(method, scene)
-    return solve(method, *pose(scene, path.steps[0], scene.heights(surface.points), tolerance, threads))
+    return solve(method, *pose_hard_wall(scene, path.steps[0], scene.heights(surface.points), tolerance, threads))
 
 
 def rough(points, hurst=0.8, seed=1):

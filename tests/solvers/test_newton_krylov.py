@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.contact.cohesive import Tangent, pose_interface
+from contactsim.contact.cohesive import Tangent, pose_cohesive
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.base import require
 from contactsim.solvers.cohesive.gmres import gmres
 from contactsim.solvers.cohesive.zone_preconditioner import RATIO, ZonePreconditioner
-from contactsim.solvers.registry import solver, solver_class
+from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.surfaces.shapes import Cylinder, Sinusoid
 from support.cases import refusal
 from support.smooth import LAWS, along, scene_of, walk
@@ -66,7 +66,7 @@ def test_gmres_survives_a_map_that_is_zero_or_exact_at_once():
 def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_within_the_zone(name, shift):
     # a short period, so that the laws act everywhere, and a field of the longest waves
     scene = scene_of(LAWS[name], surface=Cylinder(length=200.0, radius=25000.0))
-    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    problem = pose_cohesive(scene, scene.heights(256), 1e-7)
     displacement = np.zeros(problem.unknowns, complex)
     tangent = problem.tangent(problem.gap(displacement))[1]
     smooth = np.full_like(tangent.values, 0.0)
@@ -85,7 +85,7 @@ def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_w
 
 def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
     scene = scene_of(LAWS["uncoupled"])
-    problem = pose_interface(scene, scene.heights(256), 1e-7)
+    problem = pose_cohesive(scene, scene.heights(256), 1e-7)
     tangent = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1]
     values = np.zeros_like(tangent.values)
     zones = []
@@ -109,12 +109,12 @@ def test_a_law_without_potential_is_refused_by_the_minimiser_alone(kind, trait):
         error = refusal("solver", None, lambda: _require(kind, scene))
         assert "NON_CONSERVATIVE" in error.allowed
     else:
-        require(solver(kind), scene)
+        require(make_solver(kind), scene)
 
 
 def _require(kind, scene):
     try:
-        require(solver(kind), scene)
+        require(make_solver(kind), scene)
     except ValueError as error:
         raise error.within("None") from None
 
@@ -138,11 +138,11 @@ def test_options_out_of_range_are_refused(kind, name, value):
 
 def test_a_time_step_beyond_the_limit_of_stability_is_refused():
     scene = scene_of(LAWS["uncoupled"])
-    problem = pose_interface(scene, scene.heights(64), 1e-7)
+    problem = pose_cohesive(scene, scene.heights(64), 1e-7)
     with pytest.raises(ValueError, match=r"^time_step: got 9.0; allowed: below .* limit of stability"):
-        solver("damped_verlet", time_step=9.0).flow(problem, np.zeros(problem.unknowns, complex))
+        make_solver("damped_verlet", time_step=9.0).flow(problem, np.zeros(problem.unknowns, complex))
     with pytest.raises(ValueError, match=r"^time_step: got 1.0; allowed: "):
-        solver("mass_weighted_verlet", time_step=1.0)
+        make_solver("mass_weighted_verlet", time_step=1.0)
 
 
 UNSTABLE = [

@@ -171,7 +171,7 @@ def test_a_run_can_be_asked_for_any_kind_of_load(place, load):
 def test_what_does_not_converge_is_kept_with_its_status(place):
     settings = settings_of(solver={"kind": "polonsky_keer", "batch": 1, "budget": 1})
     data = dataset.read(place(settings).data)
-    assert data.status.values.tolist() == [Status.BUDGET.value[0]] * 3
+    assert data.status.values.tolist() == [Status.MAX_ITERATIONS.value[0]] * 3
     assert (data.iterations == 1).all()
     assert (data[["non_uniformity", "penetration"]].to_array().max("variable") > 1e-3).all()
 

@@ -12,12 +12,16 @@ import pytest
 import contactsim
 from contactsim.errors import SceneError
 from contactsim.solvers.base import Result
-from contactsim.solvers.registry import PEERS, SOLVERS, solver_class
+from contactsim.solvers.registry import REQUIRED_PACKAGES, SOLVERS, solver_class
 from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.traits import Trait
 
-ALL = tuple(kind for kind in SOLVERS if kind not in PEERS and {Trait.LINE, Trait.WALL} <= solver_class(kind).accepts)
-ON_SURFACES = tuple(kind for kind in SOLVERS if kind not in PEERS and Trait.SURFACE in solver_class(kind).accepts)
+ALL = tuple(
+    kind for kind in SOLVERS if kind not in REQUIRED_PACKAGES and {Trait.LINE, Trait.WALL} <= solver_class(kind).accepts
+)
+ON_SURFACES = tuple(
+    kind for kind in SOLVERS if kind not in REQUIRED_PACKAGES and Trait.SURFACE in solver_class(kind).accepts
+)
 FAST = ("active_set", "polonsky_keer")
 
 

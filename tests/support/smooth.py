@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem, pose_interface
+from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, approaches
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, Layer
@@ -14,7 +14,7 @@ from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Requested
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Cylinder, Flat, Surface
 
 LENGTH, RADIUS = 10000.0, 25000.0
@@ -42,7 +42,7 @@ def scene_of(
 class Walked:
     """A path through a scene: its problem, its states, and their loads (N/m)."""
 
-    problem: InterfaceProblem
+    problem: CohesiveProblem
     states: list[PathState]
     load: np.ndarray
 
@@ -71,8 +71,8 @@ def walk(
     scene: Scene, points: int = 256, method: object = "newton", increments: object = None, tolerance: float = 1e-7
 ) -> Walked:
     """Follow a scene's path."""
-    problem = pose_interface(scene, scene.heights(points), tolerance)
-    method = solver(method) if isinstance(method, str) else method
+    problem = pose_cohesive(scene, scene.heights(points), tolerance)
+    method = make_solver(method) if isinstance(method, str) else method
     states = list((increments or Requested()).follow(problem, method, scene.path.steps))
     load = []
     for state in states:

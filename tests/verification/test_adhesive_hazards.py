@@ -18,7 +18,7 @@ from contactsim.evaluation.robustness.registry import HAZARDS, first_line
 from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.evaluation.robustness.survey import judge
 from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from support.smooth import LENGTH, along, scene_of
 
@@ -44,7 +44,7 @@ HONEST = {
 def test_no_path_is_answered_wrongly(hazard, severity):
     case = HAZARDS[hazard](severity)
     for name, options in SOLVERS.items():
-        method = solver(name, **options)
+        method = make_solver(name, **options)
         verdict = judge(case, method)
         if not case.scene.traits <= method.accepts:
             assert verdict.outcome is Outcome.REFUSED
@@ -52,7 +52,7 @@ def test_no_path_is_answered_wrongly(hazard, severity):
         elif verdict.outcome is Outcome.FAILED:
             assert HONEST[name, hazard] in verdict.reason
         else:
-            known = case.exact is not None or case.twin is not None or case.ends is Status.PULLED_OFF
+            known = case.exact is not None or case.twin is not None or case.ends is Status.NO_EQUILIBRIUM
             assert verdict.outcome is (Outcome.RIGHT if known else Outcome.CERTIFIED), verdict.reason
 
 
@@ -94,7 +94,7 @@ def test_bodies_written_out_once_more_give_way_as_ours_do(body, lost):
 
 @pytest.mark.parametrize("case", [CASE, FRICTION], ids=["uncoupled", "frictional"])
 def test_every_fault_of_a_state_is_found(case):
-    problem, states = case.follow(solver("newton"))
+    problem, states = case.follow(make_solver("newton"))
     assert path_faults(case, problem, states) == ""
     x = np.arange(case.points)
     odd, even = (1e-2 * np.fft.rfft(f(2 * np.pi * x / case.points)) / case.points for f in (np.sin, np.cos))
@@ -111,7 +111,7 @@ def test_every_fault_of_a_state_is_found(case):
 def test_a_state_of_another_branch_is_found():
     # unloading, at -8 nm, is still in contact
     there = replace(CASE, scene=replace(CASE.scene, path=along(-8.0, 0.0, 4.0) >> along(-0.5, -8.0, 0.5)), parts=0)
-    problem, states = there.follow(solver("newton"))
+    problem, states = there.follow(make_solver("newton"))
     verdict = path_faults(CASE, problem, [states[-1]])
     assert "smaller increments" in verdict
 
@@ -121,7 +121,7 @@ def test_one_step_of_4_nm_onto_a_rough_line_leads_where_sixteen_lead(name):
     case = HAZARDS["one_large_step"](100)
     assert len(case.steps) == 1
     assert case.branch is not None
-    _, states = case.follow(solver(name))
+    _, states = case.follow(make_solver(name))
     load = case.forces(states[0].step, states[0].displacement)[0]
     assert load == pytest.approx(case.branch[0, 0], rel=1e-4)
 
@@ -136,7 +136,7 @@ def test_a_rough_line_is_the_one_that_its_rms_height_and_hurst_exponent_make():
 
 
 def test_an_end_that_is_not_the_true_one_is_wrong():
-    pulled = PathCase(scene_of(NormalCohesiveZone(2.0), pressures([0.02, -1.0])), ends=Status.PULLED_OFF)
+    pulled = PathCase(scene_of(NormalCohesiveZone(2.0), pressures([0.02, -1.0])), ends=Status.NO_EQUILIBRIUM)
     assert judge(pulled, "newton").outcome is Outcome.RIGHT
     assert "not converged, pulled_off" in judge(replace(pulled, ends=Status.CONVERGED), "newton").reason
     held = replace(pulled, scene=replace(pulled.scene, path=pressures([0.02, -0.001])))
@@ -144,7 +144,7 @@ def test_an_end_that_is_not_the_true_one_is_wrong():
 
 
 def test_a_spent_budget_and_a_divergence_are_told():
-    short = judge(CASE, solver("newton", newton_budget=1, flow_budget=1))
+    short = judge(CASE, make_solver("newton", newton_budget=1, flow_budget=1))
     assert (short.outcome, "budget" in short.reason) == (Outcome.FAILED, True)
     deep = judge(HAZARDS["deep_step"](100), "damped_verlet")
     assert deep.outcome in (Outcome.NON_FINITE, Outcome.REFUSED)

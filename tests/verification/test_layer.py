@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 
 import contactsim
 from contactsim.contact import loading
-from contactsim.contact.hard_wall import pose
+from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
@@ -26,7 +26,7 @@ from contactsim.interface.laws import HardWall
 from contactsim.solvers.base import require, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
-from contactsim.solvers.registry import solver, solver_class
+from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.status import Status
 from contactsim.study.scenes import scene_of
 from contactsim.surfaces.shapes import Flat, Sinusoid
@@ -53,8 +53,8 @@ def scene(lower, upper=None, path=None, length=256.0):
 
 
 def solved(subject, points=256, tolerance=1e-8):
-    problem, scale = pose(subject, subject.path.steps[0], subject.heights(points), tolerance, 1)
-    result = solve(solver("active_set"), problem, scale)
+    problem, scale = pose_hard_wall(subject, subject.path.steps[0], subject.heights(points), tolerance, 1)
+    result = solve(make_solver("active_set"), problem, scale)
     assert result.status is Status.CONVERGED
     return result
 
@@ -240,7 +240,7 @@ def test_a_layer_in_two_is_not_two_layers_but_equal_ones_are_one_of_half_the_mod
 @pytest.mark.parametrize("name", ALL)
 def test_a_layer_is_taken_by_each_solver_of_ours(name):
     assert scene(Layer(1.0, 0.3, 1.0)).traits == {Trait.LINE, Trait.WALL, Trait.LAYER, Trait.MEAN_PRESSURE}
-    require(solver(name), scene(Layer(1.0, 0.3, 1.0)))
+    require(make_solver(name), scene(Layer(1.0, 0.3, 1.0)))
 
 
 def test_a_solver_that_knows_half_spaces_alone_refuses_a_layer():
@@ -299,7 +299,7 @@ def test_a_decaying_continuation_has_its_adjoint_and_leaves_the_contact_as_it_is
 def test_the_preconditioners_stiffness_is_close_to_that_of_the_layer(ratio, thickness):
     points = 512
     subject = scene(Layer(1.0, ratio, thickness), length=float(points))
-    problem, _ = pose(subject, subject.path.steps[0], rough(points), 1e-3, 1)
+    problem, _ = pose_hard_wall(subject, subject.path.steps[0], rough(points), 1e-3, 1)
     stiffness = BlockStiffness(problem.compliance, uniform=True)
     for mode in (1, 5, points // 5, points // 3, points // 2 - 1):
         sine = np.sin(2 * np.pi * mode / points * np.arange(points))

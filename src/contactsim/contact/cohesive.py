@@ -15,7 +15,7 @@ Normal approach enters as the uniform mode of the gap. Where the uniform complia
 convention, and an incompressible layer) that mode of v is held at zero. Under a prescribed mean pressure the uniform
 mode of the gap is free, its stiffness zero, and the equation says that the law carries the load; the approach follows.
 A slide enters as the uniform mode of the tangential gap: the far boundary of a layer, or the mean of a half-space, is
-what moves. Springs between sites of two lattices are one law, of the gap to the site that is opposite without a slide.
+what moves. Springs between sites of two lattices are one law of the gap to the site that is opposite without a slide.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from contactsim.elasticity.symbol import Symbol
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Tally
 from contactsim.interface.laws import Law
-from contactsim.interface.pairing import Springs
+from contactsim.interface.pairing import LatticeInteraction
 from contactsim.interface.superposition import Superposition, superposed
 from contactsim.traits import Trait
 
@@ -45,7 +45,7 @@ LOOSEST = 0.1
 class Tangent:
     """Derivative of the traction at each point, (exerted, read, n), GPa/nm; a linear map on coefficients."""
 
-    problem: InterfaceProblem
+    problem: CohesiveProblem
     values: Array
 
     def __call__(self, change: Array) -> Array:
@@ -63,7 +63,7 @@ def contracted(tangent: Array, field: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class InterfaceProblem:
+class CohesiveProblem:
     """What smooth laws pose at one load step (see the module's text).
 
     shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
@@ -75,7 +75,7 @@ class InterfaceProblem:
 
     grid: Grid
     shape: Array
-    law: Law | Superposition | Springs
+    law: Law | Superposition | LatticeInteraction
     stiffness: Symbol
     derived: Array | None
     tolerance: float
@@ -123,18 +123,18 @@ class InterfaceProblem:
         return self.law.stiffness
 
     @property
-    def reach(self) -> float:
+    def interaction_range(self) -> float:
         """Shortest length over which a law changes, nm."""
-        return self.law.reach
+        return self.law.interaction_range
 
-    def at(self, step: LoadStep) -> InterfaceProblem:
+    def at(self, step: LoadStep) -> CohesiveProblem:
         """The same scene at another load step."""
         normal = step.normal
         if normal.control is Trait.APPROACH:
             return replace(self, approach=normal.value + self.origin, load=None, sliding_distance=step.sliding_distance)
         return replace(self, approach=None, load=normal.value, sliding_distance=step.sliding_distance)
 
-    def coarser(self, points: int, tolerance: float) -> InterfaceProblem:
+    def coarser(self, points: int, tolerance: float) -> CohesiveProblem:
         """The same scene on fewer points, an even number: without the waves that these cannot carry, in heights too."""
         grid, count = self.grid.coarser((points,)), points // 2 + 1
         shape = self.grid.forward(self.shape[0])[:count]
@@ -178,11 +178,11 @@ class InterfaceProblem:
     @property
     def lattice_constant(self) -> float:
         """Of the sites that springs join, nm; infinite without."""
-        return self.law.spacing if isinstance(self.law, Springs) else np.inf
+        return self.law.spacing if isinstance(self.law, LatticeInteraction) else np.inf
 
     def offset(self, gap: Array) -> Array:
         """Tangential gap (n,), nm, between what faces each other; gap: (2, n)."""
-        return self.law.offset(gap) if isinstance(self.law, Springs) else gap[1]
+        return self.law.offset(gap) if isinstance(self.law, LatticeInteraction) else gap[1]
 
     def traction(self, gap: Array) -> Array:
         """The laws' traction (exerted, n), GPa."""
@@ -246,7 +246,7 @@ def check_tolerance(tolerance: object, name: str = "tolerance") -> None:
         raise SceneError(name, tolerance, f"a number above 0, at most {LOOSEST}, in parts of the laws' strength")
 
 
-def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> InterfaceProblem:
+def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:
     """The problem that a scene of smooth laws poses on the grid of `heights` (n,), nm, at zero approach."""
     check_tolerance(tolerance)
     grid = Grid(heights.shape, scene.lengths, threads)
@@ -258,4 +258,4 @@ def pose_interface(scene: Scene, heights: Array, tolerance: float, threads: int 
     shape[0] = -heights
     law = scene.pairing.joined(superposed(scene.acting), scene.lower.surface.heights(grid.size), scene.length)
     origin = scene.path.origin(heights)
-    return InterfaceProblem(grid, shape, law, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin)
+    return CohesiveProblem(grid, shape, law, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin)

@@ -83,7 +83,7 @@ def _differences(heights: Array, scale: float) -> Array:
 
 
 @dataclass(frozen=True)
-class Begun:
+class WarmStart:
     """A solution on fewer points, from which a cascade of grids can begin.
 
     pressure in E*·step/spacing, gap in grid steps of the problem that it is handed to; (m,) or (my, mx).
@@ -94,7 +94,7 @@ class Begun:
 
 
 @dataclass
-class WallProblem:
+class HardWallProblem:
     """The complementarity problem at one load step, without units (see the module's text).
 
     heights: (n,) or (ny, nx), at most 0; compliance: S; tolerance: in grid steps; exactly one of load (mean pressure)
@@ -107,14 +107,14 @@ class WallProblem:
     load: float | None
     approach: float | None
     tally: Tally
-    begun: Begun | None = None
+    begun: WarmStart | None = None
 
     @property
     def untouched(self) -> bool:
         """Whether nothing has to be solved: no load, or not yet a touch."""
         return self.load == 0 if self.approach is None else self.approach <= 0
 
-    def coarser(self, tolerance: float) -> WallProblem:
+    def coarser(self, tolerance: float) -> HardWallProblem:
         """The same scene on half as many points in each direction, in grid steps of its own; heights are picked."""
         shape = tuple(size // 2 for size in self.heights.shape)
         places = [np.arange(half) * size // half for half, size in zip(shape, self.heights.shape, strict=True)]
@@ -126,12 +126,12 @@ class WallProblem:
         symbol = self.compliance.symbol[grid.modes_of(self.compliance.grid)] * ratio
         approach = None if self.approach is None else self.approach * ratio + highest
         begun = self.begun and replace(self.begun, gap=self.begun.gap * ratio)
-        return WallProblem(
+        return HardWallProblem(
             picked, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally, begun
         )
 
     @property
-    def near_begun(self) -> bool:
+    def can_start_warm(self) -> bool:
         """Whether it has at most twice as many points a side as what it may begin from."""
         return self.begun is not None and self.heights.shape[-1] <= 2 * self.begun.pressure.shape[-1]
 
@@ -212,7 +212,9 @@ def _why_zero(scene: Scene) -> str:
     return "as an incompressible layer keeps its volume"
 
 
-def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int) -> tuple[WallProblem, Scale]:
+def pose_hard_wall(
+    scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads: int
+) -> tuple[HardWallProblem, Scale]:
     """The problem that a scene poses at one load step on the grid of `heights`, nm; and its units."""
     if not (is_number(tolerance) and tolerance > 0):
         raise SceneError("tolerance", tolerance, "a positive number of grid steps")
@@ -241,4 +243,4 @@ def pose(scene: Scene, step: LoadStep, heights: Array, tolerance: float, threads
     tally = Tally(heights.size)
     below = heights - highest
     below /= unit
-    return WallProblem(below, Operator(grid, symbol, tally), tolerance, load, approach, tally), scale
+    return HardWallProblem(below, Operator(grid, symbol, tally), tolerance, load, approach, tally), scale

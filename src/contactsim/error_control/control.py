@@ -24,7 +24,7 @@ from contactsim.error_control.options import SAFETY, chosen, coarser, left_open,
 from contactsim.error_control.scaling import MEASURES, ORDERS, SECOND, Kind, kind_of, relations
 from contactsim.grid import Array
 from contactsim.observables.derived import combine_runs, summarise_paths
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.status import is_solved
 from contactsim.study.execute import asked_of, keep, names_of, simulate
 from contactsim.study.keys import is_smooth
@@ -94,7 +94,7 @@ def outcome(settings: dict, names: Sequence[str], threads: int = 1, begun: Outco
         scene_of(settings),
         points=settings["points"],
         tolerance=settings["tolerance"],
-        method=solver(**settings["solver"]),
+        method=make_solver(**settings["solver"]),
         threads=threads,
         **asked,
     )

@@ -18,7 +18,7 @@ from contactsim.error_control.options import PATH_TOLERANCE, chosen, coarser, le
 from contactsim.error_control.scaling import MEASURES, Kind, kind_of, relations
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
-from contactsim.solvers.registry import solver, usual_kind
+from contactsim.solvers.registry import default_solver_name, make_solver
 from contactsim.study.keys import is_smooth
 from contactsim.study.scenes import scene_of
 
@@ -57,9 +57,9 @@ def forecast(settings: dict, of: Sequence[str] = ()) -> Forecast:
     of: names of quantities, the usual ones where empty. SceneError for scenes and solvers that were not measured.
     """
     scene, points = scene_of(settings), settings["points"]
-    kind, usual = kind_of(scene), usual_kind(scene.traits)
-    if settings["solver"]["kind"] != usual:
-        raise SceneError("solver.kind", settings["solver"]["kind"], f"{usual}: the costs of others were not measured")
+    kind, default = kind_of(scene), default_solver_name(scene)
+    if settings["solver"]["kind"] != default:
+        raise SceneError("solver.kind", settings["solver"]["kind"], f"{default}: the costs of others were not measured")
     told = relations()
     known = told.kinds[kind]
     places = [one | walk_features(settings) for one in on_grid(scene, points)]
@@ -72,7 +72,7 @@ def forecast(settings: dict, of: Sequence[str] = ()) -> Forecast:
         steps=steps,
         transforms=transforms,
         units=seconds / told.unit,
-        megabytes=solver(**settings["solver"]).fields * len(scene.components) * size * 8 / 1e6,
+        megabytes=make_solver(**settings["solver"]).fields * len(scene.components) * size * 8 / 1e6,
         errors={name: _left_open(settings, places, known, name) for name in of or MEASURES[kind]},
         unsure=tuple(dict.fromkeys(name for one in places for name in known.outside(one))),
     )

@@ -136,7 +136,7 @@ def kind_of(scene: Scene) -> str:
 
 def reach_of(scene: Scene) -> float:
     """The length over which a scene's smooth laws change, nm: the shortest of theirs."""
-    return min(effect.reach for effect in scene.effects if Trait.SMOOTH in effect.traits)
+    return min(effect.interaction_range for effect in scene.effects if Trait.SMOOTH in effect.traits)
 
 
 def strength_of(scene: Scene) -> float:

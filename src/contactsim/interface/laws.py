@@ -36,8 +36,8 @@ class Law(Protocol):
     """One effect given as traction against gap, point by point.
 
     reads, exerts: components of the gap it depends on and of the traction it exerts; strength (GPa) and stiffness
-    (GPa/nm): the largest pull and the largest tangent, by which tolerances and steps are measured; reach (nm): the
-    length over which it changes, normal.
+    (GPa/nm): the largest pull and the largest tangent, by which tolerances and steps are measured;
+    interaction_range (nm): the length over which it changes, normal.
     """
 
     reads: frozenset[str]
@@ -45,7 +45,7 @@ class Law(Protocol):
     traits: frozenset[Trait]
     strength: float
     stiffness: float
-    reach: float
+    interaction_range: float
 
     def traction(self, gap: Array) -> Array:
         """Traction (exerts, n), GPa, at a gap (reads, n), nm; rows in the order n, t."""
@@ -128,7 +128,7 @@ class CohesiveZone:
         )
 
     @property
-    def reach(self) -> float:
+    def interaction_range(self) -> float:
         """Length over which the normal traction changes, nm."""
         return self.normal_length
 
@@ -201,7 +201,7 @@ class NormalCohesiveZone:
         return self.work_of_separation / self.normal_length**2
 
     @property
-    def reach(self) -> float:
+    def interaction_range(self) -> float:
         """Length over which the traction changes, nm."""
         return self.normal_length
 

@@ -1,6 +1,6 @@
 """Which site faces which: aligned, or windowed, by springs between two lattices (Eqs 6.1-6.6).
 
-Aligned, each point of one surface faces the same point of the other for ever. Windowed, a site of the upper surface
+Aligned, each point of one surface faces the same point of the other for ever. Lattice, a site of the upper surface
 that has moved by Δt pulls and pushes all sites of the rigid lower lattice within a window, each by the law between the
 two: the sum repeats itself after a lattice constant l, so that contacts broken by sliding are made anew, around the
 periodic cell as well.
@@ -34,7 +34,7 @@ PHASES = 33
 
 
 @dataclass(frozen=True)
-class Springs:
+class LatticeInteraction:
     """A law between sites within a window, as one law of the gap to the site opposite when nothing has moved.
 
     law: of each spring; offsets: of the sites from the nearest one, in lattice constants (sites,); spacing: lattice
@@ -45,7 +45,7 @@ class Springs:
     law: Law | Superposition
     offsets: Array = field(repr=False)
     spacing: float
-    depth: float
+    normal_cutoff: float
     weight: float
     lower: Array | None = field(repr=False)
     length: float
@@ -69,9 +69,9 @@ class Springs:
     def _crowd(self) -> float:
         """How many springs pull as one, where most do, times the weight."""
         phases = np.linspace(0.0, 0.5, PHASES)
-        gap = np.full((len(self.reads), PHASES * len(self.offsets)), self.law.reach)
+        gap = np.full((len(self.reads), PHASES * len(self.offsets)), self.law.interaction_range)
         gap[1:] = self.spacing * (phases - self.offsets[:, None]).ravel()
-        alone = self.law.traction(np.array([[self.law.reach], [0.0]])[: len(self.reads)])[0, 0]
+        alone = self.law.traction(np.array([[self.law.interaction_range], [0.0]])[: len(self.reads)])[0, 0]
         sums = self.law.traction(gap)[0].reshape(len(self.offsets), -1).sum(0)
         return self.weight * float(sums.max() / alone)
 
@@ -86,9 +86,9 @@ class Springs:
         return self._crowd * self.law.stiffness
 
     @property
-    def reach(self) -> float:
+    def interaction_range(self) -> float:
         """Shortest length over which it changes, nm."""
-        return min(self.law.reach, getattr(self.law, "tangential_length", math.inf))
+        return min(self.law.interaction_range, getattr(self.law, "tangential_length", math.inf))
 
     @property
     def tangential_length(self) -> float:
@@ -137,7 +137,7 @@ class Springs:
     def _each(self, gap: Array) -> tuple[Array, Array]:
         """Points with springs (near,), and the gap of each of these (reads, sites × near)."""
         lowest = gap[0] if self.lower is None else gap[0] + self.lower - self.lower.max()
-        near = np.flatnonzero(lowest <= self.depth)
+        near = np.flatnonzero(lowest <= self.normal_cutoff)
         each = np.empty((len(gap), len(self.offsets), near.size))
         first = self.facing(gap)[near]
         each[0] = gap[0, near]
@@ -178,7 +178,7 @@ class Pairing(Protocol):
         """SceneError for bodies and laws that cannot be joined so."""
         ...
 
-    def joined(self, law: Law | Superposition, lower: Array, length: float) -> Law | Superposition | Springs:
+    def joined(self, law: Law | Superposition, lower: Array, length: float) -> Law | Superposition | LatticeInteraction:
         """The law between the surfaces; lower: heights of the lower one (n,), length: period, nm."""
         ...
 
@@ -196,44 +196,61 @@ class Aligned:
 
 
 @dataclass(frozen=True)
-class Windowed:
-    """Springs from each site of the upper surface to those of a rigid lattice below, within a window (Eqs 6.2-6.3).
+class Lattice:
+    """Springs from each site of the upper surface to those of a rigid lattice below, within cutoffs (Eqs 6.2-6.3).
 
-    lattice_constant: l, nm; window: tangential, in the law's tangential length (thesis 5); depth: normal, in its normal
+    lattice_constant: l, nm; tangential_cutoff: in the law's tangential length (thesis 5); normal_cutoff: in its normal
     length, beyond which there is none (thesis 10, at which the law still jumps by 1e-3 of its strength); weight: of
     each spring, 1 in the thesis. The window holds the nearest site and whole numbers of further ones, at most `MOST`.
     """
 
     lattice_constant: float
-    window: float = 5.0
-    depth: float = 40.0
+    tangential_cutoff: float = 5.0
+    normal_cutoff: float = 40.0
     weight: float = 1.0
 
     def __post_init__(self) -> None:
-        units = {"lattice_constant": "nm", "window": "tangential lengths", "depth": "normal lengths", "weight": "parts"}
+        units = {
+            "lattice_constant": "nm",
+            "tangential_cutoff": "tangential lengths",
+            "normal_cutoff": "normal lengths",
+            "weight": "parts",
+        }
         for name, unit in units.items():
             value = getattr(self, name)
-            least = "0 or more" if name == "window" else "above 0"
-            if not (is_number(value) and (value >= 0 if name == "window" else value > 0)):
+            least = "0 or more" if name == "tangential_cutoff" else "above 0"
+            if not (is_number(value) and (value >= 0 if name == "tangential_cutoff" else value > 0)):
                 raise SceneError(name, value, f"a finite number {least}, in {unit}")
 
     def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
         """SceneError unless the lower body is rigid, the contact a line and the laws smooth."""
         if lower is not None:
             allowed = "a rigid lower body: sites that are displaced on both sides are not modelled"
-            raise SceneError("pairing", "windowed", allowed)
+            raise SceneError("pairing", "lattice", allowed)
         if not {Trait.LINE, Trait.SMOOTH} <= traits or Trait.WALL in traits:
-            raise SceneError("pairing", "windowed", "aligned, or smooth laws on a line: springs are laws between sites")
+            raise SceneError("pairing", "lattice", "aligned, or smooth laws on a line: springs are laws between sites")
 
-    def joined(self, law: Law | Superposition, lower: Array, length: float) -> Springs:
+    def joined(self, law: Law | Superposition, lower: Array, length: float) -> LatticeInteraction:
         """The springs as one law."""
-        beyond = math.ceil(self.window * getattr(law, "tangential_length", law.reach) / self.lattice_constant)
+        beyond = math.ceil(
+            self.tangential_cutoff * getattr(law, "tangential_length", law.interaction_range) / self.lattice_constant
+        )
         if beyond > MOST:
-            raise SceneError("window", self.window, f"one of at most {MOST} sites on each side, not {beyond}")
+            raise SceneError(
+                "tangential_cutoff", self.tangential_cutoff, f"one of at most {MOST} sites on each side, not {beyond}"
+            )
         offsets = np.arange(-beyond, beyond + 1.0)
         heights = None if np.ptp(lower) == 0 else lower
-        return Springs(law, offsets, self.lattice_constant, self.depth * law.reach, self.weight, heights, length)
+        return LatticeInteraction(
+            law,
+            offsets,
+            self.lattice_constant,
+            self.normal_cutoff * law.interaction_range,
+            self.weight,
+            heights,
+            length,
+        )
 
 
 ALIGNED = Aligned()
-PAIRINGS = {"aligned": Aligned, "windowed": Windowed}
+PAIRINGS = {"aligned": Aligned, "lattice": Lattice}

@@ -44,9 +44,9 @@ class Superposition:
         return sum(law.stiffness for law in self.laws)
 
     @cached_property
-    def reach(self) -> float:
+    def interaction_range(self) -> float:
         """Shortest length over which one of them changes, nm."""
-        return min(law.reach for law in self.laws)
+        return min(law.interaction_range for law in self.laws)
 
     @cached_property
     def tangential_length(self) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 from contactsim.status import is_solved
 
@@ -61,7 +61,7 @@ def contact_length(gap: Array, spacing: float) -> float:
     return float(spacing * (np.count_nonzero(inside) + (ends / (ends - np.maximum(gap, after)[crossing])).sum()))
 
 
-def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
+def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
 
     line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; contact_length,
@@ -84,7 +84,7 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
         "min_gap": smallest,
         "max_pressure": max(pushed, 0.0),
         "max_tensile_traction": max(pulled, 0.0),
-        "max_interpenetration": max(-smallest, 0.0) / problem.reach,
+        "max_interpenetration": max(-smallest, 0.0) / problem.interaction_range,
     }
     numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
     if len(gap) > 1:
@@ -95,7 +95,7 @@ def state_observables(problem: InterfaceProblem, gap: Array, traction: Array) ->
     return numbers
 
 
-def gradients(square: Array, problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, float]:
+def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, float]:
     """Rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
 
     square: local mean squares of the slopes (n,), as of `contactsim.surfaces.statistics.local_squares`. NaN without
@@ -109,10 +109,10 @@ def gradients(square: Array, problem: InterfaceProblem, gap: Array, traction: Ar
     return found | {"rms_gradient": float(np.sqrt(square.mean()))}
 
 
-def histograms(problem: InterfaceProblem, gap: Array, traction: Array) -> dict[str, Array]:
+def histograms(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, Array]:
     """Share of the points by normal gap, bins of `OPENINGS`, and by normal traction, bins of `PULLS`."""
     kinds = {
-        "normal_gap_share": (gap[0] / problem.reach, OPENINGS),
+        "normal_gap_share": (gap[0] / problem.interaction_range, OPENINGS),
         "normal_traction_share": (traction[0] / problem.strength, PULLS),
     }
     return {

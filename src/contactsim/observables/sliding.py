@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 
 EVENT = (
@@ -32,13 +32,13 @@ TOUCHING = 1e-4
 """Mean gap, nm, within which surfaces touch all over, and neither overlap nor are apart."""
 
 
-def slide_observables(problem: InterfaceProblem, gap: Array, displacement: Array) -> dict[str, float]:
+def slide_observables(problem: CohesiveProblem, gap: Array, displacement: Array) -> dict[str, float]:
     """Numbers of one state on a slide: gap (2, n), nm; displacement (exerted, m).
 
     sliding_distance, nm; contact_trailing_edge, contact_leading_edge: outermost edges of what is under repulsion, nm,
     NaN without; contact_slip: mean tangential gap where surfaces are closest, nm; elastic_energy of the bodies, nJ/m.
     """
-    close = gap[0] <= gap[0].min() + problem.law.reach
+    close = gap[0] <= gap[0].min() + problem.law.interaction_range
     weighted = problem.balanced(np.zeros_like(displacement), displacement) * problem.weights
     trailing, leading = contact_ends(gap[0], problem.shape[0], problem.grid.spacing[0])
     return {

@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.paths.continuation import Leap, PathState, Walk
 from contactsim.paths.extrapolation import POINTS, lagrange, shares
-from contactsim.solvers.cohesive.base import Equilibrium, PathSolver
+from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -45,7 +45,7 @@ class Stretch:
         self.places.append(place)
         self.states.append(state)
 
-    def near(self, problem: InterfaceProblem, place: float) -> Equilibrium:
+    def near(self, problem: CohesiveProblem, place: float) -> Equilibrium:
         """The state at a place within, by the polynomial through the nearest states."""
         ahead = sum((other - place) * (self.places[0] - place) > 0 for other in self.places)  # before it on the walk
         first = min(max(ahead - POINTS // 2, 0), max(len(self.places) - POINTS, 0))
@@ -86,11 +86,11 @@ class Adaptive:
         if self.least is not None and self.most is not None and self.least > self.most:
             raise SceneError("least", self.least, f"at most the longest increment, {self.most:g}")
 
-    def _allowed(self, problem: InterfaceProblem) -> float:
+    def _allowed(self, problem: CohesiveProblem) -> float:
         """Error of a prediction, nm."""
-        return self.error or ALLOWED * problem.reach
+        return self.error or ALLOWED * problem.interaction_range
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """SceneError for a solver that makes no predictions, and where a pressure's increments have no bounds."""
         if not solver.predicts:
             raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
@@ -98,7 +98,9 @@ class Adaptive:
         if None in given.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
             raise SceneError("least", given, "least and most in GPa, where a mean pressure is prescribed")
 
-    def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
+    def follow(
+        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
+    ) -> Iterator[PathState]:
         """States at all steps, in order, interpolated between those walked through."""
         self.check(problem.grid.size, steps, solver)
         walk, begin = Walk(problem, solver), 0
@@ -110,13 +112,13 @@ class Adaptive:
             lost = False
             for count, step in enumerate(leg):
                 shared = (iterations, spent) if count == 0 else (0, 0.0)
-                state = self._state(walk, step, leg, stretches, Status.BROKEN_OFF if lost else status, shared)
+                state = self._state(walk, step, leg, stretches, Status.SKIPPED if lost else status, shared)
                 lost |= not state.status.solved
                 yield state
             begin = end
             if status is not Status.CONVERGED:
                 for step in steps[end:]:
-                    yield PathState(step, walk.at(step), walk.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
+                    yield PathState(step, walk.at(step), walk.last, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
                 return
 
     def _walk(self, walk: Walk, leg: Sequence[LoadStep]) -> tuple[int, list[Stretch], Status]:
@@ -126,7 +128,7 @@ class Adaptive:
         jump is found between the same two states as without adapting.
         """
         first, last = leg[0], leg[-1]
-        reach, error = walk.problem.reach, self._allowed(walk.problem)
+        reach, error = walk.problem.interaction_range, self._allowed(walk.problem)
         most = self.most or max(LONGEST * reach, self.least or 0.0)
         least = self.least or min(SHORTEST * reach, most)
         iterations, increment = 0, least
@@ -190,7 +192,7 @@ class Adaptive:
         found = stretch.near(problem, stretch.places[-1] if beyond else step.value)
         if found.residual > problem.tolerance + self._allowed(problem) * problem.softening / problem.strength:
             before = problem.tally.transforms
-            found = walk.solver.near(problem, found.displacement, walk.solver.begin_walk())
+            found = walk.solver.near(problem, found.displacement, walk.solver.new_memory())
             spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before
         earlier = [other.value for other in leg if sign * (step.value - other.value) > 0]
         since = [

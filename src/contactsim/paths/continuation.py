@@ -11,11 +11,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import History
-from contactsim.solvers.cohesive.base import Equilibrium, PathSolver, moved
+from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, moved
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -57,7 +57,7 @@ class PathState:
     """
 
     step: LoadStep
-    problem: InterfaceProblem = field(repr=False)
+    problem: CohesiveProblem = field(repr=False)
     displacement: Array = field(repr=False)
     status: Status
     residual: float
@@ -83,13 +83,13 @@ class PathState:
 class Walk:
     """Where a path stands: the last stable state, and the history that predicts the next."""
 
-    def __init__(self, problem: InterfaceProblem, solver: PathSolver, divides: bool = True) -> None:
+    def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver, divides: bool = True) -> None:
         self.problem, self.solver = problem, solver
         self._divides = divides and solver.predicts
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
         self._failed = 0
-        self._memory = solver.begin_walk()
+        self._memory = solver.new_memory()
         self.stands: tuple[LoadStep, Equilibrium] | None = None  # the last state and its step
         self._pace: float | None = None
 
@@ -120,7 +120,7 @@ class Walk:
         self.history = History()
         self.history.add(place, last)
 
-    def at(self, step: LoadStep) -> InterfaceProblem:
+    def at(self, step: LoadStep) -> CohesiveProblem:
         """The problem at a load step."""
         return self.problem.at(step)
 
@@ -148,7 +148,7 @@ class Walk:
     @property
     def near_by(self) -> float:
         """How far (nm) a state may lie from where it is expected, to be believed on the same branch."""
-        return self.solver.trusted * self.problem.reach
+        return self.solver.trusted * self.problem.interaction_range
 
     def believed(self, found: Equilibrium) -> bool:
         """Whether a state by continuation is on the branch: where it is expected and, over a lattice, not a cell on.
@@ -159,7 +159,7 @@ class Walk:
             return False
         if self.stands is None or not self.slips:
             return True
-        close = found.gap[0] <= CLOSE * self.problem.reach
+        close = found.gap[0] <= CLOSE * self.problem.interaction_range
         slipped = np.abs(found.gap[1, close] - self.stands[1].gap[1, close]).max(initial=0.0)
         return bool(slipped <= self.problem.lattice_constant / 2)
 
@@ -175,7 +175,11 @@ class Walk:
         """Move on to a state; the jump to it, if it is one."""
         before = self.place(step)
         taken = np.inf if before is None else abs(step.value - before)
-        expected = np.inf if taken == np.inf else max(STEADY * self._length(step, taken), SUDDEN * self.problem.reach)
+        expected = (
+            np.inf
+            if taken == np.inf
+            else max(STEADY * self._length(step, taken), SUDDEN * self.problem.interaction_range)
+        )
         if step.held is not None and before is not None:  # a slip of a cell is one, however long the step
             expected = min(expected, self.problem.lattice_constant / 2)
         jump = Leap(*self.stands, step, found, found.moved) if flowed and found.moved > expected else None
@@ -192,10 +196,10 @@ class Walk:
         """The state at the next step: by continuation, or where that is not to be trusted by flow."""
         tally, here = self.problem.tally, self.at(step)
         if self._failed == PATIENCE:
-            return PathState(step, here, self.last, Status.BROKEN_OFF, np.nan, 0.0, 0, 0.0)
+            return PathState(step, here, self.last, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
         before = tally.transforms
         found, leaps, spent = self.reach(step)
-        lost = found.status in (Status.PULLED_OFF, Status.NON_FINITE)  # nothing comes after that
+        lost = found.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)  # nothing comes after that
         self._failed = 0 if found.settled else PATIENCE if lost else self._failed + 1
         cost = tally.transforms - before
         numbers = found.status, found.residual, sum(leap.moved for leap in leaps), spent, cost
@@ -233,7 +237,7 @@ class Walk:
     @property
     def _small(self) -> float:
         """A step (nm) not worth dividing: what moves smoothly during it is not taken for a jump."""
-        return SUDDEN * self.problem.reach / (FASTEST if self.slips else STEADY)
+        return SUDDEN * self.problem.interaction_range / (FASTEST if self.slips else STEADY)
 
     def _length(self, step: LoadStep, taken: float) -> float:
         """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""

@@ -6,22 +6,24 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import PathState, Walk
 from contactsim.paths.nested import Nested
-from contactsim.solvers.cohesive.base import PathSolver
+from contactsim.solvers.cohesive.base import CohesiveSolver
 
 
 class Increments(Protocol):
     """A way to follow a path."""
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """SceneError for what it cannot follow so."""
         ...
 
-    def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
+    def follow(
+        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
+    ) -> Iterator[PathState]:
         """States at all steps, in order."""
         ...
 
@@ -30,10 +32,12 @@ class Increments(Protocol):
 class Requested:
     """Every increment of the path as it is asked for."""
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Any path can be followed so."""
 
-    def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
+    def follow(
+        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
+    ) -> Iterator[PathState]:
         """States at all steps, in order."""
         walk = Walk(problem, solver)
         for step in steps:

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem, check_tolerance
+from contactsim.contact.cohesive import CohesiveProblem, check_tolerance
 from contactsim.contact.loading import LoadStep
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.paths.continuation import PathState, Walk
-from contactsim.solvers.cohesive.base import PathSolver
+from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.status import Status
 
 STRAYING = 0.5
@@ -50,7 +50,7 @@ class Nested:
         if self.between > self.ratio:
             raise SceneError("between", self.between, f"at most the ratio of the coarse grid, {self.ratio}")
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: PathSolver) -> None:
+    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """SceneError for a grid that cannot be made coarser, states that the path does not visit, and slides."""
         if any(step.held is not None for step in steps):
             raise SceneError("increments", "nested", "requested or adaptive, as the path slides")
@@ -61,7 +61,9 @@ class Nested:
         if lost:
             raise SceneError("settled", lost, "steps of the path, which these are not")
 
-    def follow(self, problem: InterfaceProblem, solver: PathSolver, steps: Sequence[LoadStep]) -> Iterator[PathState]:
+    def follow(
+        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
+    ) -> Iterator[PathState]:
         """States at all steps, in order."""
         size, tally = problem.grid.size, problem.tally
         self.check(size, steps, solver)
@@ -87,7 +89,7 @@ class Nested:
 class Level:
     """A finer grid than that of a walk, on which its states are solved for."""
 
-    def __init__(self, problem: InterfaceProblem, solver: PathSolver) -> None:
+    def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver) -> None:
         self._problem, self._solver = problem, solver
         self._strays = False
 
@@ -97,11 +99,13 @@ class Level:
         Where the last one was found far from there, or not without a flow, the flow is tried at once.
         """
         here, count = self._problem.at(coarse.step), coarse.iterations
-        found = None if self._strays else self._solver.near(here, start, self._solver.begin_walk(), here.reach)
-        if found is None or not (found.settled and found.moved <= here.reach):
+        found = (
+            None if self._strays else self._solver.near(here, start, self._solver.new_memory(), here.interaction_range)
+        )
+        if found is None or not (found.settled and found.moved <= here.interaction_range):
             count += found.iterations if found else 0
             found = self._solver.flow(here, start)
-            self._strays = found.moved > STRAYING * here.reach
+            self._strays = found.moved > STRAYING * here.interaction_range
         count += found.iterations
         rest = found.status, found.residual, coarse.jump, count, 0.0, found, coarse.leaps
         return PathState(coarse.step, here, found.displacement, *rest)

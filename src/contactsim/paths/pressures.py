@@ -19,13 +19,13 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.contact.hard_wall import Begun, pose
+from contactsim.contact.hard_wall import WarmStart, pose_hard_wall
 from contactsim.contact.loading import LoadStep
 from contactsim.contact.scene import Scene
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
 from contactsim.observables.contact import KEPT, wall_observables
-from contactsim.solvers.base import Result, Solver, solve
+from contactsim.solvers.base import HardWallSolver, Result, solve
 from contactsim.status import status_sentence
 from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
 
@@ -43,7 +43,7 @@ class Point:
 
 def simulate_loads(
     scene: Scene,
-    method: Solver,
+    method: HardWallSolver,
     *,
     points: int,
     tolerance: float,
@@ -64,10 +64,10 @@ def simulate_loads(
 
     def solved(step: LoadStep) -> Point:
         """One load on its own."""
-        problem, scale = pose(scene, step, heights, tolerance, threads)
+        problem, scale = pose_hard_wall(scene, step, heights, tolerance, threads)
         if begun is not None:
             coarse = begun.isel(step=scene.path.steps.index(step))
-            problem.begun = Begun(coarse.pressure.values / scale.pressure, coarse.gap.values / scale.step)
+            problem.begun = WarmStart(coarse.pressure.values / scale.pressure, coarse.gap.values / scale.step)
         return _point(solve(method, problem, scale), heights, scene.lengths, keep)
 
     return _collected(scene, heights, _loads(scene.path.steps, known or {}, solved), keep)

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset, status
-from contactsim.contact.cohesive import InterfaceProblem, pose_interface
+from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
@@ -19,7 +19,7 @@ from contactsim.observables.sliding import slide_observables, slips_of
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Increments, Requested
 from contactsim.paths.slips import slip_numbers
-from contactsim.solvers.cohesive.base import PathSolver
+from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.study.scenes import increments_of
 from contactsim.surfaces.statistics import local_squares
 from contactsim.traits import Trait
@@ -37,7 +37,7 @@ LINES = 40
 
 def simulate_path(
     scene: Scene,
-    method: PathSolver,
+    method: CohesiveSolver,
     *,
     points: int,
     tolerance: float,
@@ -53,7 +53,7 @@ def simulate_path(
     histograms and, unless told not to, fields; NaN where there is no solution.
     """
     heights, steps = scene.heights(points), scene.path.steps
-    problem = pose_interface(scene, heights, tolerance, threads)
+    problem = pose_cohesive(scene, heights, tolerance, threads)
     kept = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
     rows, slips, fields, begin, total, marks = [], [], {}, time.process_time(), 0.0, [0.0]
@@ -89,7 +89,7 @@ def options(settings: dict) -> dict:
 def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
     """What a step says: its datum, observables, how it was found; slopes: squares by grid, kept for later steps."""
     problem, (gap, traction) = state.problem, state.fields()
-    zone = status.process_zone(scene.contact_modulus, problem.strength, problem.reach)
+    zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
     if state.points not in slopes:
         slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
     approach = problem.approach
@@ -115,7 +115,7 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
     }
 
 
-def _fields(problem: InterfaceProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
+def _fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
     """Histograms and, if kept, gap, traction and displacement by component, each (n,), read on the whole grid."""
     if state.points < problem.grid.size:
         state = replace(state, problem=problem, displacement=problem.refined(state.displacement), found=None)
@@ -131,7 +131,7 @@ def _fields(problem: InterfaceProblem, state: PathState, keep_fields: bool) -> d
 
 
 def _collected(
-    scene: Scene, problem: InterfaceProblem, rows: list[dict], fields: dict[int, dict[str, Array]]
+    scene: Scene, problem: CohesiveProblem, rows: list[dict], fields: dict[int, dict[str, Array]]
 ) -> xr.Dataset:
     heights = -problem.shape[0]
     kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "solved_points": np.int32}

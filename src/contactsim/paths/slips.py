@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import TOUCHING, slide_observables
@@ -12,7 +12,7 @@ from contactsim.paths.continuation import Leap
 from contactsim.solvers.cohesive.base import Equilibrium
 
 
-def slip_numbers(problem: InterfaceProblem, slip: Leap, step: int) -> dict[str, float]:
+def slip_numbers(problem: CohesiveProblem, slip: Leap, step: int) -> dict[str, float]:
     """Return the numbers of one slip (`EVENT`).
 
     Parameters
@@ -45,7 +45,7 @@ def slip_numbers(problem: InterfaceProblem, slip: Leap, step: int) -> dict[str, 
     }
 
 
-def _side_numbers(problem: InterfaceProblem, step: LoadStep, state: Equilibrium) -> dict[str, float]:
+def _side_numbers(problem: CohesiveProblem, step: LoadStep, state: Equilibrium) -> dict[str, float]:
     """Return the numbers of the state on one side of a slip."""
     numbers = slide_observables(problem.at(step), state.gap, state.displacement)
     exerts_shear = len(state.traction) > 1

@@ -13,7 +13,7 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim.contact.hard_wall import Certificate, Scale, WallProblem
+from contactsim.contact.hard_wall import Certificate, HardWallProblem, Scale
 from contactsim.contact.scene import Scene
 from contactsim.errors import SceneError
 from contactsim.grid import Array
@@ -29,7 +29,7 @@ class State:
     done: bool
 
 
-class Solver(Protocol):
+class HardWallSolver(Protocol):
     """A method for some kinds of scene.
 
     accepts: the traits it can take; budget: most outer steps; fields: doubles a point and component that it holds at
@@ -44,11 +44,11 @@ class Solver(Protocol):
         """Real transforms of an iteration on a grid of that size."""
         ...
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> State:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> State:
         """The first state, from a guess of the pressure where there is one."""
         ...
 
-    def step(self, problem: WallProblem, state: State) -> State:
+    def step(self, problem: HardWallProblem, state: State) -> State:
         """A better state."""
         ...
 
@@ -97,7 +97,7 @@ class Result:
         return float(self.pressure.mean())
 
 
-def require(solver: Solver, scene: Scene) -> None:
+def require(solver: HardWallSolver, scene: Scene) -> None:
     """Refuse what is no solver, and a scene with a trait that the solver does not accept."""
     if isinstance(solver, type) or not hasattr(solver, "accepts"):
         raise SceneError("solver", solver, "the name of a solver, or a solver made with its options")
@@ -118,7 +118,7 @@ def check_cascade(coarsest: int, coarse_tolerance: float) -> None:
         raise SceneError("coarsest", coarsest, "a whole number of points, 2 or more")
 
 
-def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> tuple[State, int, bool]:
+def iterate(solver: HardWallSolver, problem: HardWallProblem, state: State, budget: int) -> tuple[State, int, bool]:
     """Step until the solver believes to be done, the budget is spent, or a value is not finite.
 
     Returns the last state with finite values, the number of steps, and whether all values were finite.
@@ -133,7 +133,7 @@ def iterate(solver: Solver, problem: WallProblem, state: State, budget: int) -> 
     return state, budget, True
 
 
-def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
+def solve(solver: HardWallSolver, problem: HardWallProblem, scale: Scale) -> Result:
     """Solve one load step and certify it; in physical units."""
     begin = time.process_time()
     status, spent = Status.CONVERGED, 0
@@ -142,8 +142,8 @@ def solve(solver: Solver, problem: WallProblem, scale: Scale) -> Result:
         certificate, gap = problem.certify(pressure)
     else:
         state = solver.start(problem)
-        status = Status.BUDGET
-        while status is Status.BUDGET:
+        status = Status.MAX_ITERATIONS
+        while status is Status.MAX_ITERATIONS:
             pressure = gap = None  # no memory is held beside the solver's
             state, count, finite = iterate(solver, problem, state, solver.budget - spent)
             spent += count

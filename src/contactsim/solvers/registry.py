@@ -1,22 +1,21 @@
-"""The registry of solvers: config name to class.
+"""The registry of solvers: from a name in the configuration to a class.
 
-Classes are named, not imported, so that a run loads, and depends on, only the method it uses.
+Classes are named, not imported: a run loads only the method that it uses, and its results depend on no other.
 """
 
 from __future__ import annotations
 
 from importlib import import_module, metadata
 from importlib.util import find_spec
+from typing import Any
 
-from contactsim.contact.scene import Scene
+from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.errors import SceneError
-from contactsim.solvers.base import Solver
-from contactsim.traits import Trait
 
 SOLVERS = {
     "active_set": "contactsim.solvers.hard_wall.active_set:NestedActiveSet",
     "polonsky_keer": "contactsim.solvers.hard_wall.polonsky_keer:PolonskyKeer",
-    "verlet": "contactsim.solvers.hard_wall.verlet:WallVerlet",
+    "verlet": "contactsim.solvers.hard_wall.verlet:HardWallVerlet",
     "tamaas": "contactsim.solvers.hard_wall.tamaas:Tamaas",
     "conjugate_gradients": "contactsim.solvers.hard_wall.conjugate_gradients:NestedConjugateGradients",
     "newton": "contactsim.solvers.cohesive.newton_krylov:NewtonKrylov",
@@ -24,47 +23,80 @@ SOLVERS = {
     "mass_weighted_verlet": "contactsim.solvers.cohesive.damped_verlet:MassWeightedVerlet",
     "energy_minimisation": "contactsim.solvers.cohesive.energy_minimisation:EnergyMinimisation",
 }
-USUAL = {Trait.SMOOTH: "newton", Trait.LINE: "active_set", Trait.SURFACE: "conjugate_gradients"}
-"""What is used where nothing is asked for, by the first of these traits that the scene has."""
-PEERS = {"tamaas": "tamaas"}
-"""Solvers that need a package which contactsim does not."""
+"""Module and class of each solver."""
+DEFAULT_SOLVERS = {
+    (ProblemKind.HARD_WALL, 1): "active_set",
+    (ProblemKind.HARD_WALL, 2): "conjugate_gradients",
+    (ProblemKind.COHESIVE, 1): "newton",
+    (ProblemKind.COHESIVE, 2): "newton",
+}
+"""Solver that is used unless another one is asked for, by kind of problem and number of dimensions.
+
+Cohesive problems on surfaces are not modelled: their solver refuses the scene, and says so.
+"""
+REQUIRED_PACKAGES = {"tamaas": "tamaas"}
+"""Package that a solver needs beside those that contactsim depends on."""
 
 
-def module_of(kind: str) -> str:
-    """Name of the module in which a solver lives."""
+def solver_module(kind: str) -> str:
+    """Return the name of the module that defines a solver.
+
+    Raises
+    ------
+    SceneError
+        If there is no solver of that name.
+    """
     if kind not in SOLVERS:
         raise SceneError("solver", kind, f"one of {', '.join(sorted(SOLVERS))}")
     return SOLVERS[kind].partition(":")[0]
 
 
-def solver_class(kind: str) -> type:
-    """The class of a solver."""
-    return getattr(import_module(module_of(kind)), SOLVERS[kind].partition(":")[2])
+def solver_class(kind: str) -> Any:
+    """Return the class of a solver; importing its module."""
+    return getattr(import_module(solver_module(kind)), SOLVERS[kind].partition(":")[2])
 
 
-def usual_kind(traits: frozenset[Trait]) -> str:
-    """Name of the solver for a scene of these traits where none is asked for."""
-    return next(kind for trait, kind in USUAL.items() if trait in traits)
+def default_solver_name(scene: Scene) -> str:
+    """Return the name of the solver that is used for a scene unless another one is asked for."""
+    return DEFAULT_SOLVERS[scene.kind, len(scene.lengths)]
 
 
-def usual(scene: Scene) -> Solver:
-    """The solver for a scene where none is asked for."""
-    return solver(usual_kind(scene.traits))
+def default_solver(scene: Scene) -> Any:
+    """Return the solver that is used for a scene unless another one is asked for."""
+    return make_solver(default_solver_name(scene))
 
 
-def installed(kind: str) -> bool:
-    """Whether what a solver needs is there."""
-    return kind not in PEERS or find_spec(PEERS[kind]) is not None
+def is_installed(kind: str) -> bool:
+    """Return whether the package that a solver needs, if any, is installed."""
+    return kind not in REQUIRED_PACKAGES or find_spec(REQUIRED_PACKAGES[kind]) is not None
 
 
-def peer_version(kind: str) -> str:
-    """Version of the package that a solver needs beside this one; empty of others."""
-    return metadata.version(PEERS[kind]) if kind in PEERS else ""
+def package_version(kind: str) -> str:
+    """Return the version of the package that a solver needs beside contactsim; empty if it needs none."""
+    return metadata.version(REQUIRED_PACKAGES[kind]) if kind in REQUIRED_PACKAGES else ""
 
 
-def solver(kind: str, **options: float) -> Solver:
-    """The solver of that kind, with its options."""
-    method = solver_class(kind)(**options)
-    if not installed(kind):
-        raise SceneError("solver", kind, f"one that is installed: pip install {PEERS[kind]}")
-    return method
+def make_solver(kind: str, **options: object) -> Any:
+    """Return a solver with its options.
+
+    Parameters
+    ----------
+    kind
+        One of `SOLVERS`.
+    options
+        Fields of the solver's class.
+
+    Returns
+    -------
+    HardWallSolver or CohesiveSolver
+        The one or the other, by the kind of problem that it solves.
+
+    Raises
+    ------
+    SceneError
+        If there is no such solver, an option has a value that is not allowed, or a package is missing.
+    """
+    solver = solver_class(kind)(**options)
+    if not is_installed(kind):
+        raise SceneError("solver", kind, f"one that is installed: pip install {REQUIRED_PACKAGES[kind]}")
+    return solver

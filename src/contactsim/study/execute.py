@@ -19,7 +19,7 @@ from contactsim.paths.pressures import earlier
 from contactsim.paths.record import options
 from contactsim.provenance import digest
 from contactsim.simulation import simulate
-from contactsim.solvers.registry import solver
+from contactsim.solvers.registry import make_solver
 from contactsim.study.scenes import points_of, scene_of
 
 logger = logging.getLogger(__name__)
@@ -51,7 +51,7 @@ def run(
         scene,
         points=points_of(settings, scene.upper.surface),
         tolerance=settings["tolerance"],
-        method=solver(**settings["solver"]),
+        method=make_solver(**settings["solver"]),
         threads=threads,
         known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
         **asked_of(settings),

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from contactsim.contact import loading
+from contactsim.contact.scene import ProblemKind
 from contactsim.contact.simplification import LEFT_OUT
 from contactsim.elasticity.solids import ELASTICITIES
 from contactsim.errors import SceneError
@@ -21,7 +22,7 @@ from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET
 from contactsim.paths.increments import INCREMENTS
-from contactsim.solvers.registry import SOLVERS, solver_class, usual_kind
+from contactsim.solvers.registry import DEFAULT_SOLVERS, SOLVERS, solver_class
 from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
 from contactsim.surfaces.measured import SURFACES
 from contactsim.surfaces.shapes import Flat
@@ -296,13 +297,13 @@ def slide_part(section: dict, file: object, prefix: str, accurate: bool = False)
     return {name: value for name, value in section.items() if name not in left_out}
 
 
-def usual_solver(settings: dict) -> str:
+def default_solver_kind(settings: dict) -> str:
     """The kind of solver for a study's surface and effects; what is wrong with them is refused later."""
     surface = settings["surface"]
     kind = SURFACES.get(str(surface.get("kind")), Flat)
     dimensions = surface.get("dimensions", getattr(kind, "dimensions", 2 if surface.get("width") else 1))
-    traits = {Trait.SURFACE if dimensions == 2 else Trait.LINE}
-    return usual_kind(frozenset(traits | ({Trait.SMOOTH} if is_smooth(settings) else set())))
+    problem = ProblemKind.COHESIVE if is_smooth(settings) else ProblemKind.HARD_WALL
+    return DEFAULT_SOLVERS[problem, dimensions]
 
 
 def is_smooth(settings: dict) -> bool:

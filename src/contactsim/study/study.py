@@ -22,7 +22,7 @@ from contactsim.errors import SceneError
 from contactsim.interface.laws import EFFECTS
 from contactsim.provenance import computing_digest, digest
 from contactsim.solvers.base import require
-from contactsim.solvers.registry import module_of, solver
+from contactsim.solvers.registry import make_solver, solver_module
 from contactsim.study.keys import (
     BODIES,
     COMPANIONS,
@@ -31,12 +31,12 @@ from contactsim.study.keys import (
     RIGID,
     STUDY_KEYS,
     acting,
+    default_solver_kind,
     is_smooth,
     read_load,
     read_slide,
     settled,
     slide_part,
-    usual_solver,
 )
 from contactsim.study.reading import Key, choice, keys_of, read
 from contactsim.study.scenes import increments_of, points_of, scene_of
@@ -69,7 +69,7 @@ class Run:
         """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
         follows = ["contactsim.study.execute"]
         follows += [module for key, module in FOLLOWED.items() if key in self.settings]
-        code = computing_digest(*follows, module_of(self.settings["solver"]["kind"]))
+        code = computing_digest(*follows, solver_module(self.settings["solver"]["kind"]))
         measured = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
         return digest(code, *measured)
 
@@ -103,7 +103,7 @@ class Study:
         settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
-        settings["solver"] = {"kind": usual_solver(settings)} | settings["solver"]
+        settings["solver"] = {"kind": default_solver_kind(settings)} | settings["solver"]
         _refuse_unused(section, settings, file, prefix)
         for part in COMPANIONS:
             if settings[part] is not None:
@@ -261,7 +261,7 @@ class Study:
         """Build the run's scene once, so that nothing impossible is found out by a job."""
         try:
             scene = scene_of(run.settings)
-            method, points = solver(**run.settings["solver"]), points_of(run.settings, scene.upper.surface)
+            method, points = make_solver(**run.settings["solver"]), points_of(run.settings, scene.upper.surface)
             require(method, scene)
             scene.upper.surface.check(points)
             if is_smooth(run.settings):

@@ -29,7 +29,7 @@ from contactsim.error_control.scaling import (
 )
 from contactsim.evaluation.calibration.sampling import draw
 from contactsim.provenance import computing_digest
-from contactsim.solvers.registry import USUAL, module_of
+from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
 from contactsim.study.keys import is_smooth
 from contactsim.study.scenes import scene_of
 
@@ -142,7 +142,7 @@ def plan(settings: dict, kind: str) -> dict:
     """What the measurements of one kind depend on; not on the relations that they begin from, or they never settled."""
     drawn = {"ranges": settings["kinds"][kind], **settings["calibration"]}
     source = computing_digest(
-        "contactsim.evaluation.calibration.measurement", *(module_of(usual) for usual in USUAL.values())
+        "contactsim.evaluation.calibration.measurement", *(solver_module(name) for name in DEFAULT_SOLVERS.values())
     )
     return {"kind": kind, "drawn": drawn, "source": source}
 

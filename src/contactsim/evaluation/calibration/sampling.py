@@ -138,7 +138,7 @@ def _slide(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
         "surface": {"kind": "cylinder", "radius": radius, "length": 0.4 * radius},
         "body": {"kind": "rigid"},
         "counter_body": {"kind": "layer", "thickness": 0.4 * radius} | elastic,
-        "pairing": {"kind": "windowed", "lattice_constant": 2.44140625, "window": 5.0},
+        "pairing": {"kind": "lattice", "lattice_constant": 2.44140625, "tangential_cutoff": 5.0},
         "path": path,
         "slide": {"through": [0.0, 18.0], "increment": 0.5, "approach": _within(rng, ranges["approach"])},
     }

@@ -21,7 +21,7 @@ from contactsim.error_control.scaling import FILE, KINDS, LINE, MEASURES, SURFAC
 from contactsim.errors import SceneError
 from contactsim.evaluation.calibration.sampling import draw
 from contactsim.provenance import computing_digest, digest, source_digest
-from contactsim.solvers.registry import USUAL, module_of
+from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
 from contactsim.study.keys import is_smooth
 from contactsim.study.scenes import scene_of
 
@@ -44,7 +44,7 @@ def names(settings: dict) -> list[str]:
 
 def plan(settings: dict, kind: str, count: int) -> dict:
     """What one trial depends on."""
-    solvers = [module_of(usual) for usual in USUAL.values()]
+    solvers = [solver_module(name) for name in DEFAULT_SOLVERS.values()]
     source = digest(
         computing_digest("contactsim.evaluation.calibration.validation", *solvers), FILE.read_text(encoding="utf-8")
     )

@@ -15,7 +15,7 @@ from contactsim import dataset
 from contactsim.contact.scene import Scene
 from contactsim.errors import SceneError
 from contactsim.provenance import computing_digest, digest, source_digest
-from contactsim.solvers.registry import module_of, solver
+from contactsim.solvers.registry import make_solver, solver_module
 from contactsim.status import is_solved
 from contactsim.study.execute import asked_of, simulate
 from contactsim.study.reading import Key, mapping, overlaid, read, size, text, tiered, whole
@@ -53,7 +53,7 @@ def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | 
 
 def plan(settings: dict) -> dict:
     """What the measurement depends on."""
-    modules = sorted({module_of(rung["run"]["solver"]["kind"]) for rung in settings["rungs"]})
+    modules = sorted({solver_module(rung["run"]["solver"]["kind"]) for rung in settings["rungs"]})
     shown = {key: settings[key] for key in ("repeats", "rungs")}
     return {"settings": shown, "source": computing_digest("contactsim.evaluation.effects.effect_cost", *modules)}
 
@@ -100,7 +100,7 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
 def _options(run: dict) -> dict:
     """How a run is simulated."""
     common = {"points": points_of(run, scene_of(run).upper.surface), "tolerance": run["tolerance"]}
-    return common | {"method": solver(**run["solver"])} | asked_of(run)
+    return common | {"method": make_solver(**run["solver"])} | asked_of(run)
 
 
 def _unknowns(scene: Scene, points: int) -> int:

@@ -20,7 +20,7 @@ from contactsim.error_control.scaling import FILE as RELATIONS
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.provenance import computing_digest, digest, source_digest
-from contactsim.solvers.registry import USUAL, module_of
+from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
 from contactsim.study.keys import comparable, some_of
 from contactsim.study.reading import Key, listed, mapping, number, pair, read, size, text, tiered
 from contactsim.study.study import Study
@@ -116,7 +116,9 @@ def _panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
 
 def plan(settings: dict, name: str) -> dict:
     """What the measurement of one map depends on."""
-    code = computing_digest("contactsim.evaluation.effects.survey", *(module_of(usual) for usual in USUAL.values()))
+    code = computing_digest(
+        "contactsim.evaluation.effects.survey", *(solver_module(name) for name in DEFAULT_SOLVERS.values())
+    )
     return {"name": name, "map": settings["maps"][name], "source": digest(code, RELATIONS.read_text(encoding="utf-8"))}
 
 

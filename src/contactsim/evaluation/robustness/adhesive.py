@@ -103,14 +103,14 @@ def past_pull_off(severity: float) -> PathCase:
     offsets = np.linspace(0.0, 2.0, 2001)
     pulls = law.work_of_separation * ((surface[:, None] + offsets) * np.exp(-surface[:, None] - offsets)).mean(0)
     path = pressures([-(1 - past / 2) * pulls.max(), -(1 + past) * pulls.max()])
-    return PathCase(_cylinder(law, path, HalfSpace(STRESS, RATIO)), ends=Status.PULLED_OFF)
+    return PathCase(_cylinder(law, path, HalfSpace(STRESS, RATIO)), ends=Status.NO_EQUILIBRIUM)
 
 
 def overpowering_load(severity: float) -> PathCase:
     """A load pulls with 1.1 to 1e4 times what the law could carry everywhere: bodies in contact come apart."""
     law = CohesiveZone(2.0, 1.0)
     path = pressures([0.02, -1.1 * law.strength * (1e4 / 1.1) ** (severity / 100)])
-    return PathCase(_cylinder(law, path), ends=Status.PULLED_OFF)
+    return PathCase(_cylinder(law, path), ends=Status.NO_EQUILIBRIUM)
 
 
 def alike_bodies(severity: float) -> PathCase:

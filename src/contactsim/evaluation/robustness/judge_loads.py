@@ -10,11 +10,11 @@ import numpy as np
 from contactsim.evaluation.robustness.cases import Case, displacement, mirrored
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.simulation import press
-from contactsim.solvers.base import Result, Solver
+from contactsim.solvers.base import HardWallSolver, Result
 from contactsim.status import Status
 
 
-def judge_wall(case: Case, method: str | Solver) -> Verdict:
+def judge_wall(case: Case, method: str | HardWallSolver) -> Verdict:
     """Press a case with a solver, and check all that can be checked independently of the solver."""
     result = press(
         case.heights,

@@ -12,7 +12,7 @@ from itertools import takewhile
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.evaluation.robustness.cases import mirrored
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import PathCase
@@ -21,8 +21,8 @@ from contactsim.interface.laws import OVERCLOSED
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.continuation import PathState
 from contactsim.solvers.base import require
-from contactsim.solvers.cohesive.base import PathSolver
-from contactsim.solvers.registry import solver
+from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 
 ROUNDING = 1e-8
@@ -32,9 +32,9 @@ AGREED = 1e-4
 where the stiffness all but vanishes."""
 
 
-def judge_path(case: PathCase, method: str | PathSolver) -> Verdict:
+def judge_path(case: PathCase, method: str | CohesiveSolver) -> Verdict:
     """Follow a case's path with a solver, and check every state that it calls converged."""
-    method = solver(method) if isinstance(method, str) else method
+    method = make_solver(method) if isinstance(method, str) else method
     require(method, case.scene)
     problem, states = case.follow(method)
     spent = problem.tally.transforms
@@ -43,7 +43,7 @@ def judge_path(case: PathCase, method: str | PathSolver) -> Verdict:
     failed = next((state for state in states if state.status not in (Status.CONVERGED, case.ends)), None)
     if fault:
         return Verdict(Outcome.WRONG, spent, fault)
-    if failed is not None and failed.status is not Status.PULLED_OFF:
+    if failed is not None and failed.status is not Status.NO_EQUILIBRIUM:
         outcome = Outcome.NON_FINITE if failed.status is Status.NON_FINITE else Outcome.FAILED
         return Verdict(outcome, spent, f"at {failed.step.text}: {failed.status.sentence}")
     if [state.status for state in states] != case.statuses:
@@ -56,7 +56,7 @@ def judge_path(case: PathCase, method: str | PathSolver) -> Verdict:
     return Verdict(Outcome.RIGHT if known else Outcome.CERTIFIED, spent)
 
 
-def path_faults(case: PathCase, problem: InterfaceProblem, states: Sequence[PathState]) -> str:
+def path_faults(case: PathCase, problem: CohesiveProblem, states: Sequence[PathState]) -> str:
     """What is wrong with the converged states at the beginning of a path; empty if nothing is.
 
     Nothing is said of those that the result itself reports as overclosed, nor of what follows.
@@ -89,7 +89,7 @@ def _state_fault(case: PathCase, state: PathState) -> str:
         return f"unbalanced traction {unbalanced:.3g} GPa, allowed {allowed:.3g}"
     if not case.even:
         return ""
-    about, length = case.points // 2, min(law.reach for law in case.scene.effects)
+    about, length = case.points // 2, min(law.interaction_range for law in case.scene.effects)
     skew = gap[0] - mirrored(gap[0], about), gap[1] + mirrored(gap[1], about)
     return "not mirror symmetric" if np.abs(skew).max() > AGREED * length else ""
 
@@ -101,7 +101,7 @@ def _off(loads: Array, wanted: Array | None) -> float:
     return float(np.abs(loads - wanted[: len(loads)]).max() / np.abs(wanted).max())
 
 
-def max_interpenetration(problem: InterfaceProblem, states: Sequence[PathState]) -> float:
+def max_interpenetration(problem: CohesiveProblem, states: Sequence[PathState]) -> float:
     """Deepest overlap, in the laws' lengths, as the results report it."""
     deepest = 0.0
     for state in states:

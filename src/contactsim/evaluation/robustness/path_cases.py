@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from contactsim.contact.cohesive import LOOSEST, InterfaceProblem, pose_interface
+from contactsim.contact.cohesive import LOOSEST, CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, LoadStep
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
@@ -23,8 +23,8 @@ from contactsim.grid import Array
 from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Requested
-from contactsim.solvers.cohesive.base import PathSolver
-from contactsim.solvers.registry import solver
+from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -36,7 +36,7 @@ SWEEPS, SHRINKING = 400, 0.9
 """Most steps of the fixed point, and how much each must be smaller than the one before."""
 
 SLOWLY = "mass_weighted_verlet"
-"""The solver of smaller increments: not the usual one, and it moves as the surface itself would."""
+"""The solver of smaller increments: not the default one, and it moves as the surface itself would."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class PathCase:
     @cached_property
     def strength(self) -> float:
         """Sum of the laws' strengths (GPa), of springs as many as pull as one."""
-        return pose_interface(self.scene, -self.shape[0], LOOSEST).strength
+        return pose_cohesive(self.scene, -self.shape[0], LOOSEST).strength
 
     @cached_property
     def shape(self) -> Array:
@@ -140,9 +140,9 @@ class PathCase:
             waves[0, 0] = self.traction(self.gap(step, displacement))[0].mean()
         return float(np.abs(self.points * np.fft.irfft(waves + elastic, self.points)).max())
 
-    def follow(self, method: PathSolver) -> tuple[InterfaceProblem, list[PathState]]:
+    def follow(self, method: CohesiveSolver) -> tuple[CohesiveProblem, list[PathState]]:
         """The problem, which has counted the work, and the states that a solver finds."""
-        problem = pose_interface(self.scene, -self.shape[0], self.tolerance)
+        problem = pose_cohesive(self.scene, -self.shape[0], self.tolerance)
         with threadpool_limits(1, "blas"):  # on small dense systems more would only wait for each other
             return problem, list(Requested().follow(problem, method, self.steps))
 
@@ -172,7 +172,7 @@ class PathCase:
             place[step.control] = step.value
         path = LoadPath(tuple(parts))
         slow = replace(self, scene=replace(self.scene, path=path, effects=self.twin or self.scene.effects))
-        states = slow.follow(solver(SLOWLY, budget=500))[1][self.parts - 1 :: self.parts]
+        states = slow.follow(make_solver(SLOWLY, budget=500))[1][self.parts - 1 :: self.parts]
         if any(state.status is not Status.CONVERGED for state in states):
             return None
         return np.array([slow.forces(state.step, state.displacement) for state in states])

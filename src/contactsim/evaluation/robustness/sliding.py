@@ -13,7 +13,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Layer
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.interface.laws import CohesiveZone
-from contactsim.interface.pairing import Pairing, Windowed
+from contactsim.interface.pairing import Lattice, Pairing
 from contactsim.status import Status
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
@@ -29,7 +29,7 @@ ONSET = 8.1
 
 def _probe(path: LoadPath, law: CohesiveZone, body: Layer, pairing: Pairing | None = None) -> Scene:
     surface = Cylinder(length=LENGTH, radius=RADIUS)
-    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, pairing or Windowed(LATTICE))
+    return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, pairing or Lattice(LATTICE))
 
 
 def _slid(slides: list[float], held: float = 0.0, before: list[float] | None = None) -> LoadPath:
@@ -50,13 +50,13 @@ def many_cells_slid(severity: float) -> PathCase:
 def fine_lattice(severity: float) -> PathCase:
     """The lattice gets finer, from 2.4 to 0.02 tangential lengths, at one strength: exact, friction dies out."""
     lattice = LATTICE * 0.01 ** (severity / 100)
-    pairing = Windowed(lattice, weight=min(lattice / 1.77, 1.0))
+    pairing = Lattice(lattice, weight=min(lattice / 1.77, 1.0))
     return PathCase(_probe(_slid([0.3 * lattice, 3.3 * lattice]), WEAK, STIFF, pairing), 64, even=False)
 
 
 def wide_window(severity: float) -> PathCase:
     """The window grows from 5 to 5000 tangential lengths, five times the period: exact, far springs are nothing."""
-    pairing = Windowed(LATTICE, window=5 * 1e3 ** (severity / 100))
+    pairing = Lattice(LATTICE, tangential_cutoff=5 * 1e3 ** (severity / 100))
     return PathCase(_probe(_slid([0.6, 5.0]), WEAK, STIFF, pairing), 64, even=False)
 
 
@@ -76,7 +76,7 @@ def pulled_off_slide(severity: float) -> PathCase:
     pulls = WEAK.work_of_separation * ((surface[:, None] + offsets) * np.exp(-surface[:, None] - offsets)).mean(0)
     (pull,) = pressures([-(0.85 - 0.3 * severity / 100) * pulls.max()]).steps
     path = approaches([-6.0, -1.0]) >> LoadPath((pull, LoadStep(Trait.SLIDE, 0.5 * LATTICE, held=pull)))
-    return PathCase(_probe(path, WEAK, STIFF), 64, ends=Status.PULLED_OFF, even=False)
+    return PathCase(_probe(path, WEAK, STIFF), 64, ends=Status.NO_EQUILIBRIUM, even=False)
 
 
 def reversal_near_a_slip(severity: float) -> PathCase:

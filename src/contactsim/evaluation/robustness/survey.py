@@ -21,9 +21,9 @@ from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import SLOWLY, PathCase
 from contactsim.evaluation.robustness.registry import HAZARDS, first_line
 from contactsim.provenance import computing_digest
-from contactsim.solvers.base import Solver
-from contactsim.solvers.cohesive.base import PathSolver
-from contactsim.solvers.registry import SOLVERS, module_of, solver, solver_class
+from contactsim.solvers.base import HardWallSolver
+from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.solvers.registry import SOLVERS, make_solver, solver_class, solver_module
 from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read, size, text
 
 logger = logging.getLogger(__name__)
@@ -33,7 +33,7 @@ JUDGES: dict[type, Callable[..., Verdict]] = {Case: judge_wall, PathCase: judge_
 """Who judges which kind of case."""
 
 
-def judge(case: Case | PathCase, method: str | Solver | PathSolver) -> Verdict:
+def judge(case: Case | PathCase, method: str | HardWallSolver | CohesiveSolver) -> Verdict:
     """What comes of a case with a solver, by all that can be checked independently of it."""
     try:
         return JUDGES[type(case)](case, method)
@@ -68,7 +68,7 @@ def read_settings(section: object, file: object) -> dict:
     for name in (name for name in SOLVERS if solvers[name] is not None):
         options = read(solvers[name], keys_of(solver_class(name)), file, f"solvers.{name}")
         try:
-            solver(name, **options)
+            make_solver(name, **options)
         except SceneError as error:
             raise error.within(file, f"solvers.{name}") from error
         settings["solvers"][name] = options
@@ -79,7 +79,7 @@ def read_settings(section: object, file: object) -> dict:
 
 def job_settings(settings: Mapping, hazard: str) -> dict:
     """What the cells of one hazard depend on."""
-    modules = [module_of(name) for name in (*settings["solvers"], SLOWLY)]
+    modules = [solver_module(name) for name in (*settings["solvers"], SLOWLY)]
     return {
         "hazard": hazard,
         "severities": settings["severities"],
@@ -91,7 +91,7 @@ def job_settings(settings: Mapping, hazard: str) -> dict:
 def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mapping], source: str) -> xr.Dataset:
     """Every solver on one hazard at every severity: outcome, transforms and reason, by (solver, severity)."""
     cases = [HAZARDS[hazard](severity) for severity in severities]
-    methods = {name: solver(name, **solvers[name]) for name in sorted(solvers)}
+    methods = {name: make_solver(name, **solvers[name]) for name in sorted(solvers)}
     verdicts = []
     for name, method in methods.items():
         for severity, case in zip(severities, cases, strict=True):

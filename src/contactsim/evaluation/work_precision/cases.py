@@ -16,7 +16,7 @@ from contactsim import dataset
 from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, kind_of, solutions
 from contactsim.observables.derived import combine_runs
 from contactsim.provenance import computing_digest, digest
-from contactsim.solvers.registry import installed, module_of, peer_version, solver
+from contactsim.solvers.registry import is_installed, make_solver, package_version, solver_module
 from contactsim.study.execute import labelled, simulate
 from contactsim.study.keys import COMPANIONS
 from contactsim.study.scenes import scene_of
@@ -52,7 +52,7 @@ class Case:
 
     def jobs(self) -> list[str]:
         """The jobs of a case: its reference and its solvers, as far as they are installed."""
-        return [REFERENCE, *filter(installed, self.settings["solvers"])]
+        return [REFERENCE, *filter(is_installed, self.settings["solvers"])]
 
     def turned(self, job: str) -> list[Setting]:
         """The settings that a job measures."""
@@ -108,12 +108,12 @@ class Case:
 
 def simulated(settings: dict) -> xr.Dataset:
     """The simulation of a run's settings."""
-    method = solver(**settings["solver"])
+    method = make_solver(**settings["solver"])
     return simulate(scene_of(settings), points=settings["points"], tolerance=settings["tolerance"], method=method)
 
 
 def job_plan(case: Case, job: str) -> dict:
     """What a job depends on: its settings and its code."""
     solved_by = case.solved_by(job)
-    source = computing_digest("contactsim.evaluation.work_precision.cases", module_of(solved_by))
-    return {"job": case.job_settings(job), "source": digest(source, peer_version(solved_by))}
+    source = computing_digest("contactsim.evaluation.work_precision.cases", solver_module(solved_by))
+    return {"job": case.job_settings(job), "source": digest(source, package_version(solved_by))}

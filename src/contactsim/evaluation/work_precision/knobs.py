@@ -2,8 +2,8 @@
 
 Loads of a hard wall are solved on their own, and each has its error. Of smooth laws the past decides, so a path is
 priced whole: its error is that of what it amounts to, its cost that of all its steps, and it has not converged if one
-of them has not. Its increment is one knob more; of a slide it is that of the slide, and the window of the springs
-another. Whoever prices asks the kind of a study, and not what acts in it.
+of them has not. Its increment is one knob more; of a slide it is that of the slide, and the tangential cutoff of the
+lattice another. Whoever prices asks the kind of a study, and not what acts in it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import xarray as xr
 
 from contactsim.analysis.aggregate import AVERAGED
 from contactsim.errors import SceneError
-from contactsim.interface.pairing import Windowed
+from contactsim.interface.pairing import Lattice
 from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.derived import summarise_paths
 from contactsim.observables.hysteresis import CYCLE
@@ -51,7 +51,9 @@ KNOBS = {
     "points": Knob(whole(2), "a whole number of grid points", "a list of grid points", max),
     "tolerance": Knob(positive, "a positive number, as a study's tolerance", "a list of tolerances", min),
     "increment": Knob(positive, "a positive number, as the increment of a path", "a list of increments", min),
-    "window": Knob(positive, "a positive number, as the window of a pairing", "a list of windows", max),
+    "tangential_cutoff": Knob(
+        positive, "a positive number, as the `tangential_cutoff` of a pairing", "a list of cutoffs", max
+    ),
 }
 SETTING_KEYS = {name: Key(knob.kind, knob.one) for name, knob in KNOBS.items()}
 KNOB_KEYS = {name: Key(listed(knob.kind), knob.several, []) for name, knob in KNOBS.items()}
@@ -60,13 +62,13 @@ LEVEL_KEYS = {name: Key(listed(positive), "a list of relative errors", []) for n
 
 @dataclass(frozen=True)
 class Setting:
-    """One place of one knob: which is turned, grid points, tolerance, of a path increment, of a slide window."""
+    """One place of one knob: which is turned, grid points, tolerance, increment of a path, cutoff of a slide."""
 
     knob: str
     points: int
     tolerance: float
     increment: float | None = None
-    window: float | None = None
+    tangential_cutoff: float | None = None
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -85,7 +87,7 @@ class SingleLoads:
     quantities = AVERAGED
     without = dict.fromkeys(
         ("increment", "thesis_increment"), "no such key: the study's loads are solved on their own, without increments"
-    ) | {"window": "no such key: the study does not slide"}
+    ) | {"tangential_cutoff": "no such key: the study does not slide"}
 
     def takes(self, study: Study) -> bool:
         """Whether the study has such loads."""
@@ -115,7 +117,7 @@ class WholePath:
     quantities = (*SUMMARY, *CYCLE, *AREA_LOAD)
     without = {
         "load": "no such key: the study follows a path, which is priced whole",
-        "window": "no such key: the study does not slide",
+        "tangential_cutoff": "no such key: the study does not slide",
     }
 
     def takes(self, study: Study) -> bool:
@@ -145,29 +147,29 @@ class WholePath:
 class WholeSlide(WholePath):
     """A path that presses and slides, whose slide is turned; as `WholePath`."""
 
-    knobs = (*WholePath.knobs, "window")
+    knobs = (*WholePath.knobs, "tangential_cutoff")
     quantities = (*WholePath.quantities, *ONSET)
     without = {"load": WholePath.without["load"]}
 
     def takes(self, study: Study) -> bool:
-        """Whether the study slides over a lattice with a window."""
+        """Whether the study slides over a lattice."""
         pairing = study.settings["pairing"] or {}
-        return study.settings["slide"] is not None and pairing.get("kind") == "windowed"
+        return study.settings["slide"] is not None and pairing.get("kind") == "lattice"
 
     def changed(self, study: Study, loads: None, setting: Setting) -> dict:
-        """The increment of the slide, and the window; no increment is interpolated, and no fields are kept."""
+        """The increment of the slide and the tangential cutoff; no increment is interpolated, no fields are kept."""
         asked = {"increments": {"kind": "requested"}, "snapshots": None}
         asked["slide"] = study.settings["slide"] | {"increment": setting.increment}
-        return asked | {"pairing": study.settings["pairing"] | {"window": setting.window}}
+        return asked | {"pairing": study.settings["pairing"] | {"tangential_cutoff": setting.tangential_cutoff}}
 
     def turns(self, settings: dict) -> dict[str, float]:
-        """Increment, unless it adapts itself, and window."""
+        """Increment, unless it adapts itself, and tangential cutoff."""
         asked = settings["increments"]["kind"] == "requested"
-        window = {"window": settings["pairing"].get("window", Windowed.window)}
-        return window | ({"increment": settings["slide"]["increment"]} if asked else {})
+        cutoff = {"tangential_cutoff": settings["pairing"].get("tangential_cutoff", Lattice.tangential_cutoff)}
+        return cutoff | ({"increment": settings["slide"]["increment"]} if asked else {})
 
     def units(self, study: Study) -> dict[str, str]:
-        """A slide is a length; a window counts tangential lengths."""
+        """A slide is a length; a cutoff counts tangential lengths."""
         return {"increment": "nm"}
 
 

@@ -25,7 +25,9 @@ from contactsim.figures.layout import framed, save
 from contactsim.files import write_atomically
 from contactsim.variables import VARIABLES
 
-KNOBS = {"points": "grid points"} | {name: name for name in ("tolerance", "increment", "window", "members")}
+KNOBS = {"points": "grid points", "tangential_cutoff": "tangential cutoff"} | {
+    name: name for name in ("tolerance", "increment", "members")
+}
 LETTERS = 66
 """About how many the last column has room for in a line."""
 COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -43,7 +43,7 @@ class Equilibrium:
         return self.status is Status.CONVERGED and not self.unstable
 
 
-class PathSolver(Protocol):
+class CohesiveSolver(Protocol):
     """A method that follows smooth laws.
 
     accepts: the traits it can take; predicts: whether it starts from a guess beyond the last state, or else flows from
@@ -60,32 +60,32 @@ class PathSolver(Protocol):
         """Real transforms of an iteration, for each unknown component."""
         ...
 
-    def begin_walk(self) -> object:
+    def new_memory(self) -> object:
         """What `near` keeps between the states of one walk."""
         ...
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: object, within: float = np.inf) -> Equilibrium:
+    def near(self, problem: CohesiveProblem, guess: Array, memory: object, within: float = np.inf) -> Equilibrium:
         """The equilibrium near a guess; one farther than `within` (nm) is of no use, and may be given up."""
         ...
 
-    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The equilibrium that the overdamped flow reaches from a state."""
         ...
 
 
-def judged(residual: float, problem: InterfaceProblem) -> Status:
+def judged(residual: float, problem: CohesiveProblem) -> Status:
     """What a residual, over the laws' strength, makes of a state."""
     if not np.isfinite(residual):
         return Status.NON_FINITE
-    return Status.CONVERGED if residual <= problem.tolerance else Status.BUDGET
+    return Status.CONVERGED if residual <= problem.tolerance else Status.MAX_ITERATIONS
 
 
-def apart(problem: InterfaceProblem, gap: Array) -> bool:
+def apart(problem: CohesiveProblem, gap: Array) -> bool:
     """Whether a load has pulled the bodies apart; gap: (components, n), nm."""
-    return problem.load is not None and bool(gap[0].min() > APART * problem.reach)
+    return problem.load is not None and bool(gap[0].min() > APART * problem.interaction_range)
 
 
-def moved(problem: InterfaceProblem, change: Array, enough: float = 0.0) -> float:
+def moved(problem: CohesiveProblem, change: Array, enough: float = 0.0) -> float:
     """Largest change of the displacement anywhere, nm; only a bound on it where that is at most `enough`."""
     bound = 2 * float(np.abs(change).sum(axis=1).max())
     return bound if bound <= enough else float(np.abs(problem.field(change)[: len(change)]).max())

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem, Tangent, contracted
+from contactsim.contact.cohesive import CohesiveProblem, Tangent, contracted
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
@@ -45,10 +45,10 @@ class _Dynamics:
         """Real transforms of a time step and unknown component."""
         return 2.0
 
-    def begin_walk(self) -> None:
+    def new_memory(self) -> None:
         """Nothing is kept."""
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
+    def near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """The equilibrium reached from a guess."""
         return self.flow(problem, guess)
 
@@ -69,7 +69,7 @@ class DampedVerlet(_Dynamics):
     def __post_init__(self) -> None:
         _check(self, "time_step", "damping")
 
-    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
         square = self.time_step**2
         highest = float(problem.stiffness.diagonal.max()) + problem.softening
@@ -102,7 +102,7 @@ class MassWeightedVerlet(_Dynamics):
         if not self.time_step < 1:
             raise SceneError("time_step", self.time_step, "above 0 and below 1, the limit of stability")
 
-    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
         square = 4 * self.time_step**2
         rows = problem.unknowns[0]
@@ -121,7 +121,7 @@ class MassWeightedVerlet(_Dynamics):
 
 
 def _settle(
-    problem: InterfaceProblem,
+    problem: CohesiveProblem,
     start: Array,
     mobility: Callable[[Tangent], Mobility],
     friction: float,
@@ -131,17 +131,17 @@ def _settle(
 ) -> Equilibrium:
     """Move from rest until a residual, recomputed from the displacement alone, is within the tolerance."""
     displacement, change, before = start, np.zeros_like(start), None
-    status, worst, count = Status.BUDGET, np.inf, 0
+    status, worst, count = Status.MAX_ITERATIONS, np.inf, 0
     with np.errstate(over="ignore", invalid="ignore"):  # what diverges is reported
         for count in range(budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             worst = problem.size(problem.residual(displacement, traction))
             if apart(problem, gap):
-                status = Status.PULLED_OFF
+                status = Status.NO_EQUILIBRIUM
                 break
             status = judged(worst, problem)
-            if status is not Status.BUDGET or count == budget:
+            if status is not Status.MAX_ITERATIONS or count == budget:
                 break
             move, stiffest = mobility(tangent), max(problem.softening, np.abs(tangent.values).max())
             for _ in range(batch):

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize
 
-from contactsim.contact.cohesive import InterfaceProblem
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
 from contactsim.status import Status
@@ -40,14 +40,14 @@ class EnergyMinimisation:
         """Real transforms of a step and unknown component."""
         return 2.0
 
-    def begin_walk(self) -> None:
+    def new_memory(self) -> None:
         """Nothing is kept."""
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
+    def near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """The minimum below a guess."""
         return self.flow(problem, guess)
 
-    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The minimum below a state."""
         descent = _Descent(problem)
         place, count = descent.variables(start), 0
@@ -62,8 +62,8 @@ class EnergyMinimisation:
                 gap = problem.gap(displacement)
                 traction = problem.traction(gap)
                 worst = problem.size(problem.residual(displacement, traction))
-                status = Status.PULLED_OFF if apart(problem, gap) else judged(worst, problem)
-                if status is not Status.BUDGET or count >= self.budget or not found.nit:
+                status = Status.NO_EQUILIBRIUM if apart(problem, gap) else judged(worst, problem)
+                if status is not Status.MAX_ITERATIONS or count >= self.budget or not found.nit:
                     break
             distance = moved(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
@@ -76,7 +76,7 @@ NEVER = {"ftol": 0.0, "gtol": 0.0}
 class _Descent:
     """The energy and its gradient in the variables of the module's text."""
 
-    def __init__(self, problem: InterfaceProblem) -> None:
+    def __init__(self, problem: CohesiveProblem) -> None:
         self._problem = problem
         self._count = np.sqrt(problem.weights)
         self._root = np.sqrt(problem.supported.diagonal + problem.softening)

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import InterfaceProblem, Tangent
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
@@ -57,13 +57,13 @@ class Memory:
         self._held = b""
         self._wave: Array | None = None
 
-    def preconditioner(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
+    def preconditioner(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
         """The one kept, or a new one for this tangent."""
         if self._kept is None or self._held != problem.held.tobytes():
             return self.renew(problem, tangent)
         return self._kept
 
-    def renew(self, problem: InterfaceProblem, tangent: Tangent) -> ZonePreconditioner:
+    def renew(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
         """A new one for this tangent, to keep."""
         held = problem.held.tobytes()
         before = self._last if held == self._held else None
@@ -109,11 +109,11 @@ class NewtonKrylov:
         """Real transforms of a Krylov iteration and unknown component."""
         return 2.5
 
-    def begin_walk(self) -> Memory:
+    def new_memory(self) -> Memory:
         """What is kept between the states of one walk."""
         return Memory()
 
-    def near(self, problem: InterfaceProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
+    def near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
         """Newton's method from a guess."""
         displacement, far, strayed = guess, STRAYED * within, 0.0
         for count in range(self.newton_budget + 1):
@@ -122,7 +122,7 @@ class NewtonKrylov:
             residual = problem.residual(displacement, traction)
             worst = problem.size(residual)
             if count:
-                strayed = moved(problem, displacement - guess, self.trusted * problem.reach)
+                strayed = moved(problem, displacement - guess, self.trusted * problem.interaction_range)
             if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
                 break
             forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, LOOSEST)
@@ -137,10 +137,10 @@ class NewtonKrylov:
             unstable = memory.doubts() and self._growing(problem, tangent, fresh) is not None
         return Equilibrium(displacement, gap, traction, status, worst, strayed, count, unstable)
 
-    def flow(self, problem: InterfaceProblem, start: Array) -> Equilibrium:
+    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
-        displacement, shift, most = start, FIRST * problem.softening, self.flow_step * problem.reach
-        status, worst, count, nudges = Status.BUDGET, np.inf, 0, 0
+        displacement, shift, most = start, FIRST * problem.softening, self.flow_step * problem.interaction_range
+        status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
         while count < self.flow_budget:
             count += 1
             gap = problem.gap(displacement)
@@ -151,7 +151,7 @@ class NewtonKrylov:
                 status = Status.NON_FINITE
                 break
             if apart(problem, gap):
-                status = Status.PULLED_OFF
+                status = Status.NO_EQUILIBRIUM
                 break
             precondition = ZonePreconditioner(problem, tangent, shift)
             if shift == 0 and worst <= problem.tolerance:
@@ -162,7 +162,7 @@ class NewtonKrylov:
                 if nudges == NUDGES:
                     break
                 nudges, shift = nudges + 1, FIRST * problem.softening
-                displacement = displacement + NUDGE * problem.reach * growing
+                displacement = displacement + NUDGE * problem.interaction_range * growing
                 continue
             forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, ROUGH)
             change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
@@ -177,7 +177,7 @@ class NewtonKrylov:
         distance = moved(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
-    def _growing(self, problem: InterfaceProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:
+    def _growing(self, problem: CohesiveProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:
         """A displacement of largest value one that grows by itself from a state of that tangent; None if none does."""
         wave = precondition.growing()
         if wave is None or np.vdot(wave, problem.balanced(tangent(wave), wave)).real >= 0:
@@ -186,7 +186,7 @@ class NewtonKrylov:
 
     def _solve(
         self,
-        problem: InterfaceProblem,
+        problem: CohesiveProblem,
         tangent: Callable,
         precondition: Callable,
         residual: Array,

@@ -17,7 +17,7 @@ import ducc0
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
 
-from contactsim.contact.cohesive import InterfaceProblem, Tangent, contracted
+from contactsim.contact.cohesive import CohesiveProblem, Tangent, contracted
 from contactsim.grid import Array
 
 RATIO, NODES = 8, 128
@@ -41,7 +41,7 @@ class ZonePreconditioner:
 
     def __init__(
         self,
-        problem: InterfaceProblem,
+        problem: CohesiveProblem,
         tangent: Tangent,
         shift: float = 0.0,
         before: ZonePreconditioner | None = None,

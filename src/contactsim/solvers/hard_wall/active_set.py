@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.contact.hard_wall import WallProblem
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.solvers.base import State, check_cascade, iterate
@@ -59,7 +59,7 @@ class ActiveSet:
         """Real transforms of an inner iteration on a grid of that size: two, and two on the blocks."""
         return 2 + 2 / block_of(points)
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or with a load from uniform pressure, with an approach from the overlap of the bodies."""
         pressure = np.zeros_like(problem.heights) if guess is None else problem.admissible(guess)
         contact = pressure > 0
@@ -72,7 +72,7 @@ class ActiveSet:
             pressure, False, Continuation(_solvable(problem, contact), stiffness.decay), 0, stiffness, work
         )
 
-    def step(self, problem: WallProblem, state: ActiveSetState) -> ActiveSetState:
+    def step(self, problem: HardWallProblem, state: ActiveSetState) -> ActiveSetState:
         """Solve on the contact set, then drop what pulls and add what overlaps."""
         pressure, index = state.pressure.copy(), state.continuation.index
         reduction = self.reduction ** (2 ** (state.count // 10))
@@ -91,7 +91,7 @@ class ActiveSet:
         return replace(state, pressure=pressure, continuation=continuation, count=state.count + 1)
 
     def _relax(
-        self, problem: WallProblem, pressure: Array, state: ActiveSetState, reduction: float
+        self, problem: HardWallProblem, pressure: Array, state: ActiveSetState, reduction: float
     ) -> tuple[Array, float]:
         """Conjugate gradients on the contact set, in place; returns the gap less the approach, and the approach."""
         continuation, stiffness, (gap, spread, moved) = state.continuation, state.stiffness, state.work
@@ -123,13 +123,13 @@ class ActiveSet:
         return gap, approach
 
 
-def _residual(problem: WallProblem, gap: Array) -> tuple[Array, float]:
+def _residual(problem: HardWallProblem, gap: Array) -> tuple[Array, float]:
     """Approach less gap on the contact set, and the approach: given, or what balances the gap with the load given."""
     approach = float(gap.mean()) if problem.approach is None else problem.approach
     return approach - gap, approach
 
 
-def _solvable(problem: WallProblem, contact: Array) -> Array:
+def _solvable(problem: HardWallProblem, contact: Array) -> Array:
     """A set on which the inner problem has a solution: never empty; full only where the approach is free or felt."""
     if not contact.any():
         contact[np.argmax(problem.heights)] = True
@@ -154,10 +154,10 @@ class NestedActiveSet(ActiveSet):
         super().__post_init__()
         check_cascade(self.coarsest, self.coarse_tolerance)
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> ActiveSetState:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> ActiveSetState:
         """From a guess, or from the solution on half as many points, and so on down to the coarsest level."""
         size, half = problem.heights.size, problem.heights.size // 2
-        if guess is None and problem.near_begun:
+        if guess is None and problem.can_start_warm:
             guess = _between(problem.begun.pressure, size)
         elif guess is None and half >= self.coarsest:
             coarse = problem.coarser(self.coarse_tolerance)

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 import ducc0
 import numpy as np
 
-from contactsim.contact.hard_wall import WallProblem
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
 from contactsim.solvers.base import State, check_cascade
@@ -68,7 +68,7 @@ class ConjugateGradients:
         """Real transforms of an iteration: two, and two on the cells."""
         return 2 + 2 / CELL**2
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> State:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> State:
         """From a guess; else from uniform pressure, or with an approach from the overlap of the bodies."""
         if guess is not None:
             return State(problem.admissible(guess), False)
@@ -77,12 +77,12 @@ class ConjugateGradients:
             pressure += problem.load
         return State(pressure, False)
 
-    def step(self, problem: WallProblem, state: State) -> State:
+    def step(self, problem: HardWallProblem, state: State) -> State:
         """Iterate from the state's pressure, whose gap is computed anew."""
         pressure, gap = problem.admissible(state.pressure), np.empty(problem.heights.shape, np.float32)
         return State(pressure, self.relax(problem, pressure, gap)[0])
 
-    def relax(self, problem: WallProblem, pressure: Array, gap: Array) -> tuple[bool, float]:
+    def relax(self, problem: HardWallProblem, pressure: Array, gap: Array) -> tuple[bool, float]:
         """Iterate in place, gap (ny, nx) being written; whether it is done, and the gap's level on the contact."""
         shape, free = problem.heights.shape, problem.load is not None
         rows = kernels.Rows(shape, problem.compliance.grid.threads)
@@ -177,7 +177,7 @@ class _Spread:
         )
         self._tally.add(2, self._grid.size)
 
-    def anew(self, problem: WallProblem, pressure: Array, contact: Array, out: Array) -> None:
+    def anew(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
         """`out` = the gap computed in double precision, from its level on the contact (bool); change turns zero."""
         gap = problem.compliance(pressure, out=self._double)
         gap -= problem.heights
@@ -206,10 +206,10 @@ class NestedConjugateGradients(ConjugateGradients):
         super().__post_init__()
         check_cascade(self.coarsest, self.coarse_tolerance)
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> State:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> State:
         """From a guess, or from the solution on half as many points a side, and so on down to the coarsest level."""
         signed = None
-        if guess is None and problem.near_begun:
+        if guess is None and problem.can_start_warm:
             signed = _one_field(problem.begun.pressure, problem.begun.gap)
         elif guess is None and min(problem.heights.shape) // 2 >= self.coarsest:
             coarse = problem.coarser(self.coarse_tolerance)
@@ -219,7 +219,7 @@ class NestedConjugateGradients(ConjugateGradients):
             kernels.Rows(guess.shape, problem.compliance.grid.threads)(prolongation.refine, signed, guess)
         return super().start(problem, guess)
 
-    def _signed(self, problem: WallProblem) -> Array:
+    def _signed(self, problem: HardWallProblem) -> Array:
         """A coarse level's solution: pressure where there is contact and, with a negative sign, gap elsewhere."""
         pressure, gap = self.start(problem).pressure, np.empty(problem.heights.shape, np.float32)
         level = ConjugateGradients(self.coarse_budget, self.wavelength).relax(problem, pressure, gap)[1]

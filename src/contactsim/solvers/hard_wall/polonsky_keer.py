@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.hard_wall import WallProblem
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.grid import Array
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
@@ -39,12 +39,12 @@ class PolonskyKeer:
         """Real transforms of an iteration on a grid of that size."""
         return 4.0
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> PolonskyKeerState:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> PolonskyKeerState:
         """From a guess or uniform pressure."""
         pressure = np.full_like(problem.heights, problem.load) if guess is None else problem.admissible(guess)
         return PolonskyKeerState(pressure, False, np.zeros_like(pressure), 1.0, True)
 
-    def step(self, problem: WallProblem, state: PolonskyKeerState) -> PolonskyKeerState:
+    def step(self, problem: HardWallProblem, state: PolonskyKeerState) -> PolonskyKeerState:
         """At most `batch` iterations."""
         for _ in range(self.batch):
             state = self._iteration(problem, state)
@@ -53,7 +53,7 @@ class PolonskyKeer:
         return state
 
     @staticmethod
-    def _iteration(problem: WallProblem, state: PolonskyKeerState) -> PolonskyKeerState:
+    def _iteration(problem: HardWallProblem, state: PolonskyKeerState) -> PolonskyKeerState:
         pressure = state.pressure
         active = pressure > 0
         gap = problem.compliance(pressure) - problem.heights

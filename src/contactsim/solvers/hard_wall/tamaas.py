@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from contactsim.contact.hard_wall import WallProblem
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.solvers.base import State
@@ -44,7 +44,7 @@ class Tamaas:
         """Real transforms of an iteration on a grid of that size."""
         return 4.0
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> TamaasState:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> TamaasState:
         """A model without units: spacing 1 along x, E* = 1.
 
         Refused on an odd number of rows, of which tamaas 2.9 takes one of the two shortest waves for a shorter one.
@@ -79,7 +79,7 @@ class Tamaas:
         method.max_iter, method.dump_freq = self.iterations, 10**9
         return TamaasState(np.zeros_like(problem.heights), False, method, counter, self.first_error)
 
-    def step(self, problem: WallProblem, state: TamaasState) -> TamaasState:
+    def step(self, problem: HardWallProblem, state: TamaasState) -> TamaasState:
         """Go on to a smaller relative error; the certificate decides whether it was enough."""
         before = state.counter.iterations
         state.method.tolerance = state.error

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.hard_wall import WallProblem
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
 from contactsim.solvers.base import State
@@ -30,7 +30,7 @@ class VerletState(State):
 
 
 @dataclass(frozen=True)
-class WallVerlet:
+class HardWallVerlet:
     """One outer step is a batch of time steps, after which the force outside the contact is looked at.
 
     time_step: δt relative to the stability limit 2/√K_max of the undamped scheme, below 1; damping: relative to the
@@ -54,7 +54,7 @@ class WallVerlet:
         """Real transforms of an iteration on a grid of that size."""
         return 2.0
 
-    def start(self, problem: WallProblem, guess: Array | None = None) -> VerletState:
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> VerletState:
         """At rest and undeformed, the highest point just touching, or deformed by the guess."""
         symbol = np.zeros_like(problem.compliance.symbol)
         symbol[1:] = 1 / problem.compliance.symbol[1:]
@@ -65,7 +65,7 @@ class WallVerlet:
             surface += np.max(problem.heights - surface)
         return VerletState(np.full_like(surface, problem.load), False, surface, surface, stiffness)
 
-    def step(self, problem: WallProblem, state: VerletState) -> VerletState:
+    def step(self, problem: HardWallProblem, state: VerletState) -> VerletState:
         """A batch of time steps, then the reaction of the wall as pressure."""
         stiffness = state.stiffness
         square = 4 * self.time_step**2 / stiffness.symbol.max()
