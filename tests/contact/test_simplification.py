@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 from contactsim import cli, dataset
+from contactsim.analysis.aggregate import aggregate
 from contactsim.contact.simplification import LEFT_OUT, left_out
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
@@ -112,7 +113,7 @@ def _aggregated(study, folder):
         execute.run(run.settings, run.source, path, path.with_suffix(".json"))
         place = {"coordinates": run.coordinates, "member": run.member, "companion": run.companion, "error": run.error}
         listed.append({"path": path} | place)
-    return aggregate.aggregate(listed, study.settings | {"tier": "quick", "name": "asperity"}, "abc")
+    return aggregate(listed, study.settings | {"tier": "quick", "name": "asperity"}, "abc")
 
 
 @pytest.mark.parametrize(
