@@ -11,7 +11,19 @@ from contactsim.provenance import PACKAGE, imports_of, package_root
 
 ROOT = Path(__file__).parents[1]
 FLOORS = (
-    ("errors", "grid", "traits", "files", "status", "variables", "notation", "dataset", "provenance", "reference"),
+    (
+        "errors",
+        "grid",
+        "traits",
+        "files",
+        "status",
+        "variables",
+        "notation",
+        "dataset",
+        "provenance",
+        "reference",
+        "source",
+    ),
     ("surfaces",),
     ("elasticity",),
     ("interface",),

@@ -10,7 +10,7 @@ import pytest
 
 import contactsim
 from contactsim import provenance
-from contactsim.provenance import canonical, digest, imports_of, modules_used, source_digest, versions
+from contactsim.provenance import canonical, digest, imports_of, modules_used, source_digest, source_of, versions
 from contactsim.solvers.registry import SOLVERS, solver_module
 
 SOURCE = Path(contactsim.__file__).parent
@@ -21,8 +21,8 @@ MODULES = sorted(
 
 
 def forget():
-    imports_of.cache_clear()
-    source_digest.cache_clear()
+    for cached in (provenance.source_of, imports_of, provenance.executed_imports, source_digest):
+        cached.cache_clear()
 
 
 @pytest.fixture
@@ -78,9 +78,9 @@ def test_every_import_in_the_package_is_one_that_is_followed():
 def test_imports_of_every_form_and_at_any_depth_are_found(package):
     write(
         package,
-        one="import contactsim.grid\nimport numpy.linalg\n",
-        two="from contactsim import one, SceneError\nfrom contactsim.solvers import base\n",
-        three="def f():\n    if True:\n        from contactsim.two import one as other\n",
+        one="import contactsim.grid\nimport numpy.linalg\nx = contactsim.grid\n",
+        two="from contactsim import one, SceneError\nfrom contactsim.solvers import base\nx = one, base\n",
+        three="def f():\n    if True:\n        from contactsim.two import x as other\n",
     )
     assert imports_of("contactsim.one") == {"contactsim.grid"}
     assert imports_of("contactsim.two") == {
@@ -90,27 +90,79 @@ def test_imports_of_every_form_and_at_any_depth_are_found(package):
     assert {"contactsim.one", "contactsim.two", "contactsim.grid"} < set(modules_used("contactsim.three"))
 
 
+def test_a_module_that_only_annotations_name_is_imported_and_not_used(package):
+    write(package, one="from contactsim.two import A\ndef f(a: A) -> A:\n    return a\n", two="class A:\n    pass\n")
+    assert imports_of("contactsim.one") == {"contactsim.two"}
+    assert modules_used("contactsim.one") == ("contactsim.one",)
+
+
+def test_a_name_that_a_module_passes_on_is_used_from_where_it_comes(package):
+    write(
+        package,
+        one="from contactsim.two import A\nx = A()\n",
+        two="from contactsim.three import A\ndef f(a: A):\n    return a\n",
+        three="class A:\n    pass\n",
+    )
+    assert "contactsim.three" in modules_used("contactsim.one")
+    assert modules_used("contactsim.two") == ("contactsim.two",)
+
+
 def test_modules_that_import_each_other_are_used_once(package):
-    write(package, one="import contactsim.two\n", two="import contactsim.one\n")
+    write(package, one="import contactsim.two\nx = contactsim.two\n", two="import contactsim.one\ny = contactsim.one\n")
     assert modules_used("contactsim.one") == ("contactsim.one", "contactsim.two")
 
 
-def test_the_digest_changes_with_the_text_of_a_module_used_and_of_no_other(package):
-    write(package, one="import contactsim.two\n", two="x = 1\n", three="x = 1\n")
+def test_the_digest_changes_with_what_a_used_module_computes_and_with_nothing_else(package):
+    write(package, one="from contactsim.two import x\ny = x\n", two="x = 1\n", three="x = 1\n")
     before = source_digest("contactsim.one")
     write(package, three="x = 2\n")
     assert source_digest("contactsim.one") == before
-    write(package, two="x = 1  # said better\n")
-    commented = source_digest("contactsim.one")
-    write(package, one="import contactsim.two\n\n")
-    assert len({before, commented, source_digest("contactsim.one")}) == 3
-
-
-def test_the_digest_changes_when_text_moves_from_one_module_to_another(package):
-    write(package, one="import contactsim.two\nx = 1\n", two="y = 1\n")
-    before = source_digest("contactsim.one")
-    write(package, one="import contactsim.two\n", two="x = 1\ny = 1\n")
+    write(package, two="x = 1  # said better\n", one='"""One."""\n\nfrom contactsim.two import x\n\ny = x\n')
+    assert source_digest("contactsim.one") == before
+    write(package, two="x = 2\n")
     assert source_digest("contactsim.one") != before
+
+
+def test_the_digest_changes_when_code_moves_from_one_module_to_another(package):
+    write(package, one="from contactsim.two import y\nx = 1\nz = y\n", two="y = 1\n")
+    before = source_digest("contactsim.one")
+    write(package, one="from contactsim.two import y\nz = y\n", two="x = 1\ny = 1\n")
+    assert source_digest("contactsim.one") != before
+
+
+def test_docstrings_count_where_a_module_reads_those_of_what_it_imports(package):
+    texts = {"one": "from contactsim.two import f\nx = f.__doc__\n", "two": 'def f():\n    """Return one."""\n'}
+    write(package, **texts)
+    reading, read = source_digest("contactsim.one"), source_digest("contactsim.two")
+    write(package, two='def f():\n    """Return 1."""\n')
+    assert source_digest("contactsim.one") != reading
+    assert source_digest("contactsim.two") == read
+
+
+def test_no_module_imports_a_private_name_of_another():
+    # Parameters of private functions are renamed in digests, so nobody else may call them.
+    for module in MODULES:
+        for target in source_of(module).imports:
+            name = target.rpartition(".")[2]
+            own = target.startswith("contactsim.") and name.startswith("_") and not name.startswith("__")
+            assert not own or target == "contactsim._version", f"{module} imports {target}"
+
+
+def test_importing_a_module_only_defines_names():
+    # A module that only annotations name is not followed, so importing it must not do anything else.
+    for path in set(SOURCE.rglob("*.py")) - {SOURCE / "figures/style.py"}:  # every figure uses names of that one
+        for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+            assert not (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)), path
+
+
+def test_no_module_of_the_package_imports_its_public_names_from_the_bare_package():
+    # These are loaded when they are used, so following imports would not find them.
+    for module in MODULES:
+        from_package = {name for name in source_of(module).imports if name.count(".") == 1}
+        bare = {
+            name for name in from_package if name.startswith("contactsim.") and provenance.module_path(name) is None
+        }
+        assert bare == set(), module
 
 
 def test_the_digest_does_not_depend_on_the_order_or_the_place_of_the_package(package, monkeypatch):

@@ -1,17 +1,20 @@
-"""Which code made a result.
+"""Digests of the code and the settings that make a result.
 
-The workflow gives each job a digest of the modules that it executes, found by following their import statements. An
-edit of a module then reruns exactly the jobs that used it, and a stored point is reused only by the code that made it.
+The workflow gives each job a digest of the modules that it executes, found by following their imports. An edit that may
+change a result then reruns exactly the jobs that used the module, and a stored load step is reused only by the code
+that made it.
 """
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import json
 from functools import cache
 from importlib import metadata
 from pathlib import Path
+
+from contactsim.errors import SceneError
+from contactsim.source.normal_form import SourceCode, read_source
 
 PACKAGE = "contactsim"
 LIBRARIES = ("numpy", "scipy", "ducc0", "numba", "xarray", "netCDF4")
@@ -19,12 +22,12 @@ LIBRARIES = ("numpy", "scipy", "ducc0", "numba", "xarray", "netCDF4")
 
 @cache
 def package_root() -> Path:
-    """Folder that holds the package's modules."""
+    """Return the folder that holds the package's modules."""
     return Path(__file__).parent
 
 
 def module_path(name: str) -> Path | None:
-    """File of a module of this package, None for anything else."""
+    """Return the file of a module of this package, None for anything else."""
     head, *parts = name.split(".")
     if head != PACKAGE:
         return None
@@ -34,55 +37,90 @@ def module_path(name: str) -> Path | None:
 
 
 @cache
+def source_of(name: str) -> SourceCode:
+    """Return the source of a module of this package in its normal form."""
+    path = module_path(name)
+    if path is None:
+        raise SceneError("module", name, f"a module of {PACKAGE}")
+    return read_source(path.read_text(encoding="utf-8"))
+
+
+@cache
 def imports_of(name: str) -> frozenset[str]:
-    """Modules of this package that a module imports, anywhere in it."""
-    found: set[str] = set()
-    for node in ast.walk(ast.parse(module_path(name).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            found.add(node.module)
-            found.update(f"{node.module}.{alias.name}" for alias in node.names)
-    return frozenset(module for module in found if module_path(module) is not None)
+    """Return the modules of this package that a module imports, anywhere in it and for whatever purpose."""
+    return frozenset(module for module in source_of(name).imports if module_path(module) is not None)
+
+
+@cache
+def executed_imports(name: str) -> frozenset[str]:
+    """Return the modules of this package that the code of a module uses, and the packages that hold them.
+
+    Imports for annotations of functions alone are not among them. A name that a module only passes on counts as
+    imported from where it comes.
+    """
+    modules: set[str] = set()
+    waiting = set(source_of(name).used_imports)
+    seen: set[str] = set()
+    while waiting:
+        target = waiting.pop()
+        parent, _, member = target.rpartition(".")
+        if target in seen:
+            continue
+        seen.add(target)
+        if module_path(target) is not None:
+            modules.add(target)
+            waiting.add(parent)
+        elif module_path(parent) is not None:
+            waiting |= source_of(parent).import_targets.get(member, set())
+    return frozenset(modules - {PACKAGE})
 
 
 def modules_used(*names: str) -> tuple[str, ...]:
-    """These modules and all that they import, directly or not, sorted; the bare package is not one."""
-    known: set[str] = set()
+    """Return these modules and all that they use, directly or not, sorted; the bare package is not one."""
+    used: set[str] = set()
     waiting = list(names)
     while waiting:
         module = waiting.pop()
-        if module not in known and module != PACKAGE:
-            known.add(module)
-            waiting.extend(imports_of(module))
-    return tuple(sorted(known))
+        if module not in used and module != PACKAGE:
+            used.add(module)
+            waiting.extend(executed_imports(module))
+    return tuple(sorted(used))
 
 
 @cache
 def source_digest(*names: str) -> str:
-    """Digest of the text of these modules and of all that they import: 16 hexadecimal digits."""
+    """Return the digest of what these modules compute and of all that they use: 16 hexadecimal digits.
+
+    An edit that cannot change a result changes no digest (`contactsim.source.normal_form`). Docstrings count where a
+    module reads them: its own, and those of the modules that it imports.
+    """
     text = hashlib.sha256()
     for module in modules_used(*names):
-        text.update(module.encode() + b"\0" + module_path(module).read_bytes() + b"\0")
+        source = source_of(module)
+        if source.normal_form:
+            text.update(f"{module}\0{source.normal_form}\0".encode())
+        if source.reads_docstrings:
+            read = (source_of(other).docstrings for other in sorted({module} | executed_imports(module)))
+            text.update(canonical([list(docstrings) for docstrings in read]).encode())
     return text.hexdigest()[:16]
 
 
 def computing_digest(*names: str) -> str:
-    """Digest of what computes a result: these modules, all that they import, and the libraries that it depends on."""
+    """Return the digest of what computes a result: these modules, all that they use, and the libraries below them."""
     return digest(source_digest(*names), versions())
 
 
 def canonical(settings: object) -> str:
-    """JSON with sorted keys and no spaces: the same text for the same settings, whatever their order."""
+    """Return settings as JSON with sorted keys and no spaces: one text, whatever the order of the keys."""
     return json.dumps(settings, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
 
 def digest(*parts: object) -> str:
-    """16 hexadecimal digits for any settings."""
+    """Return the digest of any settings: 16 hexadecimal digits."""
     return hashlib.sha256(canonical(parts).encode()).hexdigest()[:16]
 
 
 @cache
 def versions() -> dict[str, str]:
-    """Version of this package and of the libraries that results depend on."""
+    """Return the versions of this package and of the libraries that results depend on."""
     return {name: metadata.version(name) for name in (PACKAGE, *LIBRARIES)}

@@ -154,7 +154,7 @@ class Project:
         section[key] = value
         self.configure(chapter, content)
 
-    def edit(self, module: str, line: str = "# edited") -> None:
+    def edit(self, module: str, line: str = "EDITED = True") -> None:
         """Append a line to a module of the project's package."""
         with (self.folder / f"src/contactsim/{module}.py").open("a", encoding="utf-8") as file:
             file.write(f"\n{line}\n")

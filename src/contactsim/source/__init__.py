@@ -1,0 +1,1 @@
+"""Source code of modules, read as what it computes."""

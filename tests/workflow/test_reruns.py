@@ -1,0 +1,249 @@
+"""Which jobs an edit runs again: what each rule is given, before and after."""
+
+from __future__ import annotations
+
+import ast
+import shutil
+from copy import deepcopy
+from pathlib import Path
+
+import pytest
+import yaml
+
+from contactsim import provenance
+from contactsim.provenance import canonical
+from contactsim.study.plan import Plan
+
+SOURCE = Path(provenance.__file__).parent
+CYLINDER = {"kind": "cylinder", "radius": 10.0, "length": 40.0}
+WALL = {
+    "title": "Cylinder",
+    "surface": CYLINDER,
+    "body": {"kind": "half_space", "contact_modulus": 1.0},
+    "effects": ["hard_wall"],
+    "load": {"contact_ratio": [0.1, 0.2]},
+    "points": 64,
+    "members": 2,
+    "tolerance": 1e-3,
+}
+STICKY = {
+    "title": "Adhesive cylinder",
+    "surface": CYLINDER,
+    "body": {"kind": "half_space", "contact_modulus": 1.0, "poisson_ratio": 0.3},
+    "effects": ["cohesive_zone"],
+    "cohesive_zone": {"work_of_separation": 0.1, "work_ratio": 0.0, "normal_length": 1.0, "tangential_length": 1.0},
+    "path": {"approach": [-4.0, 1.0], "increment": 0.5},
+    "points": 64,
+    "tolerance": 1e-5,
+}
+FIGURE = {"title": "Figure", "caption": "What it shows.", "size": [12.0, 3.0]}
+FACTORS = FIGURE | {"panels": 4, "reference": {"kappa_r": 1.75}}
+CONFIG = {
+    "config.yaml": {"seed": 1, "tier": "plain", "results": "made"},
+    "tiers.yaml": {"plain": {}},
+    "ch3.yaml": {
+        "studies": {"wall": WALL, "keer": WALL | {"solver": {"kind": "polonsky_keer"}}},
+        "figures": {"fig_3_2": FACTORS | {"study": "wall"}, "fig_3_3": FIGURE | {"study": "keer"}},
+    },
+    "ch4.yaml": {"studies": {"sticky": STICKY}, "figures": {"fig_4_2": FIGURE | {"study": "sticky", "panels": 2}}},
+}
+RUNS = {"run wall", "run keer", "run sticky"}
+AGGREGATED = {"dataset wall", "dataset keer", "dataset sticky"}
+FIGURES = {"fig_3_2", "fig_3_3", "fig_4_2"}
+ALL = RUNS | AGGREGATED | FIGURES
+
+
+def everything_after(*runs: str) -> set[str]:
+    """Return these runs and what is made of them."""
+    figures = {"wall": "fig_3_2", "keer": "fig_3_3", "sticky": "fig_4_2"}
+    return {job for run in runs for job in (f"run {run}", f"dataset {run}", figures[run])}
+
+
+class Workshop:
+    """A copy of the package, and a config, that may be edited."""
+
+    def __init__(self, folder: Path) -> None:
+        self.package, self.config = folder / "contactsim", folder / "config"
+        shutil.copytree(SOURCE, self.package, ignore=shutil.ignore_patterns("__pycache__"))
+        self.config.mkdir()
+        self.configure(CONFIG)
+
+    def configure(self, files: dict) -> None:
+        for name, content in files.items():
+            (self.config / name).write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
+
+    def change(self, file: str, key: str, value: object) -> None:
+        """Change a value of the config; key: with slashes."""
+        files = deepcopy(CONFIG)
+        *outer, last = key.split("/")
+        section = files[file]
+        for name in outer:
+            section = section[name]
+        section[last] = value
+        self.configure(files)
+
+    def edit(self, module: str, how) -> None:
+        """Replace the source of a module by what `how` makes of it."""
+        path = self.package / f"{module}.py"
+        path.write_text(how(path.read_text(encoding="utf-8")), encoding="utf-8")
+
+    def plan(self) -> Plan:
+        """Read the config, as the next command does."""
+        forget()
+        return Plan.read(self.config)
+
+    def jobs(self) -> dict[str, str]:
+        """Return what each job is given, by the job: runs, datasets and figures."""
+        plan = self.plan()
+        jobs = {
+            f"run {study.name} {run.stem} {run.companion}": canonical([run.settings, run.source])
+            for study in plan.studies.values()
+            for run in study.runs()
+        }
+        jobs |= {f"dataset {name}": canonical(plan.study_settings(name)) for name in plan.studies}
+        return jobs | {name: canonical(plan.figure_settings(name)) for name in plan.figures}
+
+
+def forget() -> None:
+    for cached in (provenance.source_of, provenance.imports_of, provenance.executed_imports, provenance.source_digest):
+        cached.cache_clear()
+
+
+@pytest.fixture
+def workshop(tmp_path, monkeypatch):
+    workshop = Workshop(tmp_path)
+    monkeypatch.setattr(provenance, "package_root", lambda: workshop.package)
+    yield workshop
+    forget()
+
+
+def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
+    """Return the jobs that are given something else; runs by their study."""
+    different = {job for job in before | after if before.get(job) != after.get(job)}
+    return {" ".join(job.split()[:2]) for job in different}
+
+
+def with_a_comment(text: str) -> str:
+    return "# Better said.\n" + text + "\n# The end.\n"
+
+
+def with_other_docstrings(text: str) -> str:
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            node.body[0].value.value = "Something else."
+    return ast.unparse(tree)
+
+
+def laid_out_anew(text: str) -> str:
+    return ast.unparse(ast.parse(text))
+
+
+def with_renamed_locals(text: str) -> str:
+    """Rename the variables that functions assign, where they are not parameters too."""
+    tree = ast.parse(text)
+    for function in [node for node in tree.body if isinstance(node, ast.FunctionDef)]:
+        nodes = list(ast.walk(function))
+        parameters = {node.arg for node in nodes if isinstance(node, ast.arg)}
+        names = [node for node in nodes if isinstance(node, ast.Name)]
+        local = {node.id for node in names if isinstance(node.ctx, ast.Store)} - parameters
+        for node in names:
+            node.id = f"{node.id}_renamed" if node.id in local else node.id
+    return ast.unparse(tree)
+
+
+def without_annotations(text: str) -> str:
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef):
+            node.returns = None
+    return ast.unparse(tree)
+
+
+def computing_more(text: str) -> str:
+    return text + "\nEDITED = 1\n"
+
+
+MODULES = ["grid", "interface/laws", "solvers/hard_wall/active_set", "paths/record", "study/execute", "figures/ch3"]
+
+
+@pytest.mark.parametrize(
+    "how", [with_a_comment, with_other_docstrings, laid_out_anew, with_renamed_locals, without_annotations]
+)
+def test_an_edit_of_words_alone_runs_nothing(workshop, how):
+    before = workshop.jobs()
+    for module in MODULES:
+        path = workshop.package / f"{module}.py"
+        text = path.read_text(encoding="utf-8")
+        workshop.edit(module, how)
+        assert path.read_text(encoding="utf-8") != text
+    assert changed(before, workshop.jobs()) == set()
+
+
+@pytest.mark.parametrize(
+    ("module", "expected"),
+    [
+        ("grid", ALL),
+        ("interface/laws", RUNS | AGGREGATED | FIGURES),
+        ("contact/hard_wall", RUNS | AGGREGATED | FIGURES),
+        ("solvers/hard_wall/active_set", everything_after("wall")),
+        ("solvers/hard_wall/polonsky_keer", everything_after("keer")),
+        ("solvers/hard_wall/verlet", set()),
+        ("solvers/cohesive/newton_krylov", everything_after("sticky")),
+        ("solvers/cohesive/damped_verlet", set()),
+        ("analysis/aggregate", AGGREGATED | FIGURES),
+        ("analysis/costs", AGGREGATED | FIGURES),
+        ("figures/ch3", {"fig_3_2", "fig_3_3"}),
+        ("figures/ch4", {"fig_4_2"}),
+        ("figures/style", FIGURES),
+        ("study/plan", set()),
+        ("cli", set()),
+    ],
+)
+def test_an_edit_of_code_runs_the_jobs_that_execute_it_and_what_follows(workshop, module, expected):
+    before = workshop.jobs()
+    workshop.edit(module, computing_more)
+    assert changed(before, workshop.jobs()) == expected
+
+
+@pytest.mark.parametrize(
+    ("file", "key", "value", "expected"),
+    [
+        ("ch3.yaml", "studies/wall/tolerance", 1e-4, everything_after("wall")),
+        ("ch3.yaml", "studies/wall/points", 128, everything_after("wall")),
+        ("ch3.yaml", "studies/wall/title", "Another", {"dataset wall", "fig_3_2"}),
+        ("ch4.yaml", "studies/sticky/cohesive_zone/work_of_separation", 0.2, everything_after("sticky")),
+        ("ch4.yaml", "studies/sticky/path/increment", 0.25, everything_after("sticky")),
+        ("ch3.yaml", "studies/wall/thesis_points", 9, {"dataset wall", "fig_3_2"}),
+        ("ch3.yaml", "figures/fig_3_2/compare", ["kappa_r"], set()),
+        ("ch3.yaml", "figures/fig_3_2/caption", "Something else.", {"fig_3_2"}),
+        ("ch3.yaml", "figures/fig_3_3/size", [9.0, 3.0], {"fig_3_3"}),
+        ("config.yaml", "seed", 2, ALL),
+    ],
+)
+def test_an_edit_of_the_config_runs_what_uses_the_value(workshop, file, key, value, expected):
+    before = workshop.jobs()
+    workshop.change(file, key, value)
+    assert changed(before, workshop.jobs()) == expected
+
+
+def test_an_added_pressure_runs_the_sweeps_of_its_study_which_keep_the_load_steps_they_have(workshop):
+    from contactsim.study.execute import names_of
+
+    def steps() -> set[str]:
+        run = workshop.plan().studies["wall"].runs()[0]
+        return set(names_of(run.settings, run.source))
+
+    before, steps_before = workshop.jobs(), steps()
+    workshop.change("ch3.yaml", "studies/wall/load", {"contact_ratio": [0.1, 0.15, 0.2]})
+    assert changed(before, workshop.jobs()) == everything_after("wall")
+    assert steps_before < steps()
+
+
+def test_added_members_leave_the_runs_that_are_there(workshop):
+    before = workshop.jobs()
+    workshop.change("ch3.yaml", "studies/wall/members", 4)
+    after = workshop.jobs()
+    runs = {job: settings for job, settings in before.items() if job.startswith("run ")}
+    assert runs.items() < after.items()
+    assert changed(before, after) == everything_after("wall")
