@@ -9,7 +9,7 @@ from contactsim.contact import loading
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.figures import maps
-from contactsim.interface.laws import HardWall
+from contactsim.interface.hard_wall import HardWall
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from support.places import ROOT
 
@@ -185,7 +185,7 @@ def test_a_load_step_that_does_not_converge_is_stored_named_and_ends_in_an_error
     scene_file.write_text(SCENE.replace("1.0e-4", "1.0e-18"))
     with pytest.raises(SystemExit, match="2 of 2 load steps did not converge"):
         cli.main(["run", str(scene_file)])
-    assert "budget" in capsys.readouterr().out
+    assert "number of iterations" in capsys.readouterr().out
     assert (dataset.read(scene_file.with_suffix(".nc")).status == 1).all()
 
 

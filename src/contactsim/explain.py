@@ -13,8 +13,8 @@ import numpy as np
 
 from contactsim.contact.scene import Scene
 from contactsim.dataset import SETTINGS
-from contactsim.interface.laws import EFFECTS
 from contactsim.interface.pairing import Pairing
+from contactsim.interface.registry import EFFECTS
 from contactsim.paths.increments import Increments
 from contactsim.solvers.registry import SOLVERS, is_installed, make_solver, solver_class
 from contactsim.traits import Trait

@@ -16,7 +16,7 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.interface.laws import HardWall
+from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.pressures import simulate_loads
 from contactsim.paths.record import simulate_path
 from contactsim.solvers.base import HardWallSolver, Result, require, solve

@@ -11,10 +11,10 @@ import yaml
 
 from contactsim import cli, dataset
 from contactsim.analysis.aggregate import aggregate
-from contactsim.contact.simplification import LEFT_OUT, left_out
+from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import summarised
 from contactsim.study import execute
 from contactsim.study.study import Study
@@ -46,18 +46,18 @@ ASPERITY = {
     ],
 )
 def test_each_changes_one_thing_of_a_scene(name, effect, body):
-    less = left_out(SCENE, [name])
+    less = simplify(SCENE, [name])
     assert less.effects == (effect,)
     assert less.lower.elasticity == body
     assert less.upper == SCENE.upper
-    assert left_out(less, [name]) == less
+    assert simplify(less, [name]) == less
 
 
 def test_all_of_them_together_in_any_order_leave_a_normal_scene():
-    found = [left_out(SCENE, names) for names in itertools.permutations(LEFT_OUT)]
+    found = [simplify(SCENE, names) for names in itertools.permutations(SIMPLIFICATIONS)]
     assert all(less == found[0] for less in found)
     assert found[0].components == found[0].exerted == ("n",)
-    assert set(LEFT_OUT) == {"friction", "height", "compressibility", "coupling", "second_body", "short_waves"}
+    assert set(SIMPLIFICATIONS) == {"friction", "height", "compressibility", "coupling", "second_body", "short_waves"}
 
 
 def test_an_effect_that_no_variant_has_is_refused_and_one_that_some_have_is_not():

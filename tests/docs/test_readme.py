@@ -22,7 +22,7 @@ from contactsim.evaluation.effects import survey
 from contactsim.evaluation.robustness.survey import STABILITY_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
-from contactsim.interface.laws import EFFECTS
+from contactsim.interface.registry import EFFECTS
 from contactsim.study.figure_plan import FIGURE_KEYS
 from contactsim.study.keys import ACCURACY_KEYS, AUTO_KEYS, COMPANIONS, KINDS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
 from contactsim.study.law_table import LAW_KEYS

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from contactsim import dataset
-from contactsim.contact.simplification import LEFT_OUT, left_out
+from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.error_control import effect_maps, neglect
 from contactsim.error_control.effect_maps import change, expected, reduced
 from contactsim.error_control.neglect import decide, effects_of, foreseen, run
@@ -266,7 +266,7 @@ def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
 def test_a_second_body_and_short_waves_are_left_out_where_there_are_such():
     stiff = ASPERITY["body"] | {"youngs_modulus": 700.0}
     scene = scene_of(settings_of(counter_body=stiff) | {"leave_out": []})
-    assert left_out(scene, ["second_body"]).upper.elasticity is None
+    assert simplify(scene, ["second_body"]).upper.elasticity is None
     soft = scene_of(settings_of(counter_body=ASPERITY["body"] | {"youngs_modulus": 7.0}) | {"leave_out": []})
-    assert left_out(soft, ["second_body"]).lower.elasticity is None
-    assert set(LEFT_OUT) >= {"second_body", "short_waves"}
+    assert simplify(soft, ["second_body"]).lower.elasticity is None
+    assert set(SIMPLIFICATIONS) >= {"second_body", "short_waves"}

@@ -17,7 +17,7 @@ from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.figures.sketch import save_sketch
-from contactsim.interface.laws import HardWall
+from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver
 from contactsim.study.execute import simulate

@@ -13,7 +13,7 @@ from contactsim.elasticity.solids import HalfSpace
 from contactsim.evaluation.work_precision.case_config import PRICED
 from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
-from contactsim.interface.laws import HardWall
+from contactsim.interface.hard_wall import HardWall
 from contactsim.study.plan import Plan
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from support.places import ROOT

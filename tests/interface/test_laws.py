@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.interface.laws import OVERCLOSED, CohesiveZone, NormalCohesiveZone
-from contactsim.interface.superposition import Superposition, superposed
+from contactsim.interface.cohesive_zone import MAX_OVERLAP, CohesiveZone, NormalCohesiveZone
+from contactsim.interface.superposition import Superposition, superpose
 from support.cases import refusal
 
 LAWS = (
@@ -22,7 +22,7 @@ RNG = np.random.default_rng(5)
 
 def gaps(law, count=200):
     """Gaps from deep overlap to far apart, over the laws' lengths (reads, n)."""
-    normal = RNG.uniform(-1.5 * OVERCLOSED, 8.0, count) * law.interaction_range
+    normal = RNG.uniform(-1.5 * MAX_OVERLAP, 8.0, count) * law.interaction_range
     sideways = RNG.uniform(-3.0, 3.0, count) * getattr(law, "tangential_length", 1.0)
     return np.stack([normal, sideways][: len(law.reads)])
 
@@ -51,7 +51,7 @@ def test_laws_together_are_their_sum_and_one_law_is_itself():
     assert (TWO.reads, TWO.exerts, TWO.traits) == (mixed.reads, mixed.exerts, normal.traits | mixed.traits)
     assert (TWO.strength, TWO.interaction_range) == (normal.strength + mixed.strength, 1.0)
     assert TWO.tangential_length == mixed.tangential_length
-    assert superposed((mixed,)) is mixed
+    assert superpose((mixed,)) is mixed
 
 
 @pytest.mark.parametrize("law", [law for law in LAWS if hasattr(law, "energy")], ids=repr)
@@ -67,7 +67,7 @@ def test_the_traction_is_the_derivative_of_the_energy_where_there_is_one(law):
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)
 def test_traction_and_tangent_are_continuous_where_the_exponential_is_continued(law):
-    edge = -OVERCLOSED * law.normal_length
+    edge = -MAX_OVERLAP * law.normal_length
     normal = edge * np.array([1 - 1e-12, 1 + 1e-12])
     gap = np.stack([normal, np.full(2, 0.7)][: len(law.reads)])
     traction, tangent = law.tangent(gap)

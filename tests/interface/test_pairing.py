@@ -13,9 +13,11 @@ from contactsim.contact.loading import LoadPath, LoadStep, Slide, approaches, pr
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Layer
 from contactsim.errors import SceneError
-from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
-from contactsim.interface.pairing import ALIGNED, Lattice
-from contactsim.interface.superposition import superposed
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.hard_wall import HardWall
+from contactsim.interface.lattice import Lattice
+from contactsim.interface.pairing import ALIGNED
+from contactsim.interface.superposition import superpose
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
 
@@ -49,10 +51,10 @@ def test_springs_are_the_literal_sum_over_all_pairs_of_nodes(rough):
     points, lattice = 24, 1.7
     lower = 0.3 * np.sin(2 * np.pi * np.arange(points) / points) * rough
     gap = gaps(points)
-    springs = Lattice(lattice, tangential_cutoff=8.0).joined(LAW, lower, points * lattice)
+    springs = Lattice(lattice, tangential_cutoff=8.0).join(LAW, lower, points * lattice)
     upper, below = literal(gap, lower, lattice, LAW)
     np.testing.assert_allclose(springs.traction(gap), upper, rtol=0, atol=1e-13 * np.abs(upper).max())
-    np.testing.assert_allclose(springs.reaction(gap), below, rtol=0, atol=1e-12 * np.abs(upper).max())
+    np.testing.assert_allclose(springs.lower_traction(gap), below, rtol=0, atol=1e-12 * np.abs(upper).max())
 
 
 @pytest.mark.parametrize("lattice", [1.7, 1.234])
@@ -60,15 +62,17 @@ def test_springs_are_the_literal_sum_over_all_pairs_of_nodes(rough):
 def test_action_equals_reaction(lattice, rough):
     points = 64
     lower = 0.2 * np.cos(2 * np.pi * np.arange(points) / points) * rough
-    springs = Lattice(lattice).joined(LAW, lower, points * 1.7)
+    springs = Lattice(lattice).join(LAW, lower, points * 1.7)
     gap = gaps(points)
     total = springs.traction(gap).sum(1)
-    np.testing.assert_allclose(springs.reaction(gap).sum(1), -total, atol=3e-14 * np.abs(springs.traction(gap)).sum())
+    np.testing.assert_allclose(
+        springs.lower_traction(gap).sum(1), -total, atol=3e-14 * np.abs(springs.traction(gap)).sum()
+    )
 
 
 def test_the_tangent_is_the_derivative_of_the_traction():
     points = 32
-    springs = Lattice(2.0).joined(LAW, 0.2 * np.sin(np.arange(points) * 2 * np.pi / points), 100.0)
+    springs = Lattice(2.0).join(LAW, 0.2 * np.sin(np.arange(points) * 2 * np.pi / points), 100.0)
     gap = gaps(points, 1)
     gap[1] += 0.3  # away from where the window moves on
     traction, tangent = springs.tangent(gap)
@@ -82,7 +86,7 @@ def test_the_tangent_is_the_derivative_of_the_traction():
 
 def test_a_flat_lattice_sums_to_the_exact_series():
     lattice, gap = 1.95, np.stack((np.linspace(-1.0, 4.0, 50), np.linspace(-7.0, 7.0, 50)))
-    springs = Lattice(lattice, tangential_cutoff=10.0).joined(LAW, np.zeros(50), 100.0)
+    springs = Lattice(lattice, tangential_cutoff=10.0).join(LAW, np.zeros(50), 100.0)
     cosines, sines = reference.spring_sum(gap[1], lattice, LAW.tangential_length)
     opening = gap[0] / LAW.normal_length
     normal = LAW.work_of_separation / LAW.normal_length * opening * np.exp(-opening) * cosines
@@ -108,16 +112,16 @@ def test_sums_of_springs_have_their_known_strength_and_fall(ratio, largest, fall
 
 
 def test_a_slide_by_whole_lattice_constants_changes_nothing():
-    springs = Lattice(2.44).joined(LAW, np.zeros(16), 100.0)
-    gap = gaps(16)
+    pairing, gap = Lattice(2.44), gaps(16)
+    springs = pairing.join(LAW, np.zeros(16), 100.0)
     further = gap + [[0.0], [7 * 2.44]]
     np.testing.assert_allclose(springs.traction(further), springs.traction(gap), atol=1e-12)
-    np.testing.assert_allclose(springs.offset(further), springs.offset(gap), atol=1e-12)
+    np.testing.assert_allclose(pairing.offset(further), pairing.offset(gap), atol=1e-12)
 
 
 def test_a_rough_lattice_repeats_itself_after_a_period():
     lower, lattice = 0.3 * np.sin(2 * np.pi * np.arange(20) / 20), 2.0
-    springs = Lattice(lattice).joined(LAW, lower, 20 * lattice)
+    springs = Lattice(lattice).join(LAW, lower, 20 * lattice)
     gap = gaps(20)
     again = springs.traction(gap + [[0.0], [20 * lattice]])
     np.testing.assert_allclose(again, springs.traction(gap), atol=1e-12)
@@ -125,17 +129,17 @@ def test_a_rough_lattice_repeats_itself_after_a_period():
 
 def test_a_window_of_the_own_node_is_aligned():
     gap = np.stack((np.linspace(-1, 4, 30), np.linspace(-0.9, 0.9, 30)))
-    own = Lattice(2.0, tangential_cutoff=0.0).joined(LAW, np.zeros(30), 60.0)
-    np.testing.assert_array_equal(own.traction(gap), ALIGNED.joined(LAW, np.zeros(30), 60.0).traction(gap))
+    own = Lattice(2.0, tangential_cutoff=0.0).join(LAW, np.zeros(30), 60.0)
+    np.testing.assert_array_equal(own.traction(gap), ALIGNED.join(LAW, np.zeros(30), 60.0).traction(gap))
     for one, other in zip(own.tangent(gap), LAW.tangent(gap), strict=True):
         np.testing.assert_array_equal(one, other)
 
 
 @pytest.mark.parametrize(
-    "law", [LAW, CohesiveZone(2.0), NormalCohesiveZone(1.5), superposed((LAW, NormalCohesiveZone(1.0)))]
+    "law", [LAW, CohesiveZone(2.0), NormalCohesiveZone(1.5), superpose((LAW, NormalCohesiveZone(1.0)))]
 )
 def test_any_law_can_be_a_spring(law):
-    springs = Lattice(1.5, tangential_cutoff=3.0).joined(law, np.zeros(10), 15.0)
+    springs = Lattice(1.5, tangential_cutoff=3.0).join(law, np.zeros(10), 15.0)
     gap = gaps(10)[: len(law.reads)]
     sites = 1.5 * (np.rint(gap[1:] / 1.5) + springs.offsets[:, None, None])
     each = [law.traction(np.concatenate((gap[:1], gap[1:] - site))) for site in sites]
@@ -146,23 +150,23 @@ def test_any_law_can_be_a_spring(law):
 
 def test_potentials_add():
     law = NormalCohesiveZone(1.5)
-    springs = Lattice(1.5, tangential_cutoff=2.0, weight=0.5).joined(law, np.zeros(10), 15.0)
+    springs = Lattice(1.5, tangential_cutoff=2.0, weight=0.5).join(law, np.zeros(10), 15.0)
     gap = gaps(10)[:1]
     np.testing.assert_allclose(springs.energy(gap), 0.5 * len(springs.offsets) * law.energy(gap))
 
 
 def test_weights_count_and_deep_gaps_do_not():
     gap = np.array([[1.0, 9.0, 11.0], [0.2, 0.2, 0.2]])
-    whole, half = (Lattice(2.0, weight=weight).joined(LAW, np.zeros(3), 6.0) for weight in (1.0, 0.5))
+    whole, half = (Lattice(2.0, weight=weight).join(LAW, np.zeros(3), 6.0) for weight in (1.0, 0.5))
     np.testing.assert_allclose(half.traction(gap), 0.5 * whole.traction(gap))
-    cut = Lattice(2.0, normal_cutoff=10.0).joined(LAW, np.zeros(3), 6.0).traction(gap)
+    cut = Lattice(2.0, normal_cutoff=10.0).join(LAW, np.zeros(3), 6.0).traction(gap)
     np.testing.assert_array_equal(cut[:, :2], whole.traction(gap)[:, :2])
     assert not cut[:, 2].any()
 
 
 def test_springs_are_paid_for_in_range_only(monkeypatch):
     asked = []
-    springs = Lattice(2.0, tangential_cutoff=5.0).joined(LAW, np.zeros(1000), 2000.0)
+    springs = Lattice(2.0, tangential_cutoff=5.0).join(LAW, np.zeros(1000), 2000.0)
     count = len(springs.offsets)
     traction = CohesiveZone.traction
     monkeypatch.setattr(CohesiveZone, "traction", lambda law, gap: asked.append(gap.shape[1]) or traction(law, gap))
@@ -174,7 +178,7 @@ def test_springs_are_paid_for_in_range_only(monkeypatch):
 def test_strength_and_stiffness_bound_what_springs_do():
     gap = np.stack([each.ravel() for each in np.meshgrid(np.linspace(0, 3, 61), np.linspace(-2, 2, 81))])
     for lattice in (0.2, 1.0, 2.44, 5.0):
-        springs = Lattice(lattice).joined(LAW, np.zeros(8), 100.0)
+        springs = Lattice(lattice).join(LAW, np.zeros(8), 100.0)
         traction, tangent = springs.tangent(gap)
         assert traction[0].max() <= springs.strength * (1 + 1e-12)
         assert traction[0].max() == pytest.approx(springs.strength, rel=1e-3)

@@ -15,8 +15,8 @@ from contactsim.contact.loading import LoadPath, LoadStep, Slide, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.evaluation.work_precision.knobs import solutions
-from contactsim.interface.laws import CohesiveZone
-from contactsim.interface.pairing import Lattice
+from contactsim.interface.cohesive_zone import CohesiveZone
+from contactsim.interface.lattice import Lattice
 from contactsim.observables import friction, peeling, sliding
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.continuation import PathState
@@ -126,8 +126,13 @@ def test_an_exact_slide_carries_what_the_springs_pull():
 
 
 @cache
-def small_probe(increment: float = 0.1, points: int = 256, window: float = 5.0, depth: float | None = 40.0) -> tuple:
-    return walked(probe(path_of(0.0, [0.0, 11.0], increment), tangential_cutoff=window, normal_cutoff=depth), points)
+def small_probe(
+    increment: float = 0.1, points: int = 256, tangential_cutoff: float = 5.0, normal_cutoff: float = 40.0
+) -> tuple:
+    return walked(
+        probe(path_of(0.0, [0.0, 11.0], increment), tangential_cutoff=tangential_cutoff, normal_cutoff=normal_cutoff),
+        points,
+    )
 
 
 def places(states: list[PathState]) -> list[float]:

@@ -11,7 +11,7 @@ import xarray as xr
 from contactsim import status
 from contactsim.contact.loading import approaches
 from contactsim.dataset import described
-from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.study.execute import simulate
 from contactsim.surfaces.shapes import Sinusoid
 from support.smooth import LENGTH, along, scene_of

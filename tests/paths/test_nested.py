@@ -11,7 +11,8 @@ from contactsim.contact.loading import LoadPath, LoadStep
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.interface.laws import CohesiveZone, HardWall, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.continuation import PathState, Walk
 from contactsim.paths.increments import Nested
 from contactsim.solvers.registry import make_solver
@@ -22,7 +23,7 @@ from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from support.places import ROOT
-from support.smooth import LAWS, Walked, along, scene_of, walk
+from support.smooth import LAWS, Walked, along, residual_of, scene_of, walk
 
 ROUGH_LAWS = {"normal": NormalCohesiveZone(10.5), "coupled": CohesiveZone(10.5), "frictional": CohesiveZone(10.5, 0.5)}
 SETTLED = [-4.0, 0.0, 3.0]
@@ -64,11 +65,11 @@ def test_settled_states_are_those_of_a_walk_on_the_whole_grid(name):
 def test_what_is_settled_is_certified_from_its_displacement_alone():
     nested = walk(rough_scene(ROUGH_LAWS["normal"]), points=4096, increments=Nested(SETTLED))
     for state in settled(nested, 4096):
-        assert nested.problem.at(state.step).certify(state.displacement) <= 1e-7
+        assert residual_of(nested.problem.at(state.step), state.displacement) <= 1e-7
     others = [state for state in nested.states if state.points == 1024]
     assert len(others) == len(nested.states) - len(SETTLED)
     for state in others:
-        assert state.problem.certify(state.displacement) <= 1e-4
+        assert residual_of(state.problem, state.displacement) <= 1e-4
         assert [field.shape for field in state.fields()] == [(1, 1024)] * 2
 
 
@@ -89,12 +90,12 @@ def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
     coarse, posed = whole.coarser(64, 1e-3), pose_cohesive(scene, scene.heights(64), 1e-3)
     assert coarse.tolerance == 1e-3 and coarse.unknowns == posed.unknowns
     assert np.allclose(coarse.stiffness.diagonal[:, :-1], posed.stiffness.diagonal[:, :-1], rtol=1e-12)
-    if posed.derived is None and len(posed.shape) == 2:
+    if posed.slip_factor is None and len(posed.shape) == 2:
         assert np.allclose(coarse.stiffness.coupling, posed.stiffness.coupling, rtol=1e-12)
-    if posed.derived is not None:
-        assert np.allclose(coarse.derived, posed.derived, rtol=1e-12)
+    if posed.slip_factor is not None:
+        assert np.allclose(coarse.slip_factor, posed.slip_factor, rtol=1e-12)
     assert np.allclose(coarse.shape, posed.shape, atol=1e-12 * np.ptp(posed.shape))
-    assert whole.refined(np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
+    assert whole.prolong(np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
 
 
 def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_the_mean_plane():

@@ -13,7 +13,7 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
-from contactsim.interface.laws import HardWall
+from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import require, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
 from contactsim.solvers.registry import make_solver

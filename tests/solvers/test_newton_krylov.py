@@ -7,7 +7,7 @@ import pytest
 
 from contactsim.contact.cohesive import Tangent, pose_cohesive
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.interface.laws import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.base import require
 from contactsim.solvers.cohesive.gmres import gmres
 from contactsim.solvers.cohesive.zone_preconditioner import RATIO, ZonePreconditioner
@@ -77,7 +77,7 @@ def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_w
     change = np.zeros(problem.unknowns, complex)
     change[:, :low] = np.random.default_rng(3).standard_normal((len(change), low, 2)).view(complex)[..., 0]
     change[:, 0] = change[:, 0].real
-    residual = problem.balanced(tangent(change) + shift * change, change)
+    residual = problem.add_elastic(tangent(change) + shift * change, change)
     assert np.abs(residual[:, low:]).max() < 1e-12 * np.abs(residual).max()
     residual[:, low:] = 0
     assert np.allclose(precondition(residual), change, rtol=0, atol=1e-9 * np.abs(change).max())
@@ -91,7 +91,7 @@ def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
     zones = []
     for place in (40, 200):
         here = values.copy()
-        here[..., place : place + 20] = -0.2 * problem.softening
+        here[..., place : place + 20] = -0.2 * problem.law_stiffness
         zones.append(ZonePreconditioner(problem, Tangent(problem, here)))
     wave = None
     for _ in range(1100):  # a wave that faded by half a state would be gone
@@ -200,6 +200,6 @@ def _dense(problem, tangent):
     for row, wave, phase in units:
         unit = np.zeros((rows, modes), complex)
         unit[row, wave] = phase
-        moved = problem.balanced(tangent(unit), unit)
+        moved = problem.add_elastic(tangent(unit), unit)
         columns.append(np.concatenate([moved.real.ravel(), moved[:, 1:-1].imag.ravel()]))
     return np.array(columns).T

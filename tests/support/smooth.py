@@ -10,7 +10,8 @@ from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, approaches
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, Layer
-from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
+from contactsim.interface.base import Law
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Requested
@@ -83,3 +84,8 @@ def walk(
 def along(begin: float, end: float, increment: float) -> LoadPath:
     """Approaches from one to another, both inclusive."""
     return approaches(np.linspace(begin, end, round(abs(end - begin) / increment) + 1).round(9).tolist())
+
+
+def residual_of(problem: CohesiveProblem, displacement: np.ndarray) -> float:
+    """Return the largest |K v + T| at any point over the laws' strength, from the displacement alone."""
+    return problem.norm(problem.residual(displacement, problem.traction(problem.gap(displacement))))

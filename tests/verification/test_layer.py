@@ -22,7 +22,7 @@ from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.survey import judge
 from contactsim.explain import explain
 from contactsim.figures.sketch import sketch
-from contactsim.interface.laws import HardWall
+from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import require, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation

@@ -1,21 +1,21 @@
-"""Smooth laws between two elastic bodies on a line: the problem they pose at one load step.
+"""The problem that smooth laws pose between two elastic bodies on a line, at one load step.
 
-The bodies are aligned, so one relative displacement v suffices: what the gap grows by when both surfaces give way. With
+The bodies are aligned, so one relative displacement v is enough: the growth of the gap when both surfaces deform. With
 C the sum of the bodies' compliances and T the traction of the laws,
 
     v = -C T(g + v),   or   K v + T(g + v) = 0   with K = C⁻¹,
 
-where g is the gap of the undeformed bodies. The unknowns are the Fourier coefficients of v, in the components in which
-a law exerts traction; there K is diagonal in the wavenumber. A component that is read but not exerted, like the
-tangential gap of a frictionless coupled law, is no unknown: a surface free of shear follows the normal displacement by
-a factor a wavenumber. The stiffness is always inverted from the compliance of the exerted components: slicing the
-stiffness itself would hold the others fast.
+where g is the gap of the undeformed bodies. The unknowns are the Fourier coefficients of v in the components in which a
+law exerts traction; K is diagonal in the wavenumber. A component that is read but not exerted, like the tangential gap
+of a frictionless coupled law, is no unknown: the tangential displacement of a surface free of shear is the normal one
+times a factor at each wavenumber. K is always the inverse of the compliance of the exerted components; a part of the
+inverse of the whole compliance would fix the other components.
 
 Normal approach enters as the uniform mode of the gap. Where the uniform compliance is zero (a half-space, by
-convention, and an incompressible layer) that mode of v is held at zero. Under a prescribed mean pressure the uniform
-mode of the gap is free, its stiffness zero, and the equation says that the law carries the load; the approach follows.
-A slide enters as the uniform mode of the tangential gap: the far boundary of a layer, or the mean of a half-space, is
-what moves. Springs between sites of two lattices are one law of the gap to the site that is opposite without a slide.
+convention, and an incompressible layer) that mode of v is fixed at zero. Under a prescribed mean pressure the uniform
+mode of the gap is free, its stiffness is zero, and the equation says that the law carries the load; the approach
+follows. A slide enters as the uniform mode of the tangential gap: it moves the far boundary of a layer, or the mean of
+a half-space.
 """
 
 from __future__ import annotations
@@ -32,30 +32,30 @@ from contactsim.elasticity.solids import relative_compliance
 from contactsim.elasticity.symbol import Symbol
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Tally
-from contactsim.interface.laws import Law
-from contactsim.interface.pairing import LatticeInteraction
-from contactsim.interface.superposition import Superposition, superposed
+from contactsim.interface.base import Law, is_law, potential
+from contactsim.interface.pairing import Pairing
+from contactsim.interface.superposition import superpose
 from contactsim.traits import Trait
 
-LOOSEST = 0.1
-"""Largest tolerance: beyond it, doing nothing would soon be a solution."""
+MAX_TOLERANCE = 0.1
+"""Largest tolerance: with a larger one, the undeformed state would soon be a solution."""
 
 
 @dataclass(frozen=True)
 class Tangent:
-    """Derivative of the traction at each point, (exerted, read, n), GPa/nm; a linear map on coefficients."""
+    """Derivative of the traction by the gap at each point (exerted, read, n), GPa/nm, as a map of coefficients."""
 
     problem: CohesiveProblem
     values: Array
 
     def __call__(self, change: Array) -> Array:
-        """Change of the traction's coefficients (exerted, m) for one of the displacement's (exerted, m)."""
+        """Return the change of the traction's coefficients for one of the displacement's, both (exerted, m)."""
         field = self.problem.field(change)
-        return self.problem.coefficients(contracted(self.values, field))
+        return self.problem.coefficients(contract(self.values, field))
 
 
-def contracted(tangent: Array, field: Array) -> Array:
-    """Derivatives (exerted, read, n) times a change of the gap (read, n), summed over what is read: (exerted, n)."""
+def contract(tangent: Array, field: Array) -> Array:
+    """Return derivatives (exerted, read, n) times a change of the gap (read, n), summed over what is read."""
     out = tangent[:, 0] * field[0]
     for row in range(1, len(field)):
         out += tangent[:, row] * field[row]
@@ -64,20 +64,41 @@ def contracted(tangent: Array, field: Array) -> Array:
 
 @dataclass(frozen=True)
 class CohesiveProblem:
-    """What smooth laws pose at one load step (see the module's text).
+    """Equilibrium K v + T(g + v) = 0 at one load step; see the module's text.
 
-    shape: gap of the undeformed bodies at zero approach (components, n), nm; stiffness: K of the exerted components;
-    derived: factor (m,) by which the tangential displacement follows the normal one, where it is read but not exerted;
-    approach, nm, or load: mean pressure, GPa; tolerance: largest residual, over the laws' strength; tally: the work;
-    origin: approach (nm) at which those of load steps are zero; sliding_distance: how far (nm) the upper body has moved
-    along x.
+    Parameters
+    ----------
+    grid
+        Grid of the line.
+    shape
+        Gap of the undeformed bodies at zero approach (components, n), nm.
+    law
+        All laws as one.
+    pairing
+        Rule by which points face each other.
+    stiffness
+        K of the exerted components.
+    slip_factor
+        Tangential over normal displacement at each wavenumber (m,), where the tangential gap is read but no shear is
+        exerted; None elsewhere.
+    tolerance
+        Largest residual at any point, over the strength of the law.
+    tally
+        Counter of the work.
+    approach, load
+        Approach, nm, or mean pressure, GPa; the other one is None.
+    origin
+        Approach at which that of load steps is zero, nm.
+    sliding_distance
+        Displacement of the upper body along x, nm.
     """
 
     grid: Grid
     shape: Array
-    law: Law | Superposition | LatticeInteraction
+    law: Law
+    pairing: Pairing
     stiffness: Symbol
-    derived: Array | None
+    slip_factor: Array | None
     tolerance: float
     tally: Tally
     approach: float | None = 0.0
@@ -87,86 +108,101 @@ class CohesiveProblem:
 
     @property
     def unknowns(self) -> tuple[int, int]:
-        """Shape of the coefficients sought: exerted components and wavenumbers."""
-        return self.stiffness.diagonal.shape
+        """Shape of the unknown coefficients: exerted components and wavenumbers."""
+        exerted, wavenumbers = self.stiffness.diagonal.shape
+        return exerted, wavenumbers
 
     @cached_property
-    def held(self) -> Array:
-        """Components whose uniform mode is no unknown, bool (exerted,)."""
-        held = self.stiffness.held[:, 0].copy()
-        held[0] &= self.load is None
-        return held
+    def fixed_modes(self) -> Array:
+        """Exerted components whose uniform mode is fixed, bool (exerted,)."""
+        fixed = self.stiffness.held[:, 0].copy()
+        fixed[0] &= self.load is None
+        return fixed
 
     @cached_property
-    def supported(self) -> Symbol:
-        """The stiffness, with that of the longest wave for a uniform mode that a load leaves free."""
+    def regularised_stiffness(self) -> Symbol:
+        """Stiffness in which a uniform mode that a load leaves free has that of the longest wave."""
         if self.load is None:
             return self.stiffness
         diagonal = self.stiffness.diagonal.copy()
         diagonal[0, 0] = diagonal[0, 1]
         return replace(self.stiffness, diagonal=diagonal)
 
+    @cached_property
+    def mode_weights(self) -> Array:
+        """Number of times that each coefficient of a real transform counts in a mean over the period (m,): 1 or 2."""
+        weights = np.full(self.unknowns[1], 2.0)
+        weights[0] = 1.0
+        if self.grid.size % 2 == 0:
+            weights[-1] = 1.0
+        return weights
+
     @property
-    def yielded(self) -> float:
-        """Mean displacement of the surfaces under the mean pressure, nm."""
+    def mean_displacement(self) -> float:
+        """Mean displacement of the surfaces under a prescribed mean pressure, nm."""
         uniform = float(self.stiffness.diagonal[0, 0])
         return self.load / uniform if self.load is not None and uniform else 0.0
 
     @property
     def strength(self) -> float:
-        """Of the laws together, GPa."""
+        """Strength of the law, GPa."""
         return self.law.strength
 
     @property
-    def softening(self) -> float:
-        """Largest tangent of the laws together, GPa/nm."""
+    def law_stiffness(self) -> float:
+        """Largest tangent of the law, GPa/nm."""
         return self.law.stiffness
 
     @property
     def interaction_range(self) -> float:
-        """Shortest length over which a law changes, nm."""
+        """Shortest length over which the law changes, nm."""
         return self.law.interaction_range
 
+    @property
+    def lattice_constant(self) -> float:
+        """Distance along x after which the interaction repeats itself, nm; infinite if it never does."""
+        return self.pairing.lattice_constant
+
     def at(self, step: LoadStep) -> CohesiveProblem:
-        """The same scene at another load step."""
+        """Return the problem of the same scene at another load step."""
         normal = step.normal
         if normal.control is Trait.APPROACH:
             return replace(self, approach=normal.value + self.origin, load=None, sliding_distance=step.sliding_distance)
         return replace(self, approach=None, load=normal.value, sliding_distance=step.sliding_distance)
 
     def coarser(self, points: int, tolerance: float) -> CohesiveProblem:
-        """The same scene on fewer points, an even number: without the waves that these cannot carry, in heights too."""
+        """Return the problem on fewer points, an even number; waves that these cannot carry are left out of heights."""
         grid, count = self.grid.coarser((points,)), points // 2 + 1
         shape = self.grid.forward(self.shape[0])[:count]
         shape[-1] = 0
         gap = np.zeros((len(self.shape), points))
         gap[0] = grid.backward(shape)
-        derived = None if self.derived is None else np.where(np.arange(count) < count - 1, self.derived[:count], 0)
+        factor = None
+        if self.slip_factor is not None:
+            factor = np.where(np.arange(count) < count - 1, self.slip_factor[:count], 0)
         stiffness = self.stiffness.coarser(count)
-        return replace(self, grid=grid, shape=gap, stiffness=stiffness, derived=derived, tolerance=tolerance)
+        return replace(self, grid=grid, shape=gap, stiffness=stiffness, slip_factor=factor, tolerance=tolerance)
 
-    def refined(self, displacement: Array) -> Array:
-        """A displacement of a coarser grid (exerted, m), on this one; its shortest wave is left out."""
+    def prolong(self, displacement: Array) -> Array:
+        """Return a displacement of a coarser grid (exerted, m) on this one, without its shortest wave."""
         out = np.zeros(self.unknowns, complex)
         out[:, : displacement.shape[1] - 1] = displacement[:, :-1]
         return out
 
     def field(self, coefficients: Array) -> Array:
-        """Values (components, n) of a displacement (exerted, m), with the derived component."""
-        if self.derived is not None:
-            coefficients = np.concatenate((coefficients, self.derived * coefficients))
+        """Return the values (read, n) of a displacement's coefficients (exerted, m), with those that follow it."""
+        if self.slip_factor is not None:
+            coefficients = np.concatenate((coefficients, self.slip_factor * coefficients))
         self.tally.add(len(coefficients), self.grid.size)
-        return ducc0.fft.c2r(
-            coefficients, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads
-        )
+        return self._backward(coefficients)
 
     def coefficients(self, field: Array) -> Array:
-        """Fourier coefficients (rows, m) of values (rows, n)."""
+        """Return the Fourier coefficients (rows, m) of values (rows, n)."""
         self.tally.add(len(field), self.grid.size)
         return ducc0.fft.r2c(field, axes=(1,), forward=True, inorm=2, nthreads=self.grid.threads)
 
     def gap(self, displacement: Array) -> Array:
-        """The gap (components, n), nm, at the coefficients of a displacement (exerted, m)."""
+        """Return the gap (read, n), nm, at the coefficients of a displacement (exerted, m)."""
         gap = self.field(displacement)
         gap += self.shape
         if self.approach is not None:
@@ -175,87 +211,103 @@ class CohesiveProblem:
             gap[1] += self.sliding_distance
         return gap
 
-    @property
-    def lattice_constant(self) -> float:
-        """Of the sites that springs join, nm; infinite without."""
-        return self.law.spacing if isinstance(self.law, LatticeInteraction) else np.inf
-
     def offset(self, gap: Array) -> Array:
-        """Tangential gap (n,), nm, between what faces each other; gap: (2, n)."""
-        return self.law.offset(gap) if isinstance(self.law, LatticeInteraction) else gap[1]
+        """Return the tangential gap (n,), nm, between points that face each other; gap: (2, n)."""
+        return self.pairing.offset(gap)
 
     def traction(self, gap: Array) -> Array:
-        """The laws' traction (exerted, n), GPa."""
+        """Return the traction (exerted, n), GPa, at a gap (read, n), nm."""
         return self.law.traction(gap)
 
     def tangent(self, gap: Array) -> tuple[Array, Tangent]:
-        """The laws' traction (exerted, n) and its derivative."""
+        """Return the traction (exerted, n), GPa, and its derivative at a gap (read, n), nm."""
         traction, values = self.law.tangent(gap)
         return traction, Tangent(self, values)
 
     def energy(self, displacement: Array, gap: Array) -> float:
-        """Elastic energy plus the laws' potentials, less the work of the load, over the period, N/m; they need one."""
-        weighted = self.balanced(np.zeros_like(displacement), displacement) * self.weights
-        stored = 0.5 * float(np.vdot(displacement, weighted).real)
-        pressed = 0.0 if self.load is None else self.load * float(displacement[0, 0].real)
-        return stored + pressed + float(self.law.energy(gap).mean())
-
-    @cached_property
-    def weights(self) -> Array:
-        """How often each coefficient of a real transform counts in a mean over the period, (m,): once or twice."""
-        weights = np.full(self.unknowns[1], 2.0)
-        weights[0] = 1.0
-        if self.grid.size % 2 == 0:
-            weights[-1] = 1.0
-        return weights
+        """Return the mean potential energy over the period, N/m: elastic, of the laws, and of the load."""
+        weighted = self.add_elastic(np.zeros_like(displacement), displacement) * self.mode_weights
+        elastic = 0.5 * float(np.vdot(displacement, weighted).real)
+        of_load = 0.0 if self.load is None else self.load * float(displacement[0, 0].real)
+        return elastic + of_load + float(potential(self.law, gap).mean())
 
     def residual(self, displacement: Array, traction: Array) -> Array:
-        """Coefficients (exerted, m) of K v + T, GPa, zero where the displacement is held."""
+        """Return the coefficients (exerted, m) of K v + T, GPa; zero where the displacement is fixed."""
         out = self.coefficients(traction)
         if self.load is not None:
             out[0, 0] += self.load
-        return self.balanced(out, displacement)
+        return self.add_elastic(out, displacement)
 
-    def balanced(self, traction: Array, displacement: Array) -> Array:
-        """`traction` (exerted, m) plus K v, in its place; zero where the displacement is held."""
+    def add_elastic(self, traction: Array, displacement: Array) -> Array:
+        """Add K v to a traction's coefficients (exerted, m), in place; zero where the displacement is fixed."""
         elastic = self.stiffness.apply(displacement)
         if self.load is not None:
             elastic[0, 0] = 0
         traction += elastic
-        traction[self.held, 0] = 0
+        traction[self.fixed_modes, 0] = 0
         return traction
 
-    def certify(self, displacement: Array) -> float:
-        """Largest |K v + T| at any point, over the laws' strength, from the displacement alone; NaN if not finite."""
-        residual = self.residual(displacement, self.traction(self.gap(displacement)))
-        return self.size(residual)
+    def norm(self, residual: Array) -> float:
+        """Return the largest value at any point of a residual's coefficients (exerted, m), over the strength.
 
-    def size(self, residual: Array) -> float:
-        """Largest value at any point of a residual's coefficients, over the laws' strength."""
+        If an upper bound, the sum of all coefficients, is within the tolerance, the bound is returned.
+        """
         bound = (2 * np.abs(residual).sum(axis=1)).max() / self.strength
         if bound <= self.tolerance:
             return float(bound)
         self.tally.add(len(residual), self.grid.size)
-        field = ducc0.fft.c2r(residual, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads)
-        return float(np.abs(field).max() / self.strength)
+        return float(np.abs(self._backward(residual)).max() / self.strength)
+
+    def _backward(self, coefficients: Array) -> Array:
+        """Return the values (rows, n) of coefficients (rows, m)."""
+        return ducc0.fft.c2r(
+            coefficients, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads
+        )
 
 
 def check_tolerance(tolerance: object, name: str = "tolerance") -> None:
-    """SceneError for what is no tolerance, or so loose that doing nothing would meet it."""
-    if not (is_number(tolerance) and 0 < tolerance <= LOOSEST):
-        raise SceneError(name, tolerance, f"a number above 0, at most {LOOSEST}, in parts of the laws' strength")
+    """Refuse a tolerance that is no positive number, or so large that the undeformed state would meet it."""
+    if not (is_number(tolerance) and 0 < tolerance <= MAX_TOLERANCE):
+        raise SceneError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")
 
 
 def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:
-    """The problem that a scene of smooth laws poses on the grid of `heights` (n,), nm, at zero approach."""
+    """Return the problem of a scene of smooth laws at zero approach.
+
+    Parameters
+    ----------
+    scene
+        Scene on a line whose effects are all laws.
+    heights
+        Sum of both surfaces' heights (n,), nm.
+    tolerance
+        Largest residual at any point, over the strength of the laws.
+    threads
+        Threads of a transform.
+
+    Raises
+    ------
+    SceneError
+        If the tolerance or the grid is not allowed.
+    """
     check_tolerance(tolerance)
     grid = Grid(heights.shape, scene.lengths, threads)
     compliance = relative_compliance(scene.lower.elasticity, scene.upper.elasticity, grid, scene.components)
-    derived = None
+    slip_factor = None
     if len(scene.exerted) < len(scene.components):
-        derived, compliance = compliance.slip(), compliance.without_shear()
+        slip_factor, compliance = compliance.slip(), compliance.without_shear()
     shape = np.zeros((len(scene.components), grid.size))
     shape[0] = -heights
-    law = scene.pairing.joined(superposed(scene.acting), scene.lower.surface.heights(grid.size), scene.length)
-    origin = scene.path.origin(heights)
-    return CohesiveProblem(grid, shape, law, compliance.inverse(), derived, tolerance, Tally(grid.size), origin=origin)
+    laws = tuple(effect for effect in scene.acting if is_law(effect))
+    law = scene.pairing.join(superpose(laws), scene.lower.surface.heights(grid.size), scene.length)
+    return CohesiveProblem(
+        grid=grid,
+        shape=shape,
+        law=law,
+        pairing=scene.pairing,
+        stiffness=compliance.inverse(),
+        slip_factor=slip_factor,
+        tolerance=tolerance,
+        tally=Tally(grid.size),
+        origin=scene.path.origin(heights),
+    )

@@ -18,7 +18,7 @@ from contactsim.contact.loading import LoadPath
 from contactsim.elasticity.solids import Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.interface.laws import HardWall, Law
+from contactsim.interface.base import Effect, is_coupled
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.surfaces.shapes import Surface
 from contactsim.traits import Trait
@@ -51,7 +51,7 @@ class Scene:
 
     lower: Body
     upper: Body
-    effects: tuple[HardWall | Law, ...]
+    effects: tuple[Effect, ...]
     path: LoadPath
     pairing: Pairing = ALIGNED
 
@@ -97,11 +97,11 @@ class Scene:
         return not alike and any(body.couples for body in self.elasticities)
 
     @cached_property
-    def acting(self) -> tuple[HardWall | Law, ...]:
+    def acting(self) -> tuple[Effect, ...]:
         """The effects as they act: without a slip, exactly, laws without their coupling."""
         if self.slips:
             return self.effects
-        return tuple(effect.without_coupling() for effect in self.effects)
+        return tuple(effect.without_coupling() if is_coupled(effect) else effect for effect in self.effects)
 
     @cached_property
     def components(self) -> tuple[str, ...]:

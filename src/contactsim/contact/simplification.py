@@ -1,78 +1,102 @@
-"""Effects left out of a scene because they are asked to be; what that costs in error is measured.
+"""Neglect of effects: scenes without a part that is present, but changes results little.
 
-What cancels is left out anyway: see `contactsim.contact.scene`.
+An effect that cancels exactly is left out of every scene; see `contactsim.contact.scene`. The error of neglecting one
+that does not is measured by `contactsim.error_control.neglect`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection
 from dataclasses import replace
-from functools import reduce
 
-from contactsim.contact.scene import Scene
+from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace
+from contactsim.interface.base import Effect, is_coupled
 from contactsim.surfaces.self_affine import SelfAffine
 
-OCTAVE = 2.0
-
-Change = Callable[[object], object]
-
-
-def _of_laws(scene: Scene, change: Change) -> Scene:
-    return replace(scene, effects=tuple(change(effect) for effect in scene.effects))
+SMOOTHING_RATIO = 2.0
+"""Shortest wavelength of a smoothed surface over that of the surface: an octave."""
 
 
-def _of_bodies(scene: Scene, change: Change) -> Scene:
-    bodies = {side: getattr(scene, side) for side in ("lower", "upper")}
-    return replace(
-        scene,
-        **{
-            side: replace(body, elasticity=change(body.elasticity))
-            for side, body in bodies.items()
-            if body.elasticity is not None
-        },
+def without_friction(scene: Scene) -> Scene:
+    """Return a scene without tangential work of separation."""
+    return _replace_effects(scene, lambda effect: effect.without_friction() if is_coupled(effect) else effect)
+
+
+def without_coupling(scene: Scene) -> Scene:
+    """Return a scene whose normal traction does not feel the tangential gap, which removes friction as well."""
+    return _replace_effects(scene, lambda effect: effect.without_coupling() if is_coupled(effect) else effect)
+
+
+def without_compressibility(scene: Scene) -> Scene:
+    """Return a scene with a Poisson's ratio of 1/2 and the same contact moduli."""
+    return _replace_bodies(
+        scene, lambda solid: solid if solid.poisson_ratio is None else replace(solid, poisson_ratio=0.5)
     )
 
 
-def _deep(body: Elasticity) -> Elasticity:
-    return HalfSpace(body.contact_modulus, body.poisson_ratio)
+def without_finite_height(scene: Scene) -> Scene:
+    """Return a scene with half-spaces of the same materials in place of layers."""
+    return _replace_bodies(scene, lambda solid: HalfSpace(solid.contact_modulus, solid.poisson_ratio))
 
 
-def _smoothed(scene: Scene) -> Scene:
-    surface = scene.upper.surface
-    if not isinstance(surface, SelfAffine) or surface.smoothed is not None:
+def without_second_body(scene: Scene) -> Scene:
+    """Return a scene whose stiffer body is rigid."""
+    lower, upper = scene.lower.elasticity, scene.upper.elasticity
+    if lower is None or upper is None:
         return scene
-    smoothed = OCTAVE * surface.shortest_wavelength
+    if lower.contact_modulus > upper.contact_modulus:
+        return replace(scene, lower=replace(scene.lower, elasticity=None))
+    return replace(scene, upper=replace(scene.upper, elasticity=None))
+
+
+def without_short_waves(scene: Scene) -> Scene:
+    """Return a scene without the shortest octave of waves of a self-affine surface."""
+    surface = scene.upper.surface
+    if not isinstance(surface, SelfAffine) or surface.smoothed is not None:  # no other surface has a shortest wave
+        return scene
+    smoothed = SMOOTHING_RATIO * surface.shortest_wavelength
     if smoothed >= surface.rolloff_wavelength:
         return scene
     return replace(scene, upper=replace(scene.upper, surface=replace(surface, smoothed=smoothed)))
 
 
-def _one_body(scene: Scene) -> Scene:
-    lower, upper = scene.lower.elasticity, scene.upper.elasticity
-    if lower is None or upper is None:
-        return scene
-    side = "lower" if lower.contact_modulus > upper.contact_modulus else "upper"
-    return replace(scene, **{side: replace(getattr(scene, side), elasticity=None)})
-
-
-def _incompressible(body: Elasticity) -> Elasticity:
-    return body if body.poisson_ratio is None else replace(body, poisson_ratio=0.5)
-
-
-LEFT_OUT: dict[str, Callable[[Scene], Scene]] = {
-    "friction": lambda scene: _of_laws(scene, lambda effect: effect.without_friction()),
-    "coupling": lambda scene: _of_laws(scene, lambda effect: effect.without_coupling()),
-    "compressibility": lambda scene: _of_bodies(scene, _incompressible),
-    "height": lambda scene: _of_bodies(scene, _deep),
-    "second_body": _one_body,
-    "short_waves": _smoothed,
+SIMPLIFICATIONS: dict[str, Callable[[Scene], Scene]] = {
+    "friction": without_friction,
+    "coupling": without_coupling,
+    "compressibility": without_compressibility,
+    "height": without_finite_height,
+    "second_body": without_second_body,
+    "short_waves": without_short_waves,
 }
-"""What can be left out: tangential work; that normal traction feels the tangential gap, and friction with it; the
-compressibility of bodies, at the same E*; their finite height, by half-spaces of the same materials; the elasticity of
-the stiffer of two bodies; the shortest octave of a self-affine surface's waves."""
+"""Simplification by the name of the effect that it neglects; a scene without that effect is returned unchanged."""
 
 
-def left_out(scene: Scene, names: Sequence[str]) -> Scene:
-    """A scene without some effects, in whatever order they are named; one that it does not have changes nothing."""
-    return reduce(lambda one, name: LEFT_OUT[name](one) if name in names else one, LEFT_OUT, scene)
+def simplify(scene: Scene, effects: Collection[str]) -> Scene:
+    """Return a scene without some effects.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    effects
+        Names of `SIMPLIFICATIONS`; their order does not matter.
+    """
+    for name, simplification in SIMPLIFICATIONS.items():
+        if name in effects:
+            scene = simplification(scene)
+    return scene
+
+
+def _replace_effects(scene: Scene, change: Callable[[Effect], Effect]) -> Scene:
+    """Return a scene with each effect changed."""
+    return replace(scene, effects=tuple(change(effect) for effect in scene.effects))
+
+
+def _replace_bodies(scene: Scene, change: Callable[[Elasticity], Elasticity]) -> Scene:
+    """Return a scene with the elasticity of each body changed that is not rigid."""
+
+    def changed(body: Body) -> Body:
+        return body if body.elasticity is None else replace(body, elasticity=change(body.elasticity))
+
+    return replace(scene, lower=changed(scene.lower), upper=changed(scene.upper))

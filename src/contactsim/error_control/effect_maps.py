@@ -19,7 +19,7 @@ import numpy as np
 
 from contactsim.error_control.control import Outcome, difference, outcome
 from contactsim.grid import Array
-from contactsim.interface.laws import EFFECTS
+from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import digest
 from contactsim.study.reading import keys_of, load_yaml
 from contactsim.study.scenes import scene_of

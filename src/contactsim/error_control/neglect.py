@@ -19,7 +19,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.scene import Scene
-from contactsim.contact.simplification import LEFT_OUT
+from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control import control
 from contactsim.error_control.control import Outcome
 from contactsim.error_control.effect_maps import FILE, change, expected, reduced
@@ -74,7 +74,7 @@ def source() -> str:
 def effects_of(run: dict) -> list[str]:
     """The effects of a run that can be left out."""
     scene = scene_of(run | {"leave_out": []})
-    return [name for name, less in LEFT_OUT.items() if _leaves(scene, less)]
+    return [name for name, less in SIMPLIFICATIONS.items() if _leaves(scene, less)]
 
 
 def _leaves(scene: Scene, less: Callable[[Scene], Scene]) -> bool:

@@ -1,4 +1,4 @@
-"""Effects add: several laws at one interface are one law, the sum of their tractions."""
+"""Several laws at one interface are one law: the sum of their tractions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from contactsim.grid import Array
-from contactsim.interface.laws import Law
+from contactsim.interface.base import Law, potential
 from contactsim.traits import Trait
 
 
@@ -20,17 +20,17 @@ class Superposition:
 
     @cached_property
     def reads(self) -> frozenset[str]:
-        """Components of the gap that it depends on."""
+        """Components of the gap on which any of the laws depends."""
         return reduce(frozenset.union, (law.reads for law in self.laws))
 
     @cached_property
     def exerts(self) -> frozenset[str]:
-        """Components of the traction that it exerts."""
+        """Components of the traction that any of the laws exerts."""
         return reduce(frozenset.union, (law.exerts for law in self.laws))
 
     @cached_property
     def traits(self) -> frozenset[Trait]:
-        """What a solver must accept."""
+        """Traits that a solver must accept."""
         return reduce(frozenset.union, (law.traits for law in self.laws))
 
     @cached_property
@@ -45,23 +45,23 @@ class Superposition:
 
     @cached_property
     def interaction_range(self) -> float:
-        """Shortest length over which one of them changes, nm."""
+        """Shortest length over which one of the laws changes with the normal gap, nm."""
         return min(law.interaction_range for law in self.laws)
 
     @cached_property
     def tangential_length(self) -> float:
-        """Shortest length of those that read the tangential gap, nm."""
-        return min(law.tangential_length for law in self.laws if "t" in law.reads)
+        """Shortest length over which one of the laws changes with the tangential gap, nm."""
+        return min(law.tangential_length for law in self.laws)
 
     def traction(self, gap: Array) -> Array:
-        """Traction (exerts, n), GPa, at a gap (reads, n), nm."""
+        """Return the traction (exerts, n), GPa, at a gap (reads, n), nm."""
         total = np.zeros((len(self.exerts), gap.shape[1]))
         for law in self.laws:
             total[: len(law.exerts)] += law.traction(gap[: len(law.reads)])
         return total
 
     def tangent(self, gap: Array) -> tuple[Array, Array]:
-        """Traction (exerts, n), GPa, and its derivatives (exerts, reads, n), GPa/nm."""
+        """Return the traction (exerts, n), GPa, and its derivatives (exerts, reads, n), GPa/nm."""
         total = np.zeros((len(self.exerts), gap.shape[1]))
         derivatives = np.zeros((len(self.exerts), *gap.shape))
         for law in self.laws:
@@ -72,10 +72,10 @@ class Superposition:
         return total, derivatives
 
     def energy(self, gap: Array) -> Array:
-        """Sum of the potentials (n,), N/m, of laws that all have one."""
-        return sum(law.energy(gap[: len(law.reads)]) for law in self.laws)
+        """Return the sum of the potentials (n,), N/m; each of the laws must have one."""
+        return sum((potential(law, gap[: len(law.reads)]) for law in self.laws), np.zeros(gap.shape[1]))
 
 
-def superposed(laws: tuple[Law, ...]) -> Law | Superposition:
-    """One law that acts as all of them do."""
+def superpose(laws: tuple[Law, ...]) -> Law:
+    """Return one law that acts as all of them together."""
     return laws[0] if len(laws) == 1 else Superposition(laws)

@@ -60,7 +60,7 @@ class Stretch:
         gap = between("gap")
         traction = problem.traction(gap)
         left = traction - between("traction")
-        left[problem.held] -= left[problem.held].mean(axis=1, keepdims=True)
+        left[problem.fixed_modes] -= left[problem.fixed_modes].mean(axis=1, keepdims=True)
         parts = zip(shares(places, place), states, strict=True)
         residual = float(np.abs(left).max() / problem.strength) + sum(abs(part) * of.residual for part, of in parts)
         status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
@@ -190,7 +190,7 @@ class Adaptive:
         stretch = reached[-1]
         beyond = sign * (step.value - stretch.places[-1]) > 0  # by rounding
         found = stretch.near(problem, stretch.places[-1] if beyond else step.value)
-        if found.residual > problem.tolerance + self._allowed(problem) * problem.softening / problem.strength:
+        if found.residual > problem.tolerance + self._allowed(problem) * problem.law_stiffness / problem.strength:
             before = problem.tally.transforms
             found = walk.solver.near(problem, found.displacement, walk.solver.new_memory())
             spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before

@@ -109,8 +109,8 @@ class Walk:
                 place = -float(state.traction[0].mean())
                 last[0, 0] -= here.approach
             else:
-                place = here.yielded - float(last[0, 0].real) - here.origin
-                last[0, 0] = here.yielded
+                place = here.mean_displacement - float(last[0, 0].real) - here.origin
+                last[0, 0] = here.mean_displacement
             stands = LoadStep(to.normal.control, place)
         if to.control is Trait.SLIDE:
             stands = LoadStep(Trait.SLIDE, step.sliding_distance, held=stands)
@@ -139,7 +139,7 @@ class Walk:
         The far side of a body moves on and shears it; a half-space, of which the mean is moved, is not sheared.
         """
         here = self.at(step)
-        if step.held is None or self.stands is None or len(here.held) < 2 or here.held[1]:
+        if step.held is None or self.stands is None or len(here.fixed_modes) < 2 or here.fixed_modes[1]:
             return self.last
         start = self.last.copy()
         start[1, 0] -= step.sliding_distance - self.stands[0].sliding_distance

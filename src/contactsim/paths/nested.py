@@ -75,14 +75,14 @@ class Nested:
             before = tally.transforms
             state = walk.advance(step)
             if state.status is Status.CONVERGED:
-                expected = fine + between.refined(state.displacement - coarse)
+                expected = fine + between.prolong(state.displacement - coarse)
                 refined = middle.state(state, expected)
                 if refined.status is Status.CONVERGED:
                     coarse, fine = state.displacement, refined.displacement
                 state = refined
             settled = min((abs(value - step.value) for value in self.settled), default=np.inf) <= CLOSE
             if settled and state.status is Status.CONVERGED:
-                state = finest.state(state, problem.refined(state.displacement))
+                state = finest.state(state, problem.prolong(state.displacement))
             yield replace(state, transforms=tally.transforms - before)
 
 

@@ -94,7 +94,7 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
         slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
     approach = problem.approach
     if approach is None:
-        approach = problem.yielded - float(state.displacement[0, 0].real)
+        approach = problem.mean_displacement - float(state.displacement[0, 0].real)
     numbers = {
         "approach": approach,
         **state_observables(problem, gap, traction),
@@ -118,13 +118,13 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
 def _fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
     """Histograms and, if kept, gap, traction and displacement by component, each (n,), read on the whole grid."""
     if state.points < problem.grid.size:
-        state = replace(state, problem=problem, displacement=problem.refined(state.displacement), found=None)
+        state = replace(state, problem=problem, displacement=problem.prolong(state.displacement), found=None)
     gap, traction = state.fields()
     kept = histograms(problem, gap, traction)
     if keep_fields:
         moved = problem.field(state.displacement)
         if problem.load is not None:  # its uniform mode is the gap's, approach included
-            moved[0] += problem.yielded - state.displacement[0, 0].real
+            moved[0] += problem.mean_displacement - state.displacement[0, 0].real
         parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
         kept |= {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
     return kept if state.status.solved else {name: np.full_like(row, np.nan) for name, row in kept.items()}

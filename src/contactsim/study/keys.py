@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 from contactsim.contact import loading
 from contactsim.contact.scene import ProblemKind
-from contactsim.contact.simplification import LEFT_OUT
+from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.elasticity.solids import ELASTICITIES
 from contactsim.errors import SceneError
-from contactsim.interface.laws import EFFECTS
-from contactsim.interface.pairing import PAIRINGS
+from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.contact import KEPT
 from contactsim.observables.hysteresis import CYCLE
@@ -123,7 +122,7 @@ STUDY_KEYS = {
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "companion": Key(mapping, "a mapping with `points` and `members`", None),
     "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
-    "leave_out": Key(some_of(LEFT_OUT), f"a list from {', '.join(LEFT_OUT)}", []),
+    "leave_out": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}", []),
     "whole": Key(mapping, "a mapping with `members`, of runs with nothing left out", None),
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
     "tolerance": Key(positive, "a positive number: of grid steps or, of smooth laws, parts of their strength", None),
@@ -308,4 +307,4 @@ def default_solver_kind(settings: dict) -> str:
 
 def is_smooth(settings: dict) -> bool:
     """Whether a study lists laws that give a traction: they are followed along a path."""
-    return any("strength" in dir(EFFECTS[name]) for name in settings["effects"])
+    return any(Trait.SMOOTH in EFFECTS[name].traits for name in settings["effects"])

@@ -7,7 +7,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.errors import SceneError
-from contactsim.interface.laws import EFFECTS
+from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import source_digest
 from contactsim.study.reading import Key, choice, keys_of, listed, number, positive, read
 

@@ -11,12 +11,12 @@ from contactsim import reference
 from contactsim.contact import loading
 from contactsim.contact.loading import LoadPath, LoadStep
 from contactsim.contact.scene import Body, Scene
-from contactsim.contact.simplification import left_out
+from contactsim.contact.simplification import simplify
 from contactsim.elasticity.solids import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
-from contactsim.interface.laws import EFFECTS
-from contactsim.interface.pairing import PAIRINGS, Aligned, Pairing
+from contactsim.interface.pairing import Aligned, Pairing
+from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.paths.increments import INCREMENTS, Increments
 from contactsim.study.keys import RIGID
 from contactsim.surfaces.measured import SURFACES
@@ -43,7 +43,7 @@ def scene_of(settings: dict) -> Scene:
     path = load_path(settings, upper, [one for one in (elasticity, counter) if one is not None])
     bodies = Body(Flat.facing(upper), elasticity), Body(upper, counter)
     scene = Scene(*bodies, effects, path, paired(settings.get("pairing")))
-    return left_out(scene, settings.get("leave_out", ()))
+    return simplify(scene, settings.get("leave_out", ()))
 
 
 def paired(settings: dict | None) -> Pairing:

@@ -15,11 +15,11 @@ from pathlib import Path
 
 from contactsim import dataset
 from contactsim.contact.cohesive import check_tolerance
-from contactsim.contact.simplification import LEFT_OUT
+from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import chosen
 from contactsim.error_control.scaling import FILE
 from contactsim.errors import SceneError
-from contactsim.interface.laws import EFFECTS
+from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import computing_digest, digest
 from contactsim.solvers.base import require
 from contactsim.solvers.registry import make_solver, solver_module
@@ -121,7 +121,7 @@ class Study:
         names = self.settings["leave_out"]
         whole = [scene_of(run.settings | {"leave_out": []}) for run in self.runs() if names and run.member == 0]
         for name in names:
-            if all(LEFT_OUT[name](scene) == scene for scene in whole):
+            if all(SIMPLIFICATIONS[name](scene) == scene for scene in whole):
                 raise SceneError(f"studies.{self.name}.leave_out", name, "effects that the study has", self.file)
 
     def _check_fits(self) -> None:

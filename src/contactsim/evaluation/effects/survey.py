@@ -14,7 +14,7 @@ import xarray as xr
 import yaml
 
 from contactsim import dataset
-from contactsim.contact.simplification import LEFT_OUT
+from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.effect_maps import change, product, value_at
 from contactsim.error_control.scaling import FILE as RELATIONS
 from contactsim.errors import SceneError, is_number
@@ -34,7 +34,7 @@ KEYS = {
 }
 MAP_KEYS = {
     "title": Key(text, "a line of text"),
-    "leave_out": Key(some_of(LEFT_OUT), f"a list from {', '.join(LEFT_OUT)}"),
+    "leave_out": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}"),
     "of": Key(listed(text), "a list of quantities"),
     "scene": Key(mapping, "the keys of a study with one run"),
     "axes": Key(mapping, "a mapping from names to a key of the scene and its values"),

@@ -8,7 +8,8 @@ from contactsim.contact.loading import LoadPath, approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
 from contactsim.evaluation.robustness.path_cases import PathCase
-from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
+from contactsim.interface.base import Law
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.status import Status
 from contactsim.surfaces.shapes import Cylinder, Flat
 

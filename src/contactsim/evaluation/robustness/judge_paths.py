@@ -17,7 +17,7 @@ from contactsim.evaluation.robustness.cases import mirrored
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.grid import Array
-from contactsim.interface.laws import OVERCLOSED
+from contactsim.interface.cohesive_zone import MAX_OVERLAP
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.continuation import PathState
 from contactsim.solvers.base import require
@@ -49,7 +49,7 @@ def judge_path(case: PathCase, method: str | CohesiveSolver) -> Verdict:
     if [state.status for state in states] != case.statuses:
         ends = ", ".join(state.status.name.lower() for state in states)
         return Verdict(Outcome.WRONG, spent, f"ended {case.ends.name.lower()} in truth, not {ends}")
-    if max_interpenetration(problem, fit) > OVERCLOSED:
+    if max_interpenetration(problem, fit) > MAX_OVERLAP:
         reason = f"interpenetration {max_interpenetration(problem, fit):.3g}: no law describes so many of its lengths"
         return Verdict(Outcome.FAILED, spent, reason)
     known = case.exact is not None or case.ends is not Status.CONVERGED or case.twin is not None
@@ -63,7 +63,7 @@ def path_faults(case: PathCase, problem: CohesiveProblem, states: Sequence[PathS
     """
     sound = []
     for state in states:
-        if max_interpenetration(problem, [state]) > OVERCLOSED:
+        if max_interpenetration(problem, [state]) > MAX_OVERLAP:
             break
         sound.append(state)
     for state in sound:

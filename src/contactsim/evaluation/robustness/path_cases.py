@@ -15,12 +15,13 @@ from functools import cached_property
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from contactsim.contact.cohesive import LOOSEST, CohesiveProblem, pose_cohesive
+from contactsim.contact.cohesive import MAX_TOLERANCE, CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, LoadStep
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
 from contactsim.grid import Array
-from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
+from contactsim.interface.base import Law
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Requested
 from contactsim.solvers.cohesive.base import CohesiveSolver
@@ -76,7 +77,7 @@ class PathCase:
     @cached_property
     def strength(self) -> float:
         """Sum of the laws' strengths (GPa), of springs as many as pull as one."""
-        return pose_cohesive(self.scene, -self.shape[0], LOOSEST).strength
+        return pose_cohesive(self.scene, -self.shape[0], MAX_TOLERANCE).strength
 
     @cached_property
     def shape(self) -> Array:
@@ -113,8 +114,8 @@ class PathCase:
         return sum(self._of_sites(law, gap) for law in self.scene.effects)
 
     def _of_sites(self, law: Law, gap: Array) -> Array:
-        lattice = getattr(self.scene.pairing, "lattice_constant", None)
-        if lattice is None:
+        lattice = self.scene.pairing.lattice_constant
+        if np.isinf(lattice):
             return FORMULAS[type(law)](law, *gap)
         most = int(np.ceil(FAR * law.tangential_length / lattice))
         nearest = gap[1] - lattice * np.round(gap[1] / lattice)

@@ -15,7 +15,8 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.grid import Array
-from contactsim.interface.laws import CohesiveZone, Law, NormalCohesiveZone
+from contactsim.interface.base import Law
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.surfaces.shapes import Flat
 
 LENGTH, ROLLOFF, SHORTEST = 1280.0, 320.0, 20.0

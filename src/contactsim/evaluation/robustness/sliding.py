@@ -12,8 +12,9 @@ from contactsim.contact.loading import LoadPath, LoadStep, approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Layer
 from contactsim.evaluation.robustness.path_cases import PathCase
-from contactsim.interface.laws import CohesiveZone
-from contactsim.interface.pairing import Lattice, Pairing
+from contactsim.interface.cohesive_zone import CohesiveZone
+from contactsim.interface.lattice import Lattice
+from contactsim.interface.pairing import Pairing
 from contactsim.status import Status
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait

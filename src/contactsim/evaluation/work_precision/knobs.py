@@ -16,7 +16,7 @@ import xarray as xr
 
 from contactsim.analysis.aggregate import AVERAGED
 from contactsim.errors import SceneError
-from contactsim.interface.pairing import Lattice
+from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.derived import summarise_paths
 from contactsim.observables.hysteresis import CYCLE

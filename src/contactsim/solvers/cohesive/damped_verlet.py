@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, Tangent, contracted
+from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
@@ -72,7 +72,7 @@ class DampedVerlet(_Dynamics):
     def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
         square = self.time_step**2
-        highest = float(problem.stiffness.diagonal.max()) + problem.softening
+        highest = float(problem.stiffness.diagonal.max()) + problem.law_stiffness
         if not square * highest < 4:
             raise SceneError("time_step", self.time_step, f"below {2 / np.sqrt(highest):.3g}, the limit of stability")
 
@@ -106,15 +106,15 @@ class MassWeightedVerlet(_Dynamics):
         """The equilibrium reached from a state at rest."""
         square = 4 * self.time_step**2
         rows = problem.unknowns[0]
-        soft = problem.supported.diagonal[0]
+        soft = problem.regularised_stiffness.diagonal[0]
         soft = soft[soft > 0].min()
-        friction = min(2 * self.damping * np.sqrt(square * soft / (soft + problem.softening)), 1.0)
+        friction = min(2 * self.damping * np.sqrt(square * soft / (soft + problem.law_stiffness)), 1.0)
 
         def mobility(tangent: Tangent) -> Mobility:
             """Displacement for a force: less for waves that the body or the laws hold more stiffly."""
-            largest = max(problem.softening, np.abs(tangent.values[0]).max())
-            sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
-            inverse = problem.supported.inverse(np.array([largest, sideways][:rows]))
+            largest = max(problem.law_stiffness, np.abs(tangent.values[0]).max())
+            sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.law_stiffness)
+            inverse = problem.regularised_stiffness.inverse(np.array([largest, sideways][:rows]))
             return lambda force: square * inverse.apply(force)
 
         return _settle(problem, start, mobility, friction, False, self.batch, self.budget)
@@ -136,14 +136,14 @@ def _settle(
         for count in range(budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
-            worst = problem.size(problem.residual(displacement, traction))
+            worst = problem.norm(problem.residual(displacement, traction))
             if apart(problem, gap):
                 status = Status.NO_EQUILIBRIUM
                 break
             status = judged(worst, problem)
             if status is not Status.MAX_ITERATIONS or count == budget:
                 break
-            move, stiffest = mobility(tangent), max(problem.softening, np.abs(tangent.values).max())
+            move, stiffest = mobility(tangent), max(problem.law_stiffness, np.abs(tangent.values).max())
             for _ in range(batch):
                 gap = problem.gap(displacement)
                 traction, tangent = problem.tangent(gap)
@@ -151,7 +151,7 @@ def _settle(
                     move, stiffest = mobility(tangent), np.abs(tangent.values).max()
                     change = np.zeros_like(start)
                 if ahead and before is not None:
-                    traction += contracted(tangent.values, gap - before)
+                    traction += contract(tangent.values, gap - before)
                 before = gap
                 change = (1 - friction) * change - move(problem.residual(displacement, traction))
                 displacement = displacement + change

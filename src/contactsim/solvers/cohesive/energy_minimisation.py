@@ -61,7 +61,7 @@ class EnergyMinimisation:
                 displacement = descent.displacement(place)
                 gap = problem.gap(displacement)
                 traction = problem.traction(gap)
-                worst = problem.size(problem.residual(displacement, traction))
+                worst = problem.norm(problem.residual(displacement, traction))
                 status = Status.NO_EQUILIBRIUM if apart(problem, gap) else judged(worst, problem)
                 if status is not Status.MAX_ITERATIONS or count >= self.budget or not found.nit:
                     break
@@ -78,8 +78,8 @@ class _Descent:
 
     def __init__(self, problem: CohesiveProblem) -> None:
         self._problem = problem
-        self._count = np.sqrt(problem.weights)
-        self._root = np.sqrt(problem.supported.diagonal + problem.softening)
+        self._count = np.sqrt(problem.mode_weights)
+        self._root = np.sqrt(problem.regularised_stiffness.diagonal + problem.law_stiffness)
         self._residual, self._gap = np.full(problem.unknowns, np.inf), np.zeros_like(problem.shape)
 
     def variables(self, displacement: Array) -> Array:
@@ -101,7 +101,7 @@ class _Descent:
     def stop(self, variables: Array) -> None:
         """End the descent at the tolerance, or where the load has pulled the bodies apart."""
         problem = self._problem
-        mean_square = float((np.abs(self._residual) ** 2 * problem.weights).sum())  # at most the largest square
+        mean_square = float((np.abs(self._residual) ** 2 * problem.mode_weights).sum())  # at most the largest square
         near = np.sqrt(mean_square) <= problem.tolerance * problem.strength
-        if (near and problem.size(self._residual) <= problem.tolerance) or apart(problem, self._gap):
+        if (near and problem.norm(self._residual) <= problem.tolerance) or apart(problem, self._gap):
             raise StopIteration

@@ -59,13 +59,13 @@ class Memory:
 
     def preconditioner(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
         """The one kept, or a new one for this tangent."""
-        if self._kept is None or self._held != problem.held.tobytes():
+        if self._kept is None or self._held != problem.fixed_modes.tobytes():
             return self.renew(problem, tangent)
         return self._kept
 
     def renew(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
         """A new one for this tangent, to keep."""
-        held = problem.held.tobytes()
+        held = problem.fixed_modes.tobytes()
         before = self._last if held == self._held else None
         self._kept = self._last = ZonePreconditioner(problem, tangent, before=before)
         self._held = held
@@ -120,7 +120,7 @@ class NewtonKrylov:
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
-            worst = problem.size(residual)
+            worst = problem.norm(residual)
             if count:
                 strayed = moved(problem, displacement - guess, self.trusted * problem.interaction_range)
             if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
@@ -139,14 +139,14 @@ class NewtonKrylov:
 
     def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
-        displacement, shift, most = start, FIRST * problem.softening, self.flow_step * problem.interaction_range
+        displacement, shift, most = start, FIRST * problem.law_stiffness, self.flow_step * problem.interaction_range
         status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
         while count < self.flow_budget:
             count += 1
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
-            worst = problem.size(residual)
+            worst = problem.norm(residual)
             if not np.isfinite(worst):
                 status = Status.NON_FINITE
                 break
@@ -161,7 +161,7 @@ class NewtonKrylov:
                     break
                 if nudges == NUDGES:
                     break
-                nudges, shift = nudges + 1, FIRST * problem.softening
+                nudges, shift = nudges + 1, FIRST * problem.law_stiffness
                 displacement = displacement + NUDGE * problem.interaction_range * growing
                 continue
             forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, ROUGH)
@@ -169,18 +169,18 @@ class NewtonKrylov:
             move = float(np.abs(problem.field(change)[: len(change)]).max())
             downhill = -np.vdot(change, residual).real > 0
             if not (downhill and move <= 2 * most):
-                shift = max(3 * shift, RETURN * problem.softening)
+                shift = max(3 * shift, RETURN * problem.law_stiffness)
                 continue
             displacement = displacement + change
             shift /= 3 if move < 0.3 * most else 1.5 if move < most else 1
-            shift = shift if shift > DROP * problem.softening else 0.0
+            shift = shift if shift > DROP * problem.law_stiffness else 0.0
         distance = moved(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
     def _growing(self, problem: CohesiveProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:
         """A displacement of largest value one that grows by itself from a state of that tangent; None if none does."""
         wave = precondition.growing()
-        if wave is None or np.vdot(wave, problem.balanced(tangent(wave), wave)).real >= 0:
+        if wave is None or np.vdot(wave, problem.add_elastic(tangent(wave), wave)).real >= 0:
             return None
         return wave / np.abs(problem.field(wave)[: len(wave)]).max()
 
@@ -198,7 +198,7 @@ class NewtonKrylov:
             out = tangent(change)
             if shift:
                 out += shift * change
-            return problem.balanced(out, change)
+            return problem.add_elastic(out, change)
 
         unit = problem.strength  # squares of a weak law's tractions would underflow
         change, iterations = gmres(product, precondition, residual / -unit, forcing, self.krylov_budget)

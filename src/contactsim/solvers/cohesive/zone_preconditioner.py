@@ -17,7 +17,7 @@ import ducc0
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
 
-from contactsim.contact.cohesive import CohesiveProblem, Tangent, contracted
+from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
 from contactsim.grid import Array
 
 RATIO, NODES = 8, 128
@@ -56,27 +56,27 @@ class ZonePreconditioner:
             values = _averaged(tangent.values, ratio)
         self._nodes = values.shape[-1]
         self._low = min(self._nodes // 2, modes)
-        self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.softening)
+        self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.law_stiffness)
         alike = before is not None and before._nodes == self._nodes
         if alike and 1 / ALIKE <= self._sideways / before._sideways <= ALIKE:
             self._high, self._sideways = before._high, before._sideways
         else:
-            extra = shift + SHIFT * np.array([problem.softening, self._sideways][:rows])
+            extra = shift + SHIFT * np.array([problem.law_stiffness, self._sideways][:rows])
             self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
         if alike:
             self._compliance, self._responses = before._compliance, before._responses
         else:
-            self._compliance = problem.supported.modes(slice(0, self._low)).inverse(shift)
+            self._compliance = problem.regularised_stiffness.modes(slice(0, self._low)).inverse(shift)
             self._responses = [self._response(row) for row in range(rows)]
         self._factor(values)
 
     def _acting(self, values: Array) -> Array:
         """Points where the tangent is not negligible, bool."""
-        return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.softening
+        return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.law_stiffness
 
     def _field(self, coefficients: Array) -> Array:
         """Values (rows, nodes) on the coarse grid of long waves (rows, low), with the derived component."""
-        derived = self._problem.derived
+        derived = self._problem.slip_factor
         if derived is not None:
             coefficients = np.concatenate((coefficients, derived[: self._low] * coefficients))
         wide = np.zeros((len(coefficients), self._nodes // 2 + 1), complex)
@@ -146,7 +146,7 @@ class ZonePreconditioner:
     def _spread(self, held: Array) -> Array:
         """Displacement (exerted, low) under the tractions that displacements (read, zone) in the zone lead to."""
         pull = np.zeros((len(self._values), self._nodes))
-        pull[:, self._zone] = contracted(self._values, held)
+        pull[:, self._zone] = contract(self._values, held)
         return self._compliance.apply(ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low])
 
     def __call__(self, residual: Array) -> Array:

@@ -1,0 +1,201 @@
+"""Cohesive zones: adhesion and friction as smooth functions of the gap.
+
+The mixed-mode law (Eq. 2.17) has no potential: the cross derivatives of its two tractions differ by
+
+    (2 Δt/(δn δt²)) exp(-Δn/δn - Δt²/δt²) (φt - φn Δn/δn),
+
+so no method that minimises an energy can solve it. Its repulsion is proportional to the work of separation as well: if
+this work tends to zero, the bodies do not touch at all, and a hard wall is not recovered. Below an overlap of
+MAX_OVERLAP characteristic lengths the dependence on Δn is continued by its tangent, because the exponential would
+overflow at a bad first guess. No solution of physical interest gets there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from contactsim.errors import SceneError, is_number
+from contactsim.grid import Array
+from contactsim.interface.base import check_positive
+from contactsim.traits import Trait
+
+MAX_OVERLAP = 10.0
+"""Overlap, in characteristic lengths, beyond which a law is continued by its tangent."""
+MAX_SLIP = 30.0
+"""Tangential gap y, in characteristic lengths, beyond which exp(-y²) is zero to all digits: y is cut there."""
+
+
+@dataclass(frozen=True)
+class CohesiveZone:
+    """Mixed-mode cohesive zone (Eq. 2.17).
+
+    With a work ratio of zero it is frictionless: it exerts no shear, yet its normal traction reads the tangential gap.
+
+    Parameters
+    ----------
+    work_of_separation
+        Normal work of separation φn > 0, N/m.
+    work_ratio
+        Tangential over normal work of separation φt/φn ≥ 0 (Eq. 2.16).
+    normal_length, tangential_length
+        Characteristic lengths δn and δt, nm.
+
+    References
+    ----------
+    J. P. McGarry et al., Journal of the Mechanics and Physics of Solids 63 (2014).
+    """
+
+    work_of_separation: float
+    work_ratio: float = 0.0
+    normal_length: float = 1.0
+    tangential_length: float = 1.0
+    reads = frozenset({"n", "t"})
+    traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
+
+    def __post_init__(self) -> None:
+        check_positive("N/m", work_of_separation=self.work_of_separation)
+        check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
+        if not (is_number(self.work_ratio) and self.work_ratio >= 0):
+            raise SceneError("work_ratio", self.work_ratio, "0 or a positive number")
+
+    @property
+    def tangential_work(self) -> float:
+        """Tangential work of separation φt, N/m."""
+        return self.work_ratio * self.work_of_separation
+
+    @property
+    def exerts(self) -> frozenset[str]:
+        """Normal traction, and tangential traction if there is tangential work of separation."""
+        return frozenset({"n", "t"} if self.tangential_work else {"n"})
+
+    @property
+    def strength(self) -> float:
+        """Largest normal traction φn/(e δn) (Eq. 2.18), GPa."""
+        return float(self.work_of_separation / self.normal_length / np.e)
+
+    @property
+    def stiffness(self) -> float:
+        """Larger one of the two tangents at zero gap, GPa/nm."""
+        return max(
+            self.work_of_separation / self.normal_length**2, 2 * self.tangential_work / self.tangential_length**2
+        )
+
+    @property
+    def interaction_range(self) -> float:
+        """Length over which the normal traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Return the traction (1 or 2, n), GPa, at a gap (2, n), nm."""
+        normal, tangential = self._without_units(gap)
+        shear = np.exp(-(tangential**2))
+        pull = self.work_of_separation / self.normal_length * _pull(normal)[0] * shear
+        if not self.tangential_work:
+            return pull[None]
+        size = 2 * self.tangential_work / self.tangential_length
+        return np.stack((pull, size * tangential * _decay(normal)[0] * shear))
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Return the traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
+        normal, tangential = self._without_units(gap)
+        shear = np.exp(-(tangential**2))
+        pull, slope = _pull(normal)
+        size = self.work_of_separation / self.normal_length
+        traction = np.empty((len(self.exerts), gap.shape[1]))
+        derivative = np.empty((len(self.exerts), *gap.shape))
+        traction[0] = size * pull * shear
+        derivative[0, 0] = size / self.normal_length * slope * shear
+        derivative[0, 1] = -2 / self.tangential_length * tangential * traction[0]
+        if self.tangential_work:
+            decay, slope = _decay(normal)
+            size = 2 * self.tangential_work / self.tangential_length
+            traction[1] = size * tangential * decay * shear
+            derivative[1, 0] = size / self.normal_length * tangential * slope * shear
+            derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * decay * shear
+        return traction, derivative
+
+    def without_coupling(self) -> NormalCohesiveZone:
+        """Return the law at zero tangential gap."""
+        return NormalCohesiveZone(self.work_of_separation, self.normal_length)
+
+    def without_friction(self) -> CohesiveZone:
+        """Return the law without tangential work of separation."""
+        return replace(self, work_ratio=0.0)
+
+    def _without_units(self, gap: Array) -> tuple[Array, Array]:
+        """Return both components of the gap over their lengths."""
+        return gap[0] / self.normal_length, np.clip(gap[1] / self.tangential_length, -MAX_SLIP, MAX_SLIP)
+
+
+@dataclass(frozen=True)
+class NormalCohesiveZone:
+    """Cohesive zone of the normal gap alone (Eq. 4.1). It has a potential.
+
+    Parameters
+    ----------
+    work_of_separation
+        Work of separation φn > 0, N/m.
+    normal_length
+        Characteristic length δn, nm.
+    """
+
+    work_of_separation: float
+    normal_length: float = 1.0
+    reads = frozenset({"n"})
+    exerts = frozenset({"n"})
+    traits = frozenset({Trait.SMOOTH})
+    tangential_length = inf
+
+    def __post_init__(self) -> None:
+        check_positive("N/m", work_of_separation=self.work_of_separation)
+        check_positive("nm", normal_length=self.normal_length)
+
+    @property
+    def strength(self) -> float:
+        """Largest traction φn/(e δn), GPa."""
+        return float(self.work_of_separation / self.normal_length / np.e)
+
+    @property
+    def stiffness(self) -> float:
+        """Tangent at zero gap φn/δn², GPa/nm."""
+        return self.work_of_separation / self.normal_length**2
+
+    @property
+    def interaction_range(self) -> float:
+        """Length over which the traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Return the traction (1, n), GPa, at a gap (1, n), nm."""
+        return self.work_of_separation / self.normal_length * _pull(gap / self.normal_length)[0]
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
+        pull, slope = _pull(gap / self.normal_length)
+        return self.work_of_separation / self.normal_length * pull, self.stiffness * slope[None]
+
+    def energy(self, gap: Array) -> Array:
+        """Return the potential -φn (1 + Δn/δn) exp(-Δn/δn) of shape (n,), N/m, at a gap (1, n), nm."""
+        normal = gap[0] / self.normal_length
+        inside = np.maximum(normal, -MAX_OVERLAP)
+        beyond = normal - inside
+        pull, slope = _pull(inside)
+        return self.work_of_separation * (beyond * (pull + beyond * slope / 2) - (1 + inside) * np.exp(-inside))
+
+
+def _decay(normal: Array) -> tuple[Array, Array]:
+    """Return exp(-y), continued by its tangent below -MAX_OVERLAP, and its derivative."""
+    inside = np.maximum(normal, -MAX_OVERLAP)
+    decay = np.exp(-inside)
+    return decay * (1 + (inside - normal)), -decay
+
+
+def _pull(normal: Array) -> tuple[Array, Array]:
+    """Return y exp(-y), continued by its tangent below -MAX_OVERLAP, and its derivative."""
+    inside = np.maximum(normal, -MAX_OVERLAP)
+    decay = np.exp(-inside)
+    slope = (1 - inside) * decay
+    return inside * decay + (normal - inside) * slope, slope
