@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.tiers import compared, is_within, summary
+from contactsim.analysis.tiers import difference_text, is_within
 from contactsim.contact.scene import Scene
 from contactsim.error_control.control import reach
 from contactsim.error_control.forecast import expectation, forecast_of
@@ -27,9 +27,11 @@ from contactsim.error_control.options import chosen
 from contactsim.errors import SceneError
 from contactsim.evaluation import budget
 from contactsim.explain import explain
-from contactsim.observables.derived import combine_runs, derive_contact_factors, summarise_paths
+from contactsim.observables.derived import combine_runs
+from contactsim.observables.forms import form_of
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status, is_solved
+from contactsim.study import tier_comparison
 from contactsim.study.execute import asked_of, labelled, simulate
 from contactsim.study.keys import COMPANIONS
 from contactsim.study.plan import Plan
@@ -160,7 +162,7 @@ def _reached(data: xr.Dataset) -> str:
     """What came of an accuracy that was asked for: errors relative to what was found."""
     ending = "_estimated_error"
     names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
-    whole = summarise_paths(combine_runs([(data, {"member": 0})])) if "step" in data.dims else data
+    whole = form_of(data).derive(combine_runs([(data, {"member": 0})])) if form_of(data).is_path else data
     errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
     met, found = (
         "reached" if data.reached else "not reached",
@@ -204,14 +206,15 @@ def cost_scene(options: argparse.Namespace) -> None:
 def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
     """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
     data = labelled(data, settings, [""] * data.step.size).drop_vars("point_digest")
-    return data if "step" in data.dims else dataset.described(derive_contact_factors(data))
+    form = form_of(data)
+    return data if form.is_path else dataset.described(form.derive(data))
 
 
 def compare_tiers(options: argparse.Namespace) -> None:
     """Print how far the figures of two tiers differ; exit code 1 where one is beyond the limit."""
-    found = compared(Plan.read("config", options.first), Plan.read("config", options.second))
+    found = tier_comparison.compare_tiers(Plan.read("config", options.first), Plan.read("config", options.second))
     sys.stdout.write(f"{options.first} beside {options.second}: differences relative to {options.second}\n")
-    sys.stdout.write(summary(found, options.within))
+    sys.stdout.write(difference_text(found, options.within))
     if not all(table is None or is_within(table, options.within) for table in found.values()):
         sys.exit(1)
 

@@ -106,7 +106,7 @@ def base_name(name: str) -> tuple[str, str]:
 
 def stamped(data: xr.Dataset, title: str, settings: object, source: str) -> xr.Dataset:
     """The dataset with its provenance: title, settings as JSON, digest of the source, versions."""
-    data.attrs = {
+    data.attrs |= {
         "title": title,
         "settings": canonical(settings),
         "source_digest": source,

@@ -9,12 +9,11 @@ from scipy.stats import t as student
 
 from contactsim import dataset, reference, variables
 from contactsim.analysis import aggregate
-from contactsim.analysis.aggregate import AVERAGED
 from contactsim.analysis.ensemble import departure, relative_change, unconverged
 from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fits
 from contactsim.errors import SceneError
 from contactsim.observables import derived
-from contactsim.observables.derived import load_dimension
+from contactsim.observables.forms import AVERAGED, load_dimension
 from contactsim.status import Status
 
 PRESSURES = [0.01, 0.1, 0.3]
@@ -59,6 +58,7 @@ def runs(tmp_path):
                         | {"rms_height": 1.0 + member, "points": 32 if companion else 64, "length": 640.0}
                         | {"contact_modulus": MODULUS, "seed": 1},
                         {load: list(loads)},
+                        {"problem": "hard_wall"},
                     )
                     path = tmp_path / f"{hurst}_{member}_{companion}.nc"
                     dataset.write(dataset.stamped(dataset.described(data), "run", {}, "source"), path)

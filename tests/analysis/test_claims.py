@@ -1,4 +1,4 @@
-"""Verdicts follow from the data: every category, every take, every refusal."""
+"""Verdicts follow from the data: every category, every reduction, every refusal."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis import aggregate, claims, reductions
-from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, Claim, Finding
+from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.uncertainty import Estimate, estimate
 from contactsim.errors import SceneError
 from contactsim.figures.diagnostics.claims import COLOURS, COLUMNS, drawn
+from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
 from support.places import ROOT
 
@@ -26,19 +28,19 @@ PRESSURES = [0.001, 0.01, 0.1]
 VALUE = {
     "source": "Section 0",
     "statement": "κ is 2.",
-    "because": "A test.",
+    "rationale": "A test.",
     "study": "rough_line",
-    "of": "kappa",
-    "take": "mean",
+    "quantity": "kappa",
+    "reduce": "mean",
     "expect": 2.0,
-    "within": 0.1,
+    "tolerance": 0.1,
 }
 
 
 def claim(**changes):
     """The settings of a claim as read, with some changed; None leaves a key out."""
     section = {key: value for key, value in (VALUE | changes).items() if value is not None}
-    return Claim.read("test", section, "ch3.yaml", STUDIES).settings
+    return read_claim("test", section, "ch3.yaml", STUDIES).settings
 
 
 def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144):
@@ -56,7 +58,7 @@ def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144
     }
     places = {"hurst": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES}
     settings = {"surface": {"kind": "self_affine"}, "thesis_points": 262144}
-    return xr.Dataset(values, places, {"settings": json.dumps(settings)})
+    return xr.Dataset(values, places, {"problem": "hard_wall", "settings": json.dumps(settings)})
 
 
 # --- verdicts -----------------------------------------------------------------------------------------------------
@@ -76,17 +78,29 @@ def test_an_error_larger_than_the_distance_to_the_edge_leaves_it_open(level, sca
 
 def test_the_two_errors_add_in_quadrature():
     settings = claim()
-    assert claims.verdict(settings, Finding(2.05, 0.03, 0.039)) == REPRODUCED
-    assert claims.verdict(settings, Finding(2.05, 0.03, 0.041)) == NOT_DECIDABLE
+    assert claims.verdict(settings, Estimate(2.05, 0.03, 0.039)) == REPRODUCED
+    assert claims.verdict(settings, Estimate(2.05, 0.03, 0.041)) == NOT_DECIDABLE
 
 
 def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
-    area = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
-    found = claims.find(claim(**area), [made_up(2.0, grid=0.2)])
+    area = {
+        "quantity": "relative_contact_area",
+        "against": "kappa",
+        "reduce": "ratio",
+        "expect": 0.1,
+        "tolerance": 0.05,
+    }
+    found = estimate(claim(**area), [made_up(2.0, grid=0.2)])
     assert found.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
     data = made_up(2.0).assign(kappa_grid_error=made_up(grid=0.2).kappa_grid_error)
-    part = {"of": "relative_contact_area", "against": "kappa", "take": "ratio", "expect": 0.1, "within": 0.05}
-    assert claims.find(claim(**part), [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
+    part = {
+        "quantity": "relative_contact_area",
+        "against": "kappa",
+        "reduce": "ratio",
+        "expect": 0.1,
+        "tolerance": 0.05,
+    }
+    assert estimate(claim(**part), [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
 
 
 def on_grids(errors, members=3):
@@ -97,45 +111,45 @@ def on_grids(errors, members=3):
     data = xr.Dataset(
         {"kappa_r": (dims, values), "status": (dims, np.zeros(values.shape, np.int8))},
         {"points": [1024, 2048, 4096], "hurst": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES},
-        {"settings": json.dumps({"surface": {"kind": "self_affine"}})},
+        {"problem": "hard_wall", "settings": json.dumps({"surface": {"kind": "self_affine"}})},
     )
-    return data.merge(aggregate._limits(data))
+    return data.merge(aggregate.finer_grid_limits(data))
 
 
 def test_a_limit_on_finer_grids_has_the_distance_from_that_of_first_order_as_its_error():
-    settings = claim(study="surface_resolution", of="kappa_r_limit", expect=1.88, within=0.02)
-    first = claims.find(settings, [on_grids([0.4, 0.2, 0.1])])
+    settings = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.88, tolerance=0.02)
+    first = estimate(settings, [on_grids([0.4, 0.2, 0.1])])
     assert (first.value, first.grid_error) == pytest.approx((1.9, 0.0), abs=1e-12)
     assert first.ensemble_error == pytest.approx(0.001 / np.sqrt(3), rel=1e-6)
-    second = claims.find(settings, [on_grids([0.32, 0.08, 0.02])])  # first order would end at 1.86
+    second = estimate(settings, [on_grids([0.32, 0.08, 0.02])])  # first order would end at 1.86
     assert (second.value, second.grid_error) == pytest.approx((1.9, 0.04), rel=1e-9)
     assert claims.judge(settings, [on_grids([0.32, 0.08, 0.02])])["verdict"] == NOT_DECIDABLE
-    far = claim(study="surface_resolution", of="kappa_r_limit", expect=1.7, within=0.02)
+    far = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.7, tolerance=0.02)
     assert claims.judge(far, [on_grids([0.32, 0.08, 0.02])])["verdict"] == NOT_REPRODUCED
     assert claims.judge(far, [on_grids([0.32, 0.08, 0.02], members=1)])["verdict"] == NOT_DECIDABLE
 
 
 def test_where_one_mean_has_no_limit_the_claim_is_not_decidable():
-    settings = claim(study="surface_resolution", of="kappa_r_limit", expect=1.5, within=0.02)
+    settings = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.5, tolerance=0.02)
     turning = on_grids([[0.4, 0.4, 0.1], [0.2, 0.2, 0.2], [0.1, 0.1, 0.1]])  # at the largest load it turns round
     assert claims.judge(settings, [turning])["verdict"] == NOT_DECIDABLE
 
 
 def test_a_limit_needs_three_grids():
     with pytest.raises(SceneError, match="kappa_r_limit"):
-        claim(of="kappa_r_limit")
+        claim(quantity="kappa_r_limit")
 
 
 def test_a_relation_has_one_edge():
-    most, least = claim(expect=None, within=None, at_most=3.0), claim(expect=None, within=None, at_least=3.0)
+    most, least = claim(expect=None, tolerance=None, at_most=3.0), claim(expect=None, tolerance=None, at_least=3.0)
     assert [claims.judge(most, [made_up(level)])["verdict"] for level in (2.0, 4.0)] == [REPRODUCED, NOT_REPRODUCED]
     assert [claims.judge(least, [made_up(level)])["verdict"] for level in (2.0, 4.0)] == [NOT_REPRODUCED, REPRODUCED]
-    assert (claims.expected(most), claims.expected(least), claims.expected(claim())) == ("≤ 3", "≥ 3", "2 ± 0.1")
+    assert (claims.band_text(most), claims.band_text(least), claims.band_text(claim())) == ("≤ 3", "≥ 3", "2 ± 0.1")
 
 
 def test_a_condition_that_holds_is_named_and_one_that_does_not_changes_nothing():
-    low = claim(condition={"words": "at low p*", "select": {"reduced_pressure": [0.001, 0.005]}})
-    high = claim(condition={"words": "at high p*", "select": {"reduced_pressure": [0.05, 0.1]}})
+    low = claim(condition={"description": "at low p*", "select": {"reduced_pressure": [0.001, 0.005]}})
+    high = claim(condition={"description": "at high p*", "select": {"reduced_pressure": [0.05, 0.1]}})
     data = made_up(2.5, tilt=0.5)  # 2, 2.5 and 3 at the three loads
     row = claims.judge(low, [data])
     assert (row["verdict"], row["condition"]) == (CONDITION, "at low p*")
@@ -146,33 +160,35 @@ def test_a_condition_that_holds_is_named_and_one_that_does_not_changes_nothing()
 
 
 def test_where_a_condition_decides_against_an_open_statement_it_is_not_reproduced():
-    settings = claim(condition={"words": "on the grid of the thesis", "grid": "thesis"})
+    settings = claim(condition={"description": "on the grid of the thesis", "grid": "thesis"})
     row = claims.judge(settings, [made_up(3.0, grid=5.0)])
     assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "on the grid of the thesis")
     assert row["condition_value"] == pytest.approx(3.0)
 
 
 def test_a_condition_is_not_needed_where_all_is_reproduced():
-    row = claims.judge(claim(condition={"words": "at low p*", "select": {}}), [made_up()])
+    row = claims.judge(claim(condition={"description": "at low p*", "select": {}}), [made_up()])
     assert (row["verdict"], row["condition"]) == (REPRODUCED, "")
 
 
 def test_on_the_grid_of_the_thesis_its_numbers_are_compared_without_grid_error():
-    settings = claim(condition={"words": "on the grid of the thesis", "grid": "thesis"})
+    settings = claim(condition={"description": "on the grid of the thesis", "grid": "thesis"})
     assert claims.judge(settings, [made_up(grid=0.5)])["verdict"] == CONDITION
     assert claims.judge(settings, [made_up(grid=0.5, points=1024)])["verdict"] == NOT_DECIDABLE
 
 
 def test_a_statement_about_the_grid_of_the_thesis_is_open_on_another():
-    settings = claim(of="kappa_grid_error", against="kappa", take="ratio", expect=0.05, within=0.02, grid="thesis")
+    settings = claim(
+        quantity="kappa_grid_error", against="kappa", reduce="ratio", expect=0.05, tolerance=0.02, grid="thesis"
+    )
     assert claims.judge(settings, [made_up(grid=0.1)])["verdict"] == REPRODUCED
     assert claims.judge(settings, [made_up(grid=0.1, points=1024)])["verdict"] == NOT_DECIDABLE
 
 
 def test_what_nothing_answers_is_not_decidable():
-    bare = Claim.read("test", {key: VALUE[key] for key in ("source", "statement", "because")}, "ch3.yaml", STUDIES)
+    bare = read_claim("test", {key: VALUE[key] for key in ("source", "statement", "rationale")}, "ch3.yaml", STUDIES)
     assert claims.judge(bare.settings, [])["verdict"] == NOT_DECIDABLE
-    assert (claims.expected(bare.settings), claims.measure(bare.settings)) == ("", "")
+    assert (claims.band_text(bare.settings), claims.comparison_text(bare.settings)) == ("", "")
     nowhere = claim(select={"reduced_pressure": [0.5, 1.0]})
     assert claims.judge(nowhere, [made_up()])["verdict"] == NOT_DECIDABLE
 
@@ -181,7 +197,7 @@ def test_unconverged_solutions_do_not_count_and_with_none_left_it_is_open():
     data = made_up()
     data["kappa"][:, 0] = 99.0
     data["status"][:, 0] = 1
-    assert claims.find(claim(), [data]).value == pytest.approx(2.0)
+    assert estimate(claim(), [data]).value == pytest.approx(2.0)
     data["status"][:] = 1
     assert claims.judge(claim(), [data])["verdict"] == NOT_DECIDABLE
 
@@ -199,14 +215,14 @@ def test_without_a_companion_the_grid_error_is_unknown():
 
 # --- ratios of two studies ----------------------------------------------------------------------------------------
 
-RATIO = {"over": "rough_surface", "expect": 0.9, "within": 0.05}
+RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
 
 
 def test_over_a_second_study_the_number_is_the_ratio_of_the_means():
     two = [made_up(1.8, scatter=0.1), made_up(2.0, scatter=0.3, members=7)]
-    found = claims.find(claim(**RATIO), two)
+    found = estimate(claim(**RATIO), two)
     assert found.value == pytest.approx(0.9)
-    swapped = claims.find(claim(**RATIO), two[::-1])
+    swapped = estimate(claim(**RATIO), two[::-1])
     assert swapped.value == pytest.approx(1 / 0.9)
     assert claims.judge(claim(**RATIO), [made_up(1.8), made_up(2.0)])["verdict"] == REPRODUCED
     assert claims.judge(claim(**RATIO), [made_up(1.8), made_up(1.8)])["verdict"] == NOT_REPRODUCED
@@ -215,53 +231,53 @@ def test_over_a_second_study_the_number_is_the_ratio_of_the_means():
 def test_a_ratio_is_taken_where_both_studies_have_loads_and_variants():
     lines = made_up(1.8, tilt=0.3)  # κ of 1.5, 1.8 and 2.1
     surfaces = made_up(2.0).isel(reduced_pressure=[0, 2], hurst=[1])
-    found = claims.find(claim(**RATIO), [lines, surfaces.assign_coords(reduced_pressure=[0.001, 0.2])])
+    found = estimate(claim(**RATIO), [lines, surfaces.assign_coords(reduced_pressure=[0.001, 0.2])])
     assert found.value == pytest.approx(0.75)  # the first load alone
     apart = surfaces.assign_coords(reduced_pressure=[0.002, 0.2])
     assert claims.judge(claim(**RATIO), [lines, apart])["verdict"] == NOT_DECIDABLE
     below = {"reduced_pressure": [0.05, 0.1]}
-    assert claims.find(claim(**RATIO, select=below), [lines, surfaces]).value == pytest.approx(2.1 / 2)
+    assert estimate(claim(**RATIO, select=below), [lines, surfaces]).value == pytest.approx(2.1 / 2)
 
 
 def test_the_ensembles_of_a_ratio_are_independent():
     one, two = made_up(1.8, scatter=0.02, members=4), made_up(2.0, scatter=0.05, members=9)
-    relative = [claims.find(claim(), [data]).ensemble_error / level for data, level in ((one, 1.8), (two, 2.0))]
-    found = claims.find(claim(**RATIO), [one, two])
+    relative = [estimate(claim(), [data]).ensemble_error / level for data, level in ((one, 1.8), (two, 2.0))]
+    found = estimate(claim(**RATIO), [one, two])
     assert found.ensemble_error == pytest.approx(0.9 * np.hypot(*relative), rel=1e-3)
-    alone = claims.find(claim(**RATIO), [one, made_up(2.0, members=1)])
+    alone = estimate(claim(**RATIO), [one, made_up(2.0, members=1)])
     assert np.isnan(alone.ensemble_error)
 
 
 def test_the_grid_errors_of_a_ratio_move_apart_and_one_that_is_unknown_leaves_it_open():
     one, two = made_up(1.8, grid=0.09), made_up(2.0, grid=0.2)
-    assert claims.find(claim(**RATIO), [one, two]).grid_error == pytest.approx(0.9 * (1.05 / 0.9 - 1))
+    assert estimate(claim(**RATIO), [one, two]).grid_error == pytest.approx(0.9 * (1.05 / 0.9 - 1))
     unknown = two.drop_vars("kappa_grid_error")
     assert claims.judge(claim(**RATIO), [made_up(1.8), unknown])["verdict"] == NOT_DECIDABLE
 
 
 def test_the_grid_of_the_thesis_is_that_of_both_studies():
-    settings = claim(**RATIO, condition={"words": "on the grid of the thesis", "grid": "thesis"})
+    settings = claim(**RATIO, condition={"description": "on the grid of the thesis", "grid": "thesis"})
     assert claims.judge(settings, [made_up(1.8, grid=0.5), made_up(2.0)])["verdict"] == CONDITION
     assert claims.judge(settings, [made_up(1.8, grid=0.5), made_up(2.0, points=1024)])["verdict"] == NOT_DECIDABLE
 
 
 def test_a_ratio_names_both_studies_and_asks_for_both():
-    assert claims.measure(claim(**RATIO)) == "mean of kappa in rough_line over rough_surface"
+    assert claims.comparison_text(claim(**RATIO)) == "mean of kappa in rough_line over rough_surface"
     assert Claim("test", claim(**RATIO)).studies == ["rough_line", "rough_surface"]
     data = {"rough_line": made_up(1.8), "rough_surface": made_up(2.0)}
-    row = claims.verdicts({"test": claim(**RATIO)}, data).iloc[0]
-    assert (row.value, row.study, row.over) == (pytest.approx(0.9), "rough_line", "rough_surface")
+    row = claims.judge_claims({"test": claim(**RATIO)}, data).iloc[0]
+    assert (row.value, row.study, row.relative_to) == (pytest.approx(0.9), "rough_line", "rough_surface")
 
 
 # --- paths --------------------------------------------------------------------------------------------------------
 
 PATHS = {name: PLAN.studies[name] for name in ("indentation", "indentation_uncoupled", "pull_off")}
-PULL = VALUE | {"study": "indentation", "of": "pull_off_load_loading", "expect": 15.0, "within": 1.0}
+PULL = VALUE | {"study": "indentation", "quantity": "pull_off_load_loading", "expect": 15.0, "tolerance": 1.0}
 
 
 def path_claim(**changes):
     section = {key: value for key, value in (PULL | changes).items() if value is not None}
-    return Claim.read("test", section, "ch4.yaml", PATHS).settings
+    return read_claim("test", section, "ch4.yaml", PATHS).settings
 
 
 def paths(values, grid=0.0, increment=None, **places):
@@ -280,7 +296,7 @@ def paths(values, grid=0.0, increment=None, **places):
         )
     settings = {"surface": {"kind": "cylinder"}, "thesis_points": 2048}
     coordinates = places | {"x": np.linspace(0, 1, values.size)}
-    return xr.Dataset(variables, coordinates, {"settings": json.dumps(settings)})
+    return xr.Dataset(variables, coordinates, {"problem": "hard_wall", "settings": json.dumps(settings)})
 
 
 WORKS, RATIOS = [1.0, 2.0], [0.0, 0.5, 1.0]
@@ -299,29 +315,31 @@ FOUND = {
 }
 
 
-@pytest.mark.parametrize(("take", "uses", "value"), [(take, *found) for take, found in FOUND.items()], ids=FOUND)
-def test_a_path_is_reduced_by_hand(take, uses, value):
-    assert claims.find(path_claim(take=take, **uses), [GRID]).value == pytest.approx(value)
+@pytest.mark.parametrize(
+    ("reduction", "uses", "value"), [(name, *expected) for name, expected in FOUND.items()], ids=FOUND
+)
+def test_a_path_is_reduced_by_hand(reduction, uses, value):
+    assert estimate(path_claim(reduce=reduction, **uses), [GRID]).value == pytest.approx(value)
 
 
 def test_a_spread_of_negative_numbers_is_positive():
-    along = {"take": "largest_spread", "along": "work_ratio"}
-    assert claims.find(path_claim(**along), [GRID.assign(pull_off_load_loading=-GRID.pull_off_load_loading)]).value > 0
+    along = {"reduce": "largest_spread", "along": "work_ratio"}
+    assert estimate(path_claim(**along), [GRID.assign(pull_off_load_loading=-GRID.pull_off_load_loading)]).value > 0
 
 
 def test_what_one_of_two_studies_varies_is_held_against_the_other_at_each_value():
     uncoupled = paths([[5.0, 4.0], [10.0, 8.0]], poisson_ratio=[0.1, 0.3], work_of_separation=[2.0, 3.0])
-    over = {"over": "indentation_uncoupled", "take": "largest"}
-    assert claims.find(path_claim(**over), [GRID, uncoupled]).value == pytest.approx(30 / 5)
+    over = {"relative_to": "indentation_uncoupled", "reduce": "largest"}
+    assert estimate(path_claim(**over), [GRID, uncoupled]).value == pytest.approx(30 / 5)
     one = path_claim(**over, select={"poisson_ratio": [0.3, 0.3], "work_ratio": [0.0, 0.0]})
-    assert claims.find(one, [GRID, uncoupled]).value == pytest.approx(20 / 10)
+    assert estimate(one, [GRID, uncoupled]).value == pytest.approx(20 / 10)
 
 
 def test_a_path_has_no_ensemble_error_and_its_increments_count_with_its_grid():
-    found = claims.find(path_claim(), [GRID])
+    found = estimate(path_claim(), [GRID])
     assert (found.ensemble_error, found.grid_error) == (0.0, 0.0)
     data = paths([[10.0, 20.0]], grid=0.2, increment=0.3, work_of_separation=[1.0], work_ratio=[0.0, 1.0])
-    assert claims.find(path_claim(), [data]).grid_error == pytest.approx(0.5)
+    assert estimate(path_claim(), [data]).grid_error == pytest.approx(0.5)
 
 
 # --- numbers ------------------------------------------------------------------------------------------------------
@@ -331,7 +349,7 @@ def array(values, **places):
     return xr.DataArray(values, places, dims=tuple(places))
 
 
-def test_each_take_gives_what_a_hand_would():
+def test_each_reduction_gives_what_a_hand_would():
     load = array([1.0, 10.0, 100.0], load=[1, 2, 3])
     both = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst=[0.2, 0.8], load=[1, 2, 3])
     assert reductions.mean(both) == 2.0
@@ -347,7 +365,7 @@ def test_each_take_gives_what_a_hand_would():
 def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
     data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
     settings = claim(select={"hurst": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
-    found, at = claims.find(settings, [data]), data.sel(hurst=0.5, reduced_pressure=0.1)
+    found, at = estimate(settings, [data]), data.sel(hurst=0.5, reduced_pressure=0.1)
     assert found.value == pytest.approx(float(at.kappa_mean))
     assert found.ensemble_error == pytest.approx(float(at.kappa_standard_error))
     assert found.grid_error == pytest.approx(float(at.kappa_grid_error))
@@ -362,7 +380,7 @@ def test_the_fits_are_those_of_the_dataset(made):
         ("kappa_fit_logarithm", "logarithm", ["0.2", "0.5", "0.8"]),
         ("kappa_fit_all", "area", ["all"] * 3),
     ):
-        found = reductions.quantity(below, name)
+        found = reductions.mean_quantity(below, name)
         for row, which in zip(found.values, fitted, strict=True):
             fit = data.sel(weighting=weighting, fit_limit=0.1, fitted=which)
             expected = reductions.analytic.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
@@ -407,7 +425,7 @@ def test_every_claim_of_the_config_is_judged_and_drawn(made, chapter, unanswered
 
 def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
     names = {verdict: Claim("x", claim()) for verdict in COLOURS}
-    rows = claims.verdicts({name: one.settings for name, one in names.items()}, {"rough_line": made_up()})
+    rows = claims.judge_claims({name: one.settings for name, one in names.items()}, {"rough_line": made_up()})
     rows["verdict"] = list(COLOURS)
     rows["condition"] = ["", "somewhere " * 9, "", ""]
     axes = drawn(rows, "Title", "footer " * 80).axes[0]
@@ -442,29 +460,34 @@ def test_a_chapter_without_claims_is_not_judged(tmp_path):
 
 BAD = {
     "unknown key": ({"verdict": "reproduced"}, "verdict", "reproduced", "no such key"),
-    "no reason": ({"because": None}, "because", "nothing", "why that band"),
+    "no reason": ({"rationale": None}, "rationale", "nothing", "why that band"),
     "unknown study": ({"study": "rough"}, "study", "rough", "smooth_line, rough_line"),
-    "unknown take": ({"take": "guess"}, "take", "guess", "mean, spread, fall"),
-    "no take": ({"take": None}, "take", None, "mean, spread, fall"),
-    "unknown quantity": ({"of": "kapa"}, "of", "kapa", "kappa, kappa_fit"),
-    "no quantity": ({"of": None}, "of", None, "kappa, kappa_fit"),
-    "quantity of another study": ({"of": "half_width"}, "of", "half_width", "kappa"),
-    "unknown dimension": ({"take": "spread", "along": "speed"}, "along", "speed", "hurst, reduced_pressure"),
-    "a dimension too few": ({"take": "spread"}, "along", None, "hurst, reduced_pressure"),
+    "unknown reduction": ({"reduce": "guess"}, "reduce", "guess", "mean, spread, fall"),
+    "no reduction": ({"reduce": None}, "reduce", None, "mean, spread, fall"),
+    "unknown quantity": ({"quantity": "kapa"}, "quantity", "kapa", "kappa, kappa_fit"),
+    "no quantity": ({"quantity": None}, "quantity", None, "kappa, kappa_fit"),
+    "quantity of another study": ({"quantity": "half_width"}, "quantity", "half_width", "kappa"),
+    "unknown dimension": ({"reduce": "spread", "along": "speed"}, "along", "speed", "hurst, reduced_pressure"),
+    "a dimension too few": ({"reduce": "spread"}, "along", None, "hurst, reduced_pressure"),
     "a dimension too many": ({"along": "hurst"}, "along", "hurst", "mean does not use it"),
-    "unknown against": ({"take": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
-    "ratio to an unknown study": ({"over": "rough"}, "over", "rough", "rough_line_coarse, rough_surface"),
-    "ratio to itself": ({"over": "rough_line"}, "over", "rough_line", "rough_line_coarse, rough_surface"),
-    "ratio to a study loaded otherwise": ({"over": "smooth_line"}, "over", "smooth_line", "rough_surface"),
+    "unknown against": ({"reduce": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
+    "ratio to an unknown study": ({"relative_to": "rough"}, "relative_to", "rough", "rough_line_coarse, rough_surface"),
+    "ratio to itself": ({"relative_to": "rough_line"}, "relative_to", "rough_line", "rough_line_coarse, rough_surface"),
+    "ratio to a study loaded otherwise": (
+        {"relative_to": "smooth_line"},
+        "relative_to",
+        "smooth_line",
+        "rough_surface",
+    ),
     "ratio of what both lack": (
-        {"over": "rough_surface", "of": "half_width"},
-        "of",
+        {"relative_to": "rough_surface", "quantity": "half_width"},
+        "quantity",
         "half_width",
         "kappa, kappa_fit",
     ),
     "ratio of ratios": (
-        {"over": "rough_surface", "take": "ratio", "against": "kappa_r"},
-        "take",
+        {"relative_to": "rough_surface", "reduce": "ratio", "against": "kappa_r"},
+        "reduce",
         "ratio",
         "mean, spread, fall",
     ),
@@ -475,12 +498,22 @@ BAD = {
         "hurst, reduced_pressure",
     ),
     "select backwards": ({"select": {"hurst": [0.5, 0.1]}}, "select.hurst", [0.5, 0.1], "least and largest"),
-    "half a band": ({"within": None}, None, ["expect"], "expect with within"),
-    "two bands": ({"at_most": 3.0}, None, ["at_most", "expect", "within"], "expect with within"),
-    "no width": ({"within": 0.0}, "within", 0.0, "a positive number"),
-    "condition without words": ({"condition": {"grid": "thesis"}}, "condition.words", "nothing", "in words"),
-    "condition on another grid": ({"condition": {"words": "", "grid": "ours"}}, "condition.grid", "ours", "thesis"),
-    "expectation without a study": ({"study": None, "of": None, "take": None}, "expect", 2.0, "left out"),
+    "half a band": ({"tolerance": None}, None, ["expect"], "expect with tolerance"),
+    "two bands": ({"at_most": 3.0}, None, ["at_most", "expect", "tolerance"], "expect with tolerance"),
+    "no width": ({"tolerance": 0.0}, "tolerance", 0.0, "a positive number"),
+    "condition without description": (
+        {"condition": {"grid": "thesis"}},
+        "condition.description",
+        "nothing",
+        "in words",
+    ),
+    "condition on another grid": (
+        {"condition": {"description": "", "grid": "ours"}},
+        "condition.grid",
+        "ours",
+        "thesis",
+    ),
+    "expectation without a study": ({"study": None, "quantity": None, "reduce": None}, "expect", 2.0, "left out"),
 }
 
 
@@ -497,6 +530,8 @@ def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes,
 def test_the_plan_refuses_a_bad_claim(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         text = file.read_text(encoding="utf-8")
-        (tmp_path / file.name).write_text(text.replace("    take: fall\n", "    take: sink\n", 1), encoding="utf-8")
-    with pytest.raises(SceneError, match=r"ch3.yaml: claims.kappa_not_constant.take: got 'sink'; allowed: one of mean"):
+        (tmp_path / file.name).write_text(text.replace("    reduce: fall\n", "    reduce: sink\n", 1), encoding="utf-8")
+    with pytest.raises(
+        SceneError, match=r"ch3.yaml: claims.kappa_not_constant.reduce: got 'sink'; allowed: one of mean"
+    ):
         Plan.read(tmp_path)

@@ -7,9 +7,10 @@ import pandas as pd
 import pytest
 
 from contactsim import cli, dataset
-from contactsim.analysis.tiers import FIT_DIMENSIONS, compared, differences, is_within, joined, summary
+from contactsim.analysis.tiers import FIT_DIMENSIONS, difference_text, differences, is_within, join_rows
 from contactsim.errors import SceneError
 from contactsim.study.plan import Plan
+from contactsim.study.tier_comparison import compare_tiers
 from support.places import ROOT
 
 COARSE = pd.DataFrame({"hurst": [0.2, 0.2, 0.8], "load": [0.1, 0.5, 0.1], "kappa": [1.1, 9.0, 3.0]})
@@ -18,7 +19,7 @@ KEYS = ["hurst", "load"]
 
 
 def test_rows_are_joined_by_their_keys_and_those_of_one_alone_are_left_out():
-    shared = joined(COARSE, FINE, KEYS)
+    shared = join_rows(COARSE, FINE, KEYS)
     assert shared.index.to_list() == [(0.2, 0.1), (0.8, 0.1)]
     assert shared["first", "kappa"].to_list() == [1.1, 3.0]
     assert shared["second", "kappa"].to_list() == [1.0, 2.0]
@@ -26,23 +27,23 @@ def test_rows_are_joined_by_their_keys_and_those_of_one_alone_are_left_out():
 
 @pytest.mark.parametrize(("factor", "rows"), [(1 + 1e-15, 2), (1 - 9e-7, 2), (1 + 2e-6, 0), (1 - 2e-6, 0)])
 def test_keys_are_the_same_up_to_a_millionth(factor, rows):
-    assert len(joined(COARSE, FINE.assign(load=FINE.load * factor), KEYS)) == rows
+    assert len(join_rows(COARSE, FINE.assign(load=FINE.load * factor), KEYS)) == rows
 
 
 def test_words_and_whole_numbers_are_keys_too():
     one = pd.DataFrame({"fitted": ["0.2", "all"], "member": [0, 1], "kappa": [1.0, 2.0]})
-    shared = joined(one, one.iloc[::-1].assign(member=[1.0, 0.0]), ["fitted", "member"])
+    shared = join_rows(one, one.iloc[::-1].assign(member=[1.0, 0.0]), ["fitted", "member"])
     assert shared["first", "kappa"].to_list() == shared["second", "kappa"].to_list() == [1.0, 2.0]
 
 
 @pytest.mark.parametrize("keys", [["hurst"], []])
 def test_keys_that_do_not_tell_rows_apart_are_refused(keys):
     with pytest.raises(SceneError, match="tell all rows apart"):
-        joined(COARSE, FINE, keys)
+        join_rows(COARSE, FINE, keys)
 
 
 def test_differences_are_relative_to_the_second_and_say_where_the_largest_is():
-    (row,) = differences(joined(COARSE, FINE, KEYS), ["kappa"]).to_dict("records")
+    (row,) = differences(join_rows(COARSE, FINE, KEYS), ["kappa"]).to_dict("records")
     assert (row["column"], row["rows"], row["at"]) == ("kappa", 2, "hurst 0.8")  # the load is the same in both rows
     assert row["largest"] == 0.5
     assert row["median"] == pytest.approx((0.1 + 0.5) / 2, rel=1e-14)  # 1.1 − 1.0 is rounded
@@ -61,22 +62,24 @@ def test_differences_are_relative_to_the_second_and_say_where_the_largest_is():
 )
 def test_zero_and_missing_numbers_differ_infinitely_from_others(first, second, rows, largest):
     one, two = (pd.DataFrame({"load": [0.1], "kappa": [value]}) for value in (first, second))
-    found = differences(joined(one, two, ["load"]), ["kappa"])
+    found = differences(join_rows(one, two, ["load"]), ["kappa"])
     assert found.rows[0] == rows
     assert np.array_equal(found.largest, [largest], equal_nan=True)
     assert is_within(found, 0.1) == (largest == 0)
 
 
 def test_without_a_shared_row_nothing_is_within_the_limit():
-    found = differences(joined(COARSE, FINE.assign(load=9.0 + FINE.index), KEYS), ["kappa"])
+    found = differences(join_rows(COARSE, FINE.assign(load=9.0 + FINE.index), KEYS), ["kappa"])
     assert found.rows[0] == 0
     assert not is_within(found, 0.1)
-    assert "none" in summary({"fig": found}, 0.1)
+    assert "none" in difference_text({"fig": found}, 0.1)
 
 
 def test_the_summary_is_aligned_and_gives_each_figure_a_verdict():
-    found = differences(joined(COARSE, FINE, KEYS), ["kappa"])
-    assert summary({"fig_1": found, "fig_2": found.assign(largest=0.0, at=""), "fig_3": None}, 0.1).splitlines() == [
+    found = differences(join_rows(COARSE, FINE, KEYS), ["kappa"])
+    assert difference_text(
+        {"fig_1": found, "fig_2": found.assign(largest=0.0, at=""), "fig_3": None}, 0.1
+    ).splitlines() == [
         "  column   rows   largest    median  largest at",
         "fig_1: beyond 10 %",
         "  kappa       2      50 %      30 %  hurst 0.8",
@@ -96,7 +99,7 @@ def quick():
 
 def test_the_figures_have_the_columns_that_they_compare_and_equal_themselves(made, quick, monkeypatch):
     monkeypatch.chdir(made)
-    for name, table in compared(quick, quick).items():
+    for name, table in compare_tiers(quick, quick).items():
         if table is None:  # a figure without studies: tiers do not differ
             continue
         assert list(table.column) == quick.figures[name].compare
@@ -150,7 +153,7 @@ def test_one_changed_value_turns_the_verdict_and_the_exit_code(tiers, capsys):
     assert "fig_3_2: within 21 %" in capsys.readouterr().out
 
 
-def test_only_shared_loads_are_compared(tiers, capsys):
+def test_only_shared_loads_are_compare_tiers(tiers, capsys):
     tiers(lambda table: table[table.reduced_pressure < 0.05])
     assert exit_code() == 0
     assert "  kappa_mean                      9 " in capsys.readouterr().out
@@ -188,7 +191,7 @@ def test_a_figure_that_lists_nothing_is_not_compared_and_needs_no_file(tiers, tm
     assert "fig_3_3: not compared" in capsys.readouterr().out
 
 
-def test_what_tells_rows_apart_cannot_be_compared(tiers, tmp_path):
+def test_what_tells_rows_apart_cannot_be_compare_tiers(tiers, tmp_path):
     config = tmp_path / "config/ch3.yaml"
     text = config.read_text(encoding="utf-8")
     config.write_text(text.replace("compare: [kappa_fit]", "compare: [fit_limit]"), encoding="utf-8")

@@ -15,14 +15,14 @@ import pytest
 import yaml
 
 import contactsim
-from contactsim.analysis.claims import CLAIM_KEYS, CONDITION_KEYS
-from contactsim.analysis.reductions import FITTED, TAKES, needs
+from contactsim.analysis.reductions import FITTED, REDUCTIONS, reduction_inputs
 from contactsim.evaluation.calibration import sampling
 from contactsim.evaluation.effects import survey
 from contactsim.evaluation.robustness.survey import STABILITY_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
+from contactsim.study.claim_plan import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS
 from contactsim.study.keys import ACCURACY_KEYS, AUTO_KEYS, COMPANIONS, KINDS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
 from contactsim.study.law_table import LAW_KEYS
@@ -209,10 +209,10 @@ def test_every_key_is_explained(keys):
         assert f"`{name}`" in KEYS, name
 
 
-@pytest.mark.parametrize("take", TAKES)
-def test_every_take_is_explained_with_what_it_uses(take):
-    uses = ", ".join(f"`{need}`" for need in needs(take))
-    assert re.search(rf"^\| `{take}` \| .+ \| {uses} ?\|$", KEYS, re.MULTILINE)
+@pytest.mark.parametrize("reduction", REDUCTIONS)
+def test_every_reduction_is_explained_with_what_it_uses(reduction):
+    uses = ", ".join(f"`{name}`" for name in reduction_inputs(reduction))
+    assert re.search(rf"^\| `{reduction}` \| .+ \| {uses} ?\|$", KEYS, re.MULTILINE)
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
@@ -246,7 +246,7 @@ def test_the_settings_reference_explains_no_key_that_is_gone():
         *SLIDE_KEYS,
         *CLAIM_KEYS,
         *CONDITION_KEYS,
-        *TAKES,
+        *REDUCTIONS,
         *CASE_KEYS,
         *SETTING_KEYS,
         *PATH_KEYS,

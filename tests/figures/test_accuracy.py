@@ -11,12 +11,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from contactsim import dataset, notation
-from contactsim.analysis.aggregate import AVERAGED
 from contactsim.evaluation.work_precision import error_cost
 from contactsim.figures import style
 from contactsim.figures.diagnostics import accuracy, knobs
 from contactsim.figures.layout import framed
 from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.forms import AVERAGED
 from support.prices import LOADS, PATH_REFERENCE, REFERENCE, job, path_job, path_study, study
 
 MARKS = {

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from contactsim import dataset, notation
-from contactsim.analysis.reductions import TAKES, quantities, quantity
+from contactsim.analysis.reductions import REDUCTIONS, mean_quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
@@ -14,6 +14,7 @@ from contactsim.evaluation.work_precision.case_config import PRICED
 from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
+from contactsim.study.claim_plan import quantities
 from contactsim.study.plan import Plan
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from support.places import ROOT
@@ -142,7 +143,7 @@ def test_the_fits_are_given_as_the_curves_that_they_draw(made):
     shown = ch3.fig_3_3(data, axes)
     assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
     drawn = shown.query("fit_limit == 0.1 and weighting == 'area' and fitted != 'all'")
-    assert np.allclose(drawn.kappa_fit, quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
+    assert np.allclose(drawn.kappa_fit, mean_quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
     looks = {
         (line.get_color(), line.get_linestyle(), line.get_linewidth()) for line in axes.lines[: data.fitted.size * 2]
     }
@@ -248,8 +249,11 @@ def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors,
     assert claims.rounded(value, *errors) == shown
 
 
-def test_every_quantity_dimension_and_take_of_a_claim_has_words_to_read():
-    names = {*TAKES, *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions])}
+def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
+    names = {
+        *REDUCTIONS,
+        *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions]),
+    }
     assert not [name for name in names if "_" in claims.symbol(name)]
     assert claims.symbol("kappa_r_grid_error") == "grid error of κᵣ"
 

@@ -40,7 +40,7 @@ ROUGH = SMOOTH | {
     "solver": {"kind": "polonsky_keer"},
 }
 FIGURE = {"study": "smooth", "title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
-TWICE = FIGURE | {"beside": ["smooth"]}
+TWICE = FIGURE | {"datasets": ["smooth"]}
 FILES = {
     "config.yaml": {"seed": 1, "tier": "plain", "results": "made"},
     "tiers.yaml": {"plain": {}, "small": {"studies": {"smooth": {"points": 32}}}},
@@ -181,7 +181,7 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.results == Path("made/plain")
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
-    unsaid = {"panels": 1, "select": {}, "reference": {}, "beside": [], "law": None, "film": None}
+    unsaid = {"panels": 1, "select": {}, "reference": {}, "datasets": [], "law": None, "film": None}
     assert plan.figures["fig_3_1"].settings == unsaid | TWICE
     assert plan.dataset_name("smooth") == "ch3_smooth"
 
@@ -319,14 +319,14 @@ BAD = {
     "figure of too few datasets": (
         {"ch3.yaml": {"figures/fig_3_1": FIGURE}},
         "ch3.yaml",
-        "figures.fig_3_1.beside",
+        "figures.fig_3_1.datasets",
         [],
         "draws: line, surface",
     ),
     "figure of too many datasets": (
-        {"ch3.yaml": {"figures/fig_3_3/beside": ["smooth"]}},
+        {"ch3.yaml": {"figures/fig_3_3/datasets": ["smooth"]}},
         "ch3.yaml",
-        "figures.fig_3_3.beside",
+        "figures.fig_3_3.datasets",
         ["smooth"],
         "draws: data",
     ),

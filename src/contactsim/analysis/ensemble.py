@@ -30,9 +30,9 @@ def unconverged(data: xr.Dataset) -> tuple[int, int]:
     return int((exist & ~is_solved(data.status)).sum()), int(exist.sum())
 
 
-def widened(least: float, largest: float) -> tuple[float, float]:
-    """The ends of a selection, a rounding apart from what they would leave out."""
-    return least - ROUNDING * abs(least), largest + ROUNDING * abs(largest)
+def widen_interval(low: float, high: float) -> tuple[float, float]:
+    """Return the ends of a selection, moved outwards by a rounding error."""
+    return low - ROUNDING * abs(low), high + ROUNDING * abs(high)
 
 
 def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:

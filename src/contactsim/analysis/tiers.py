@@ -1,9 +1,7 @@
-"""Two tiers side by side: how far the numbers that a figure shows differ.
+"""Compare the numbers that a figure shows at two tiers.
 
-The rows of a figure's CSV are told apart by those of its columns that are dimensions of the study's dataset or of its
-fits, or hold words; rows that both tiers have are joined by them. The columns compared are those that the figure's
-`compare` lists.
-Differences are relative to the second tier. The files are read as they lie: `make` brings them up to date.
+Key columns identify the rows of a table. Rows with the same keys in both tables are joined, and the numbers of their
+other columns are compared, relative to the second tier.
 """
 
 from __future__ import annotations
@@ -16,118 +14,104 @@ from pandas.api.types import is_numeric_dtype
 
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.study.plan import Plan
 
 SAME = 1e-6
 """Relative difference up to which two numbers of a key column are the same."""
 
 FIT_DIMENSIONS = ("fitted", "weighting", "fit_limit")
-"""Dimensions of what `contactsim.analysis.fits.fits` returns."""
+"""Dimensions of the fits of `contactsim.analysis.fits`."""
 
 
-def joined(a: pd.DataFrame, b: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-    """The rows that both have, with the keys as index; columns of `a` below "first", of `b` below "second"."""
-    numeric = [key for key in keys if is_numeric_dtype(a[key]) and is_numeric_dtype(b[key])]
-    b = b.assign(**{key: _snapped(b[key].to_numpy(), a[key].unique()) for key in numeric})
-    for part in (a, b):
-        if not keys or part.duplicated(keys).any():
+def join_rows(first: pd.DataFrame, second: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
+    """Return the rows that both tables have.
+
+    Parameters
+    ----------
+    first, second
+        The tables.
+    keys
+        Columns that identify a row. Numbers that differ by less than `SAME` are the same key.
+
+    Returns
+    -------
+    Table with the keys as index, and the columns below "first" and "second".
+
+    Raises
+    ------
+    SceneError
+        If the keys do not identify the rows.
+    """
+    numeric = [key for key in keys if is_numeric_dtype(first[key]) and is_numeric_dtype(second[key])]
+    second = second.assign(**{key: _snap(second[key].to_numpy(), first[key].unique()) for key in numeric})
+    for table in (first, second):
+        if not keys or table.duplicated(keys).any():
             raise SceneError("key columns", keys, "columns that tell all rows apart")
-    return pd.concat({"first": a.set_index(keys), "second": b.set_index(keys)}, axis=1, join="inner")
+    return pd.concat({"first": first.set_index(keys), "second": second.set_index(keys)}, axis=1, join="inner")
 
 
-def _snapped(values: Array, known: Array) -> Array:
-    """Values, each replaced by the known one that is the same."""
-    if known.size == 0:
+def _snap(values: Array, references: Array) -> Array:
+    """Return the values, each replaced by the reference that is the same to rounding."""
+    if references.size == 0:
         return values
-    nearest = known[np.abs(values[:, None] - known).argmin(axis=1)]
+    nearest = references[np.abs(values[:, None] - references).argmin(axis=1)]
     return np.where(np.abs(values - nearest) <= SAME * np.abs(nearest), nearest, values)
 
 
 def differences(shared: pd.DataFrame, columns: list[str]) -> pd.DataFrame:
-    """Relative differences of joined rows, one row a column: column, rows, largest, median, at.
+    """Return the relative differences of joined rows.
 
-    rows: how many have a number in either tier; a number in only one differs infinitely. at: where the largest is, by
-    the keys that vary; empty where there is no difference.
+    Parameters
+    ----------
+    shared
+        Rows as of `join_rows`.
+    columns
+        Columns to compare.
+
+    Returns
+    -------
+    One row for each column: `column`, `rows` with a number in either tier, `largest` and `median` difference, and
+    `at`, the keys of the largest difference. A number in one tier only differs infinitely.
     """
-    found = []
+    rows = []
     for column in columns:
         pair = pd.DataFrame({tier: shared[tier, column] for tier in ("first", "second")}).dropna(how="all")
-        apart = _relative(pair["first"].to_numpy(), pair["second"].to_numpy())
-        at = _place(pair.index, int(apart.argmax())) if apart.any() else ""
-        largest, median = (apart.max(), np.median(apart)) if apart.size else (np.nan, np.nan)
-        found.append({"column": column, "rows": apart.size, "largest": largest, "median": median, "at": at})
-    return pd.DataFrame(found)
+        changes = _relative_differences(pair["first"].to_numpy(), pair["second"].to_numpy())
+        at = _row_text(pair.index, int(changes.argmax())) if changes.any() else ""
+        largest, median = (changes.max(), np.median(changes)) if changes.size else (np.nan, np.nan)
+        rows.append({"column": column, "rows": changes.size, "largest": largest, "median": median, "at": at})
+    return pd.DataFrame(rows)
 
 
-def _relative(first: Array, second: Array) -> Array:
-    """|first − second| over |second|; infinite where only one is a number, or where only the second is zero."""
-    apart, size = np.abs(first - second), np.abs(second)
-    apart[np.isnan(apart)] = np.inf
-    unlike = np.divide(apart, size, out=np.full(apart.shape, np.inf), where=size > 0)
-    return np.where(apart == 0, 0.0, unlike)
+def _relative_differences(first: Array, second: Array) -> Array:
+    """Return |first − second|/|second|; infinite if only one is a number or only the second is zero."""
+    changes, size = np.abs(first - second), np.abs(second)
+    changes[np.isnan(changes)] = np.inf
+    relative = np.divide(changes, size, out=np.full(changes.shape, np.inf), where=size > 0)
+    return np.where(changes == 0, 0.0, relative)
 
 
-def _place(index: pd.Index, row: int) -> str:
-    """A row's keys in words, without those that are the same in all rows."""
+def _row_text(index: pd.Index, row: int) -> str:
+    """Return the keys of a row in words, without keys that are the same in all rows."""
     levels = index.to_frame()
-    return ", ".join(f"{key} {_short(levels[key].iloc[row])}" for key in levels if len(levels[key].unique()) > 1)
+    return ", ".join(f"{key} {_value_text(levels[key].iloc[row])}" for key in levels if len(levels[key].unique()) > 1)
 
 
-def _short(value: object) -> str:
+def _value_text(value: object) -> str:
+    """Return a key's value in words."""
     return value if isinstance(value, str) else f"{value:g}"
 
 
-def compared(first: Plan, second: Plan) -> dict[str, pd.DataFrame | None]:
-    """Differences of each figure of two tiers; None for one that lists nothing to compare."""
-    return {name: _figure(first, second, name) if figure.compare else None for name, figure in second.figures.items()}
+def is_within(table: pd.DataFrame, limit: float) -> bool:
+    """Return True if no column of a table of `differences` differs by more than the limit; False without rows."""
+    return bool((table["largest"] <= limit).all())
 
 
-def _figure(first: Plan, second: Plan, name: str) -> pd.DataFrame:
-    figure = second.figures[name]
-    a, b = (_numbers(plan, name) for plan in (first, second))
-    places = (*FIT_DIMENSIONS, *(dim for study in figure.studies for dim in second.studies[study].dimensions))
-    keys = [place for place in (*places, *a.select_dtypes(exclude="number")) if place in a and place in b]
-    keys = list(dict.fromkeys(keys))
-    for plan, table in ((first, a), (second, b)):
-        known = list(table.drop(columns=keys).select_dtypes("number"))
-        for column in figure.compare:
-            if column not in known:
-                allowed = f"one of {', '.join(known)}; {_remedy(plan, name)}"
-                raise SceneError(f"figures.{name}.compare", column, allowed, _path(plan, name))
-    try:
-        return differences(joined(a, b, keys), figure.compare)
-    except SceneError as error:
-        raise error.within(f"{_path(first, name)} and {_path(second, name)}", f"figures.{name}") from error
-
-
-def _path(plan: Plan, name: str) -> str:
-    return f"{plan.results}/figures/{name}.csv"
-
-
-def _remedy(plan: Plan, name: str) -> str:
-    return f"`make {name} TIER={plan.tier}` makes the file"
-
-
-def _numbers(plan: Plan, name: str) -> pd.DataFrame:
-    """The numbers that a figure shows."""
-    try:
-        return pd.read_csv(_path(plan, name))
-    except FileNotFoundError as error:
-        allowed = f"a file that is there; {_remedy(plan, name)}"
-        raise SceneError(f"figures.{name}", "no file", allowed, _path(plan, name)) from error
-
-
-def is_within(found: pd.DataFrame, limit: float) -> bool:
-    """Whether no column differs by more than the limit anywhere; without a shared row nothing is known to be."""
-    return bool((found["largest"] <= limit).all())
-
-
-def summary(found: Mapping[str, pd.DataFrame | None], limit: float) -> str:
-    """Each figure with its verdict, and below it one line for each of its columns."""
-    columns = [column for table in found.values() if table is not None for column in table["column"]]
+def difference_text(tables: Mapping[str, pd.DataFrame | None], limit: float) -> str:
+    """Return a text with the verdict on each figure, and below it one line for each of its columns."""
+    columns = [column for table in tables.values() if table is not None for column in table["column"]]
     width = max(map(len, ["column", *columns]))
     lines = [f"  {'column':<{width}}   rows   largest    median  largest at"]
-    for name, table in found.items():
+    for name, table in tables.items():
         if table is None:
             lines.append(f"{name}: not compared")
             continue
@@ -139,4 +123,5 @@ def summary(found: Mapping[str, pd.DataFrame | None], limit: float) -> str:
 
 
 def _percent(share: float) -> str:
+    """Return a share in per cent."""
     return "none" if np.isnan(share) else f"{100 * share:.3g} %"

@@ -48,7 +48,7 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     module = import_module(plan["module"])
     draw = getattr(module, plan["name"])
     for dim, ends in settings["select"].items():
-        part = {dim: slice(*ensemble.widened(*ends))}
+        part = {dim: slice(*ensemble.widen_interval(*ends))}
         shown_data = [one.sel(part) if dim in one.dims else one for one in shown_data]
     priced = [footer_text(one, pd.read_csv(path)) for one, path in zip(shown_data, costs, strict=bool(costs))]
     figure, panels = framed(settings, " — ".join(priced) if priced else module.footer(*shown_data))

@@ -12,17 +12,11 @@ from contactsim.observables.contact import proportionality
 from contactsim.observables.friction import slid
 from contactsim.observables.hysteresis import cycled
 from contactsim.observables.linearity import related
-from contactsim.variables import LOADS
 
 RUN_ONLY_VARIABLES = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
 """Variables that stay with the single runs."""
 SHARED_SCALARS = ("points", "length", "contact_modulus", "seed", "points_y", "length_y")
 """Variables that become scalars where all runs have the same value."""
-
-
-def load_dimension(data: xr.Dataset) -> str:
-    """Return the name of the dimension along which the load varies."""
-    return next(name for name in LOADS if name in data.dims)
 
 
 def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dataset:
@@ -35,8 +29,7 @@ def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dat
 
     Returns
     -------
-    Dataset with a dimension for each coordinate. Paths of unequal length are filled up with NaN. Loads on their own
-    have the contact factors of `derive_contact_factors`.
+    Dataset with a dimension for each coordinate. Paths of unequal length are filled up with NaN.
     """
     for dim in ("step", "event"):  # paths of a study may differ in length, and in how often they slip
         longest = max((data.sizes.get(dim, 0) for data, _ in runs), default=0)
@@ -49,10 +42,11 @@ def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dat
         for data, coordinates in runs
     ]
     data = xr.combine_by_coords(expanded, combine_attrs="drop", join="outer", compat="no_conflicts")
+    data.attrs["problem"] = runs[0][0].attrs["problem"]
     for name in set(SHARED_SCALARS) & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
-    return data if "step" in data.dims else derive_contact_factors(data)
+    return data
 
 
 def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:

@@ -152,7 +152,7 @@ def _collected(scene: Scene, heights: Array, found: list[Point], keep: Sequence[
     }
     if heights.ndim == 2:
         variables |= {"points_y": heights.shape[0], "length_y": scene.lengths[0]}
-    return dataset.described(xr.Dataset(variables))
+    return dataset.described(xr.Dataset(variables, attrs={"problem": scene.kind.value}))
 
 
 def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:

@@ -157,4 +157,4 @@ def _collected(
     if scene.sliding:
         lattice = problem.lattice_constant
         variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan
-    return dataset.described(xr.Dataset(variables, coordinates))
+    return dataset.described(xr.Dataset(variables, coordinates, {"problem": scene.kind.value}))

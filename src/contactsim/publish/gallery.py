@@ -141,7 +141,7 @@ def _statement(row: Mapping) -> str:
         compared(texts["measure"]),
         texts["expected"],
         found,
-        texts["because"],
+        texts["rationale"],
     )
     return f"| {' | '.join(cells)} |"
 

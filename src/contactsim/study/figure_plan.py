@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from contactsim.analysis.claims import selection
-from contactsim.analysis.ensemble import widened
+from contactsim.analysis.ensemble import widen_interval
 from contactsim.errors import SceneError
 from contactsim.provenance import module_path
+from contactsim.study.claim_plan import read_selection
 from contactsim.study.law_table import read_law
 from contactsim.study.reading import Key, listed, mapping, number, positive, read, size, text, whole
 from contactsim.study.scenes import scene_of
@@ -25,7 +25,7 @@ FIELDS = "fields"
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter, or left out with a `law`", None),
     "law": Key(mapping, "a mapping with `effect`, its options and the gaps drawn, instead of a study", None),
-    "beside": Key(listed(text), "names of further studies of this chapter", []),
+    "datasets": Key(listed(text), "names of further studies of this chapter", []),
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
     "size": Key(size, "width and height in inches"),
@@ -54,7 +54,7 @@ class Figure:
     @property
     def studies(self) -> list[str]:
         """The studies whose data it shows; none where it shows a law by itself."""
-        return [study for study in (self.settings["study"], *self.settings["beside"]) if study is not None]
+        return [study for study in (self.settings["study"], *self.settings["datasets"]) if study is not None]
 
 
 def read_figure(name: str, section: object, file: Path, studies: dict[str, Study]) -> Figure:
@@ -68,11 +68,11 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
         raise SceneError(prefix, both, "exactly one of study and law", file)
     if settings["law"] is not None:
         settings["law"] = read_law(settings["law"], file, f"{prefix}.law")
-    for key, named in (("study", [settings["study"]]), ("beside", settings["beside"])):
+    for key, named in (("study", [settings["study"]]), ("datasets", settings["datasets"])):
         for study in set(named) - {*studies, None}:
             raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
     dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
-    settings["select"] = selection(settings["select"], dims, file, f"{prefix}.select")
+    settings["select"] = read_selection(settings["select"], dims, file, f"{prefix}.select")
     if settings["film"] is not None:
         shown = studies[settings["study"]].settings if dims else {}
         if not (shown.get("slide") and shown["snapshots"]) or shown["vary"]:
@@ -89,10 +89,10 @@ def _check_function(name: str, settings: dict, studies: dict[str, Study], file: 
     if name not in known:
         raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
     wanted = [argument.arg for argument in known[name].args[:-1]]  # the last are the axes
-    given = [settings["study"] or "a law", *settings["beside"]]
+    given = [settings["study"] or "a law", *settings["datasets"]]
     if len(given) != len(wanted):
         allowed = f"so many that with {given[0]} they are those that the function draws: {', '.join(wanted)}"
-        raise SceneError(f"{prefix}.beside", settings["beside"], allowed, file)
+        raise SceneError(f"{prefix}.datasets", settings["datasets"], allowed, file)
     if wanted[0] == FIELDS and settings["study"] is None:
         raise SceneError(f"{prefix}.law", settings["law"], "a study, whose fields the function draws", file)
     if wanted[0] == FIELDS:
@@ -110,7 +110,7 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
     places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
     places = [place | {load["name"]: value} for place in places for value in load["values"]]
     for dim, (least, largest) in settings["select"].items():
-        low, high = widened(least, largest)
+        low, high = widen_interval(least, largest)
         places = [place for place in places if low <= place[dim] <= high]
     if len(places) != 1:
         allowed = f"what leaves one load of one member to draw; this leaves {len(places)}"

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from contactsim.analysis.claims import Claim
 from contactsim.error_control import neglect
 from contactsim.error_control.effect_maps import reduced
 from contactsim.errors import SceneError
 from contactsim.evaluation.robustness import survey
 from contactsim.provenance import digest, source_digest
+from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.figure_plan import Figure, read_figure
 from contactsim.study.reading import Key, load_yaml, mapping, named, overlaid, read, text, tiered, whole
 from contactsim.study.study import Run, Study
@@ -111,7 +111,7 @@ class Plan:
                 figures[name] = read_figure(name, section, file, own)
             if sections["claims"]:
                 claims[file.stem] = {
-                    name: Claim.read(name, section, file, own) for name, section in sections["claims"].items()
+                    name: read_claim(name, section, file, own) for name, section in sections["claims"].items()
                 }
         for name in overrides["studies"]:
             raise SceneError(

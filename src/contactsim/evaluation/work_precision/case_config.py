@@ -11,7 +11,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from contactsim.analysis.reductions import quantities
 from contactsim.contact.cohesive import check_tolerance
 from contactsim.error_control.forecast import forecast
 from contactsim.error_control.options import size_of
@@ -21,6 +20,7 @@ from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, Who
 from contactsim.provenance import digest, source_digest
 from contactsim.solvers.base import require
 from contactsim.solvers.registry import SOLVERS, solver_class
+from contactsim.study.claim_plan import quantities
 from contactsim.study.plan import RESERVED, Plan
 from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.study.scenes import scene_of

@@ -16,7 +16,7 @@ import xarray as xr
 
 from contactsim.evaluation.work_precision.cases import REFERENCE
 from contactsim.evaluation.work_precision.knobs import KNOBS, solutions
-from contactsim.observables.derived import load_dimension
+from contactsim.observables.forms import load_dimension
 from contactsim.status import is_solved
 
 ROUNDING = 1e-10

@@ -14,11 +14,10 @@ from pathlib import Path
 
 import xarray as xr
 
-from contactsim.analysis.aggregate import AVERAGED
 from contactsim.errors import SceneError
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
-from contactsim.observables.derived import summarise_paths
+from contactsim.observables.forms import AVERAGED, form_of
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET
@@ -206,11 +205,12 @@ def read_turned(settings: dict, kind: SingleLoads | WholePath, file: Path, prefi
 
 def solutions(data: xr.Dataset) -> xr.Dataset:
     """Loads as they are; of paths what each amounts to, all its transforms, and its first status that is a failure."""
-    if "step" not in data.dims:
-        return data
+    form = form_of(data)
+    found = form.derive(data)
+    if not form.is_path:
+        return found
     failed = ~is_solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
-    found = summarise_paths(data)
     return found[[name for name in WholeSlide.quantities if name in found]].assign(
         transforms=data.transforms.sum("step"), status=first
     )

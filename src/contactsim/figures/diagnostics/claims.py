@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset, variables
 from contactsim.analysis import ensemble
-from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, verdicts
+from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, judge_claims
 from contactsim.analysis.reductions import LIMIT
 from contactsim.figures import style
 from contactsim.figures.layout import LINE_INCHES, save
@@ -28,7 +28,7 @@ COLUMNS = {
     "ensemble_error": ("ensemble\nerror", 0.75),
     "grid_error": ("grid\nerror", 0.65),
     "verdict": ("verdict; on a condition: found\n± ensemble error ± grid error", 1.85),
-    "because": ("why this band", 2.85),
+    "rationale": ("why this band", 2.85),
 }
 """Head and width in inches of each column."""
 CHARACTERS = 18
@@ -44,7 +44,7 @@ def render_claims(plan: Mapping, paths: Mapping[str, str], targets: Mapping[str,
     plan: `Plan.claims_settings`; paths: the datasets by study; targets: csv, png and pdf.
     """
     data = {study: dataset.read(path) for study, path in paths.items()}
-    rows = verdicts(dict(plan["claims"]), data)
+    rows = judge_claims(dict(plan["claims"]), data)
     number = plan["chapter"].removeprefix("ch")
     figure = drawn(rows, f"Chapter {number}: what it states, and what was found", made_text(data))
     save(figure, rows, targets)
@@ -76,7 +76,7 @@ def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
 
 def _cells(row: dict) -> dict[str, str]:
     """The text of each cell; under a condition, what was found there follows the verdict."""
-    texts = {name: row[name] for name in ("source", "statement", "expected", "because", "verdict")}
+    texts = {name: row[name] for name in ("source", "statement", "expected", "rationale", "verdict")}
     texts["measure"] = compared(row["measure"])
     numbers = ("value", "ensemble_error", "grid_error")
     texts |= dict(zip(numbers, rounded(*(row[name] for name in numbers)), strict=True))

@@ -1,0 +1,131 @@
+"""The three forms of a dataset: loads on their own, approaches to a hard wall, and cohesive paths.
+
+The attribute `problem` of a dataset and the dimension of its load say which form it has. A form knows which numbers
+are derived from its states, which are averaged over members, and which summarise a path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import xarray as xr
+
+from contactsim.contact.scene import ProblemKind
+from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.derived import derive_contact_factors, summarise_approaches, summarise_paths
+from contactsim.observables.hysteresis import CYCLE
+from contactsim.observables.linearity import AREA_LOAD
+from contactsim.observables.peeling import ONSET, THRESHOLD
+from contactsim.status import is_solved
+from contactsim.variables import LOADS
+
+STEP = "step"
+"""Dimension of the load of a path."""
+AVERAGED = (
+    "relative_contact_area",
+    "relative_contact_area_subgrid",
+    "kappa",
+    "kappa_r",
+    "kappa_r_pairs",
+    "rms_gradient_contact",
+    "rms_gradient_contact_pairs",
+    "reduced_pressure_contact",
+    "mean_gap",
+)
+"""Numbers of a state at a hard wall that are averaged over members."""
+AVERAGED_STATES = (
+    "mean_pressure",
+    "normalised_pressure",
+    "relative_repulsive_area",
+    "relative_interacting_area",
+    "gradient_ratio_repulsive",
+    "gradient_ratio_interacting",
+    "mean_gap",
+)
+"""Numbers of a state of a cohesive path that are averaged over members."""
+PATH_SUMMARIES = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET, *THRESHOLD)
+"""Numbers that summarise a path."""
+UNREACHED = (*CYCLE, *AREA_LOAD, *ONSET)
+"""Summaries that a path may not reach; their mean is unknown if one member does not reach them."""
+
+
+class DatasetForm(Protocol):
+    """A form of datasets.
+
+    Attributes
+    ----------
+    averaged
+        Numbers of a state that are averaged over members.
+    is_path
+        True if each state starts from the one before, so that summaries of the whole path exist.
+    compares_one_member
+        True if changes of the averaged numbers are measured for one member too.
+    """
+
+    averaged: tuple[str, ...]
+    is_path: bool
+    compares_one_member: bool
+
+    def derive(self, data: xr.Dataset) -> xr.Dataset:
+        """Return the dataset with the numbers derived from its states."""
+        ...
+
+    def member_mean(self, data: xr.Dataset, name: str) -> xr.DataArray:
+        """Return the mean of a variable over members, without solutions that did not converge."""
+        ...
+
+
+@dataclass(frozen=True)
+class SeparateLoads:
+    """Loads at a hard wall, each solved on its own."""
+
+    averaged: tuple[str, ...] = AVERAGED
+    is_path: bool = False
+    compares_one_member: bool = True
+
+    def derive(self, data: xr.Dataset) -> xr.Dataset:
+        """Return the dataset with its contact factors."""
+        return derive_contact_factors(data)
+
+    def member_mean(self, data: xr.Dataset, name: str) -> xr.DataArray:
+        """Return the mean of a variable over members, without solutions that did not converge."""
+        return data[name].where(is_solved(data.status)).mean("member")
+
+
+@dataclass(frozen=True)
+class Paths:
+    """Paths whose states start from one another, or that are summarised as a whole."""
+
+    averaged: tuple[str, ...]
+    compares_one_member: bool
+    summarise: Callable[[xr.Dataset], xr.Dataset]
+    is_path: bool = True
+
+    def derive(self, data: xr.Dataset) -> xr.Dataset:
+        """Return the dataset with normalised states and the summaries of its paths."""
+        return self.summarise(data)
+
+    def member_mean(self, data: xr.Dataset, name: str) -> xr.DataArray:
+        """Return the mean of a variable over members; summaries leave out unconverged states already."""
+        values = data[name]
+        return values.mean("member", skipna=name not in UNREACHED) if "member" in values.dims else values
+
+
+FORMS: dict[tuple[str, str], DatasetForm] = {
+    **dict.fromkeys(((ProblemKind.HARD_WALL.value, load) for load in LOADS), SeparateLoads()),
+    (ProblemKind.HARD_WALL.value, STEP): Paths((*AVERAGED, "normalised_pressure"), True, summarise_approaches),
+    (ProblemKind.COHESIVE.value, STEP): Paths(AVERAGED_STATES, False, summarise_paths),
+}
+"""Forms by the attribute `problem` of a dataset and the dimension of its load."""
+
+
+def load_dimension(data: xr.Dataset) -> str:
+    """Return the name of the dimension along which the load varies."""
+    return next(name for name in (*LOADS, STEP) if name in data.dims)
+
+
+def form_of(data: xr.Dataset) -> DatasetForm:
+    """Return the form of a dataset."""
+    return FORMS[data.attrs["problem"], load_dimension(data)]

@@ -1,0 +1,186 @@
+"""Claims as the config gives them: a quantity, its reduction to one number, and the band that the thesis states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from contactsim.analysis.grid_convergence import is_doubled
+from contactsim.analysis.reductions import FITTED, LIMIT, REDUCTIONS, reduction_inputs
+from contactsim.errors import SceneError
+from contactsim.observables.adhesion import FINAL, SUMMARY
+from contactsim.observables.forms import AVERAGED
+from contactsim.observables.hysteresis import CYCLE
+from contactsim.observables.linearity import AREA_LOAD
+from contactsim.observables.peeling import ALONG, ONSET, THRESHOLD
+from contactsim.study.keys import COMPANIONS, is_smooth
+from contactsim.study.reading import Key, choice, mapping, number, positive, read, text
+from contactsim.study.scenes import scene_of
+from contactsim.study.study import Study
+
+
+def interval(value: object) -> list[float]:
+    """Return two numbers, the smaller one first; ValueError for anything else."""
+    if not isinstance(value, list) or len(value) != 2 or number(value[0]) > number(value[1]):
+        raise ValueError
+    return [number(entry) for entry in value]
+
+
+def read_selection(section: Mapping, dims: Iterable[str], file: object, prefix: str) -> dict[str, list[float]]:
+    """Return the smallest and largest value of each dimension that the section selects.
+
+    Raises
+    ------
+    SceneError
+        If a key is not one of `dims` or a value is not an interval.
+    """
+    keys = dict.fromkeys(dims, Key(interval, "least and largest value", None))
+    return {dim: ends for dim, ends in read(section, keys, file, prefix).items() if ends is not None}
+
+
+CLAIM_KEYS = {
+    "source": Key(text, "where the thesis says so"),
+    "statement": Key(text, "what the thesis says"),
+    "rationale": Key(text, "why that band, or why there is no answer"),
+    "study": Key(text, "the name of a study of this chapter, or left out where there is no answer", None),
+    "relative_to": Key(text, "the name of a second study, or left out", None),
+    "quantity": Key(text, "the name of a quantity", None),
+    "reduce": Key(choice(REDUCTIONS), f"one of {', '.join(REDUCTIONS)}", None),
+    "against": Key(text, "the name of a quantity", None),
+    "along": Key(text, "a dimension of the study", None),
+    "across": Key(text, "another dimension of the study", None),
+    "select": Key(mapping, "a mapping from a dimension to its least and largest value", None),
+    "expect": Key(number, "a number, with `tolerance`", None),
+    "tolerance": Key(positive, "a positive number, with `expect`", None),
+    "at_least": Key(number, "a number", None),
+    "at_most": Key(number, "a number", None),
+    "grid": Key(choice(("thesis",)), "thesis, where the statement is about its own number of points", None),
+    "condition": Key(mapping, "a mapping with `description` and `select` or `grid`", None),
+}
+CONDITION_KEYS = {
+    "description": Key(text, "the condition in words"),
+    "select": Key(mapping, "a mapping from a dimension to its least and largest value", {}),
+    "grid": Key(choice(("thesis",)), "thesis, for its own number of points", None),
+}
+BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
+"""Sets of keys that give a band."""
+INPUTS = ("against", "along", "across")
+"""Keys that a reduction may need beside the quantity."""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the thesis: its name, and its settings as read."""
+
+    name: str
+    settings: dict
+
+    @property
+    def studies(self) -> list[str]:
+        """Names of the studies that answer the claim: none, one, or two for a ratio."""
+        return [self.settings[key] for key in ("study", "relative_to") if self.settings[key] is not None]
+
+
+def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study]) -> Claim:
+    """Return a claim of a chapter's config, checked against the studies of that chapter.
+
+    Raises
+    ------
+    SceneError
+        If a key is unknown, missing or of no use to the claim, or names what the studies do not have.
+    """
+    prefix = f"claims.{name}"
+    settings = read(section, CLAIM_KEYS, file, prefix)
+    if settings["study"] is None:
+        for key in settings:
+            if key not in ("source", "statement", "rationale") and settings[key] is not None:
+                raise SceneError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
+        return Claim(name, settings)
+    _check_one_of(settings, "study", studies, file, prefix)
+    claim = Claim(name, settings)
+    dims = list(dict.fromkeys(dim for study in claim.studies for dim in _dimensions(studies, study)))
+    _check_quantities(settings, studies, dims, file, prefix)
+    settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
+    if settings["condition"] is not None:
+        condition = read(settings["condition"], CONDITION_KEYS, file, f"{prefix}.condition")
+        condition["select"] = read_selection(condition["select"], dims, file, f"{prefix}.condition.select")
+        settings["condition"] = condition
+    band = {key for key in set.union(*BANDS) if settings[key] is not None}
+    if band not in BANDS:
+        raise SceneError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
+    return claim
+
+
+def _dimensions(studies: Mapping[str, Study], name: str) -> list[str]:
+    """Return the dimensions of a study without its members; none for an unknown study."""
+    return [dim for dim in studies[name].dimensions if dim != "member"] if name in studies else []
+
+
+def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[str], file: object, prefix: str) -> None:
+    """Raise SceneError for a reduction, quantity or dimension that the claim's studies do not have."""
+    study = studies[settings["study"]]
+    own = quantities(study)
+    shared = own if settings["relative_to"] is None else _shared_quantities(settings, studies, file, prefix)
+    allowed = {"quantity": shared, "against": own, "along": dims, "across": dims}
+    _check_one_of(settings, "reduce", list(REDUCTIONS), file, prefix)
+    inputs = reduction_inputs(settings["reduce"])
+    for key in ("quantity", *inputs):
+        _check_one_of(settings, key, allowed[key], file, prefix)
+    for key in INPUTS:
+        if key not in inputs and settings[key] is not None:
+            unused = f"left out: {settings['reduce']} does not use it"
+            raise SceneError(f"{prefix}.{key}", settings[key], unused, file)
+    if settings["relative_to"] is not None and settings["against"] is not None:
+        single = [name for name in REDUCTIONS if "against" not in reduction_inputs(name)]
+        message = f"with `relative_to`, one of {', '.join(single)}"
+        raise SceneError(f"{prefix}.reduce", settings["reduce"], message, file)
+
+
+def _shared_quantities(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
+    """Return the quantities that both studies of a ratio have; the second must be loaded in the same way."""
+    study = studies[settings["study"]]
+    alike = [name for name, other in studies.items() if other.dimensions[-1] == study.dimensions[-1]]
+    others = [name for name in alike if name != settings["study"]]
+    _check_one_of(settings, "relative_to", others, file, prefix)
+    return sorted(set(quantities(study)) & set(quantities(studies[settings["relative_to"]])))
+
+
+def _check_one_of(settings: dict, key: str, allowed: Iterable[str], file: object, prefix: str) -> None:
+    """Raise SceneError for a value that is not allowed."""
+    if settings[key] not in allowed:
+        raise SceneError(f"{prefix}.{key}", settings[key], f"one of {', '.join(allowed)}", file)
+
+
+def quantities(study: Study) -> list[str]:
+    """Return the names of the quantities that the dataset of a study holds or gives."""
+    if study.settings["path"] is not None:
+        return _path_quantities(study)
+    load = study.settings["load"]["name"]
+    names = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
+    if load == "contact_ratio":
+        size = "contact_radius" if study.settings["surface"]["kind"] == "sphere" else "half_width"
+        names |= {size, f"{size}_exact", "rms_gradient_exact"}
+    names |= _error_names(study, names & {*AVERAGED})
+    if is_doubled(study.settings["vary"].get("points", [])):
+        names |= {f"{name}{LIMIT}" for name in AVERAGED if name in names}
+    if study.dimensions == ["hurst", "member", "reduced_pressure"]:
+        names |= set(FITTED)
+    return sorted(names)
+
+
+def _path_quantities(study: Study) -> list[str]:
+    """Return the summaries of a path, the errors measured of them, and the varied keys."""
+    names = set(AREA_LOAD)
+    if is_smooth(study.settings):
+        scene = scene_of(study.runs()[0].settings)
+        slips = "t" in scene.components
+        names |= {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
+        names |= {name for name in ONSET if scene.sliding}
+        names |= {name for name in THRESHOLD if scene.sliding and ALONG in study.dimensions}
+    return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
+
+
+def _error_names(study: Study, names: set[str]) -> set[str]:
+    """Return the names of the errors of quantities that a study measures."""
+    kinds = [error for part, (_, error, _) in COMPANIONS.items() if study.settings[part] is not None]
+    return {f"{name}_{error}_error" for name in names for error in kinds}
