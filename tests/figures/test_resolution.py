@@ -14,6 +14,7 @@ from contactsim.analysis import aggregate
 from contactsim.errors import SceneError
 from contactsim.figures import ch3, style
 from contactsim.figures.parts import resolution
+from contactsim.observables.forms import AVERAGED
 from contactsim.study.plan import Plan
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -31,9 +32,9 @@ def made(points, members=3, hurst=(0.2, 0.8), scale=1.0, surface=SURFACE):
     places = {"points": list(points), "hurst": list(hurst), "member": range(members), "reduced_pressure": [0.01, 0.1]}
     data = xr.Dataset(dict.fromkeys(resolution.QUANTITIES, (dims, values)), places)
     data["status"] = (dims, np.zeros(shape, np.int8))
-    data = data.merge(aggregate._ensemble(data))
+    data = data.merge(aggregate.ensemble_means(data, AVERAGED))
     if len(points) == 3:
-        data = data.merge(aggregate._limits(data))
+        data = data.merge(aggregate.finer_grid_limits(data))
     return dataset.stamped(data, "made", {"surface": surface}, "source")
 
 

@@ -53,7 +53,7 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
         size, gradient = EXACT_CONTACTS["surface" if "length_y" in fine else "line"]
         fine[size] = fine.contact_ratio * radius
         fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[size], radius)
-    data = fine.merge(_means(fine, form.averaged))
+    data = fine.merge(ensemble_means(fine, form.averaged))
     for suffix, other in _error_runs(runs):
         data = data.merge(_mean_changes(fine, form.derive(other), suffix, form.averaged))
     if "points" in fine.dims and grid_convergence.is_doubled(fine.points):
@@ -66,7 +66,7 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
 def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> xr.Dataset:
     """Return paths with means of their states, and the errors of their summaries."""
     if data.member.size > 1:
-        data = data.merge(_means(data, form.averaged))
+        data = data.merge(ensemble_means(data, form.averaged))
     for suffix, combined in _error_runs(runs):
         other = form.derive(combined)
         same = data.sel(member=other.member)
@@ -90,7 +90,7 @@ def _error_runs(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
             yield f"_{error}_error", _read_runs(others)
 
 
-def _means(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+def ensemble_means(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
     """Return means over members and their standard errors."""
     variables = {}
     for name in names:
