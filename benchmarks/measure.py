@@ -53,7 +53,7 @@ def posed(plan: Plan, case: dict, loads: list[float], study: str = "rough_line")
 
 def worst(certificate: Certificate) -> float:
     """Largest distance from the solution, in grid steps."""
-    return max(certificate.non_uniformity, certificate.penetration)
+    return max(certificate.max_contact_gap, certificate.penetration)
 
 
 def replayed(counts: dict[int, float]) -> float:

@@ -93,7 +93,7 @@ SHOWN = (
         "kappa",
         "kappa_r",
         "mean_gap",
-        "non_uniformity",
+        "max_contact_gap",
     ),
     *("approach", "sliding_distance", "line_load", "friction_force", "contact_length", "max_interpenetration", "slip"),
     *("residual", "jump", "validity_flags", "transforms", "status"),

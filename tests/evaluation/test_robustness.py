@@ -251,7 +251,7 @@ def test_the_dataset_says_what_came_of_every_cell(drawn):
     assert failed.outcome == Outcome.FAILED.value[0]
     assert failed.transforms > 10_000
     assert "number of iterations" in str(failed.reason.values)
-    assert data.taken.sel(hazard="low_spike").values.tolist() == [1, 0, 0, 0, 0, 1, 1]
+    assert data.applicable.sel(hazard="low_spike").values.tolist() == [1, 0, 0, 0, 0, 1, 1]
     surfaces_only = data.sel(solver="conjugate_gradients")
     assert (surfaces_only.outcome == Outcome.REFUSED.value[0]).all()
     data = data.sel(solver=["active_set", "polonsky_keer", "verlet"])

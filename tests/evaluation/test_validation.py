@@ -37,12 +37,12 @@ def tried() -> dict[str, tuple]:
 
 def test_a_trial_is_judged_by_a_finer_run_and_against_the_cheapest_setting(tried):
     for data, spent in tried.values():
-        assert data.asked.item() == 0.05
+        assert data.requested_error.item() == 0.05
         assert 0 <= data.true_error.item() < 0.2
-        assert data.least_work.item() > 0
-        assert data.settings_met.item() <= data.settings_tried.item()
+        assert data.min_work.item() > 0
+        assert data.settings_within_error.item() <= data.settings_tried.item()
         assert spent["predicted"] > 0
-        assert data.words.item()
+        assert data.description.item()
 
 
 def test_a_trial_is_the_same_each_time_but_for_its_seconds(tried):
@@ -76,8 +76,8 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
     plan = validation.figure(SETTINGS, "quick")
     trial_figure.render(plan, data, costs, targets)
     table = pd.read_csv(targets["csv"])
-    assert list(table.met) == list(table.true_error <= table.asked)
-    assert np.allclose(table.cost, table.work / table.least_work)
+    assert list(table.met) == list(table.true_error <= table.requested_error)
+    assert np.allclose(table.cost, table.work / table.min_work)
     assert f"{int(table.met.sum())} of 3 scenes" in trial_figure._footer(table, plan)
 
 

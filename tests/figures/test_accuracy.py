@@ -113,8 +113,8 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     ensemble = study(members) if settings["load"] else path_study([200.0] * members)
     table = error_cost.table(settings, jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
-    table = table.assign(work_expected=np.where(table.own, table.work * 1.5, np.nan))
-    table["seconds_expected"] = table.work_expected / 1000
+    table = table.assign(predicted_work=np.where(table.own, table.work * 1.5, np.nan))
+    table["predicted_seconds"] = table.predicted_work / 1000
     columns = len(accuracy.turned(table)) + 1
     figure, panels = framed(settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4])
     axes = np.reshape(panels, (2, columns))
@@ -392,6 +392,6 @@ def test_ratios_have_two_digits_and_no_powers_of_ten(work, seconds, text):
 def test_what_was_forecast_stands_beside_what_the_own_solver_took(tmp_path):
     table, _ = render(tmp_path)
     own = table[(table.solver == "active_set") & (table.knob != "members")]
-    assert own.work_expected.tolist()[:5] == [5e3] * 5
-    assert (own.seconds_expected[:5] > 0).all()
-    assert table.work_expected.isna().sum() == len(table) - 5
+    assert own.predicted_work.tolist()[:5] == [5e3] * 5
+    assert (own.predicted_seconds[:5] > 0).all()
+    assert table.predicted_work.isna().sum() == len(table) - 5

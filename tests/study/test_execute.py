@@ -136,7 +136,7 @@ def test_the_file_holds_the_certificate_and_the_numbers_of_the_profile(place):
     assert data.rms_gradient.item() == pytest.approx(np.sqrt(np.mean(slope**2)), rel=1e-12)
     assert data.approach_first_touch.item() == -heights.max()
     assert (data.approach > data.approach_first_touch).all()
-    assert (data.non_uniformity <= 1e-3).all()
+    assert (data.max_contact_gap <= 1e-3).all()
     assert (data.penetration <= 1e-3).all()
     assert (data.min_pressure == 0).all()
     assert (data.load_error <= 1e-12).all()
@@ -173,7 +173,7 @@ def test_what_does_not_converge_is_kept_with_its_status(place):
     data = dataset.read(place(settings).data)
     assert data.status.values.tolist() == [Status.MAX_ITERATIONS.value[0]] * 3
     assert (data.iterations == 1).all()
-    assert (data[["non_uniformity", "penetration"]].to_array().max("variable") > 1e-3).all()
+    assert (data[["max_contact_gap", "penetration"]].to_array().max("variable") > 1e-3).all()
 
 
 # --- points taken over --------------------------------------------------------------------------------------------

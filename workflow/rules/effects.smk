@@ -9,7 +9,7 @@ if LADDER:
         params: plan=canonical(effect_cost.plan(LADDER))
         threads: timed_threads()
         group: together("timed")
-        message: "effects: every rung measured"
+        message: "effects: every variant measured"
         script: "../scripts/effects.py"
 
 

@@ -161,7 +161,7 @@ class HardWallProblem:
         lowest = float(gap.min())
         gap[contact] = touching
         certificate = Certificate(
-            non_uniformity=float(np.abs(touching, out=touching).max(initial=0.0)),
+            max_contact_gap=float(np.abs(touching, out=touching).max(initial=0.0)),
             penetration=0.0 - min(lowest, 0.0),
             min_pressure=float(pressure.min()),
             load_error=0.0 if not self.load else float(abs(pressure.mean() / self.load - 1)),
@@ -174,11 +174,11 @@ class HardWallProblem:
 class Certificate:
     """How far a field of pressure is from the solution; lengths in grid steps.
 
-    non_uniformity: largest |gap| in contact; penetration: largest overlap elsewhere; min_pressure: in
+    max_contact_gap: largest |gap| in contact; penetration: largest overlap elsewhere; min_pressure: in
     E*·step/spacing, never negative; load_error: relative; approach: that belongs to the pressure.
     """
 
-    non_uniformity: float
+    max_contact_gap: float
     penetration: float
     min_pressure: float
     load_error: float
@@ -186,7 +186,7 @@ class Certificate:
 
     def met(self, tolerance: float) -> bool:
         """Whether this is a solution to within `tolerance` grid steps (NaN is not)."""
-        worst = max(self.non_uniformity, self.penetration)
+        worst = max(self.max_contact_gap, self.penetration)
         return worst <= tolerance and self.min_pressure >= 0 and self.load_error <= 1e-12
 
 

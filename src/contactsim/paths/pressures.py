@@ -87,7 +87,7 @@ def _loads(steps: Sequence[LoadStep], known: Mapping[int, Point], solved: Callab
         left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
         logger.info(
             "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
-            *(count + 1, len(steps), step.text, point.numbers["non_uniformity"]),
+            *(count + 1, len(steps), step.text, point.numbers["max_contact_gap"]),
             *(point.numbers["transforms"], point.seconds, left, status_sentence(point.numbers["status"])),
         )
     return found
@@ -101,7 +101,7 @@ def _point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Seq
         "approach": result.approach,
         "iterations": result.record.iterations,
         "transforms": result.record.transforms,
-        "non_uniformity": certificate.non_uniformity,
+        "max_contact_gap": certificate.max_contact_gap,
         "penetration": certificate.penetration,
         "min_pressure": float(result.pressure.min()),
         "load_error": certificate.load_error,

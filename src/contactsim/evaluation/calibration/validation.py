@@ -79,22 +79,22 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     least = min(met, key=lambda one: one.transforms * one.size, default=None)
     work = found.work * found.last.size
     row = {
-        "asked": asked,
+        "requested_error": asked,
         "true_error": _error(found.last, reference),
-        "expected_error": max(float(values.max()) for values in found.errors.values()),
-        "solved": len(found.before) + 1,
+        "predicted_error": max(float(values.max()) for values in found.errors.values()),
+        "solve_count": len(found.before) + 1,
         "points": found.last.points,
-        "points_expected": expected.points,
+        "predicted_points": expected.points,
         "work": work,
-        "work_expected": expected.transforms * size_of(scene_of(run), expected.points),
-        "least_work": least.transforms * least.size if least else np.nan,
-        "least_points": least.points if least else -1,
+        "predicted_work": expected.transforms * size_of(scene_of(run), expected.points),
+        "min_work": least.transforms * least.size if least else np.nan,
+        "min_work_points": least.points if least else -1,
         "settings_tried": len(tried),
-        "settings_met": len(met),
+        "settings_within_error": len(met),
     }
     coordinates = {"scene": [f"{kind} {count}"], "kind": ("scene", [kind])}
     data = xr.Dataset({name: ("scene", [value]) for name, value in row.items()}, coordinates)
-    data = data.assign(words=("scene", [_words(run)]))
+    data = data.assign(description=("scene", [_words(run)]))
     spent = {"predicted": expected.seconds, "seconds": found.seconds, "least": least.seconds if least else math.nan}
     return dataset.described(data), spent
 

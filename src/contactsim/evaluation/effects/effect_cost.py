@@ -1,4 +1,4 @@
-"""What effects cost: one scene with more and more of them, each rung measured alone.
+"""What effects cost: one scene with more and more of them, each variant measured alone.
 
 Unknowns, transforms and the status of every step are reproducible; seconds and memory are kept apart.
 """
@@ -26,41 +26,41 @@ KEYS = {
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
     "size": Key(size, "width and height in inches"),
-    "repeats": Key(whole(1), "how often each rung is timed, 1 or more", 1),
-    "scene": Key(mapping, "keys of a study that all rungs share"),
-    "rungs": Key(mapping, "a mapping from names to a title and the keys of a study that a rung adds"),
+    "repeats": Key(whole(1), "how often each variant is timed, 1 or more", 1),
+    "scene": Key(mapping, "keys of a study that all variants share"),
+    "variants": Key(mapping, "a mapping from names to a title and the keys of a study that a variant adds"),
 }
 
 
 def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
-    """Settings of the ladder: how it is shown; name, title and run of each rung; None without effects.yaml."""
+    """Settings of the study of cost: how it is shown; name, title and run of each variant; None without effects.yaml."""
     given = tiered(Path(folder) / "effects.yaml", over, tier)
     if given is None:
         return None
     section, file = given
     settings = read(section, KEYS, file)
-    rungs = []
-    for name, rung in settings["rungs"].items():
-        if not isinstance(rung, dict):
-            raise SceneError(f"rungs.{name}", rung, "a mapping of keys of a study", file)
-        study = Study.read(name, {"title": name} | overlaid(settings["scene"], rung), file, seed)
+    variants = []
+    for name, variant in settings["variants"].items():
+        if not isinstance(variant, dict):
+            raise SceneError(f"variants.{name}", variant, "a mapping of keys of a study", file)
+        study = Study.read(name, {"title": name} | overlaid(settings["scene"], variant), file, seed)
         runs = study.runs()
         if len(runs) != 1:
-            raise SceneError(f"rungs.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
-        rungs.append({"name": name, "title": study.settings["title"], "run": runs[0].settings})
-    return settings | {"rungs": rungs}
+            raise SceneError(f"variants.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
+        variants.append({"name": name, "title": study.settings["title"], "run": runs[0].settings})
+    return settings | {"variants": variants}
 
 
 def plan(settings: dict) -> dict:
     """What the measurement depends on."""
-    modules = sorted({solver_module(rung["run"]["solver"]["kind"]) for rung in settings["rungs"]})
-    shown = {key: settings[key] for key in ("repeats", "rungs")}
+    modules = sorted({solver_module(variant["run"]["solver"]["kind"]) for variant in settings["variants"]})
+    shown = {key: settings[key] for key in ("repeats", "variants")}
     return {"settings": shown, "source": computing_digest("contactsim.evaluation.effects.effect_cost", *modules)}
 
 
 def figure(settings: dict, tier: str) -> dict:
     """What the figure depends on."""
-    titles = {rung["name"]: rung["title"] for rung in settings["rungs"]}
+    titles = {variant["name"]: variant["title"] for variant in settings["variants"]}
     shown = {key: settings[key] for key in ("title", "caption", "size")}
     code, data = source_digest("contactsim.figures.diagnostics.effects"), digest(plan(settings))
     settings = {"settings": shown, "titles": titles, "repeats": settings["repeats"], "tier": tier}
@@ -68,11 +68,11 @@ def figure(settings: dict, tier: str) -> dict:
 
 
 def measure(settings: dict) -> tuple[xr.Dataset, dict]:
-    """All rungs: what is reproducible as a dataset along `rung`, and CPU seconds and peak megabytes of each."""
+    """All variants: what is reproducible as a dataset along `variant`, and CPU seconds and peak megabytes of each."""
     rows, spent = [], {}
-    for rung in settings["rungs"]:
-        name = rung["name"]
-        scene, options = scene_of(rung["run"]), _options(rung["run"])
+    for variant in settings["variants"]:
+        name = variant["name"]
+        scene, options = scene_of(variant["run"]), _options(variant["run"])
         runs = [simulate(scene, **options) for _ in range(settings["repeats"])]
         tracemalloc.start()
         try:
@@ -83,7 +83,7 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
         data = runs[0]
         rows.append(
             {
-                "rung": name,
+                "variant": name,
                 "components": " ".join(scene.components),
                 "unknowns": _unknowns(scene, options["points"]),
                 "transforms": float(data.transforms.sum()),
@@ -92,8 +92,8 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
             }
         )
         spent[name] = {"seconds": min(float(run.seconds.sum()) for run in runs), "megabytes": peak}
-    columns = {name: ("rung", np.array([row[name] for row in rows])) for name in rows[0] if name != "rung"}
-    data = xr.Dataset(columns, {"rung": [row["rung"] for row in rows]})
+    columns = {name: ("variant", np.array([row[name] for row in rows])) for name in rows[0] if name != "variant"}
+    data = xr.Dataset(columns, {"variant": [row["variant"] for row in rows]})
     return dataset.described(data), spent
 
 

@@ -105,8 +105,11 @@ def survey(hazard: str, severities: Sequence[float], solvers: Mapping[str, Mappi
             "transforms": (dims, cells[1].reshape(shape)),
             "reason": (dims, np.array([verdict.reason for verdict in verdicts], object).reshape(shape)),
             "tolerance": ("severity", [case.tolerance for case in cases]),
-            "taken": ("solver", np.array([cases[0].kind <= method.accepts for method in methods.values()], np.int8)),
-            "harder": first_line(hazard),
+            "applicable": (
+                "solver",
+                np.array([cases[0].kind <= method.accepts for method in methods.values()], np.int8),
+            ),
+            "difficulty": first_line(hazard),
         },
         coords={"hazard": hazard, "solver": list(methods), "severity": list(severities)},
     )

@@ -68,7 +68,7 @@ def foreseen(table: pd.DataFrame, expected: list) -> pd.DataFrame:
     found = np.full((len(table), 2), np.nan)
     own = (table.own & (table.knob != "members")).to_numpy()
     found[own] = np.reshape([float(value) for one in expected for value in one], (-1, 2))
-    return table.assign(work_expected=found[:, 0], seconds_expected=found[:, 1] * transform_seconds())
+    return table.assign(predicted_work=found[:, 0], predicted_seconds=found[:, 1] * transform_seconds())
 
 
 def among(column: pd.Series, values: list) -> np.ndarray:

@@ -26,9 +26,9 @@ def render(plan: Mapping, data: str, costs: str, targets: Mapping[str, str]) -> 
     `contactsim.evaluation.effects.effect_cost.measure`.
     """
     found = dataset.read(data)
-    prices = pd.DataFrame(json.loads(Path(costs).read_text())).T.loc[found.rung.values].reset_index(drop=True)
+    prices = pd.DataFrame(json.loads(Path(costs).read_text())).T.loc[found.variant.values].reset_index(drop=True)
     table = pd.concat([found.to_dataframe().reset_index(), prices], axis=1)
-    table.insert(1, "title", [plan["titles"][name] for name in found.rung.values])
+    table.insert(1, "title", [plan["titles"][name] for name in found.variant.values])
     lost, steps = int(table.unconverged.sum()), int(table.steps.sum())
     points = f"{plan['tier']} tier · {int(table.unknowns.min())} points"
     footer = f"{points} · {lost} of {steps} increments unconverged · best of {plan['repeats']} runs"

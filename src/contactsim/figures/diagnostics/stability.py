@@ -54,7 +54,7 @@ def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 
 def taken(one: xr.Dataset) -> xr.Dataset:
     """One hazard without the solvers that do not take its kind of case at all; whole if that would leave none."""
-    takes = one.taken.values > 0
+    takes = one.applicable.values > 0
     return one.isel(solver=takes) if takes.any() else one
 
 
@@ -80,7 +80,7 @@ def _blocks(parts: list[xr.Dataset], axes: Axes, room: float) -> None:
             edgecolors="white",
             linewidth=0.4,
         )
-        harder = str(one.harder.values)
+        harder = str(one.difficulty.values)
         head = {"fontsize": 6 * min(1.0, LETTERS / len(hazard + harder)), "va": "bottom"}
         axes.text(0, top - 0.15, f"{hazard}: ", ha="left", weight="bold", **head)
         axes.annotate(harder, (1, 0), xycoords=axes.texts[-1], annotation_clip=False, **head)
@@ -131,6 +131,6 @@ def footer(data: xr.Dataset) -> str:
     """Tier, cells, those not drawn, and what must not occur."""
     settings = dataset.settings_of(data)
     bad = [int((data.outcome == outcome.value[0]).sum()) for outcome in (Outcome.WRONG, Outcome.NON_FINITE)]
-    left_out = int((data.taken == 0).sum()) * data.severity.size
+    left_out = int((data.applicable == 0).sum()) * data.severity.size
     beside = f" · refused and left out, as their solver does not take the kind of case: {left_out}" * bool(left_out)
     return f"{settings['tier']} tier · {data.outcome.size} cells{beside} · {bad[0]} wrong, {bad[1]} not finite"

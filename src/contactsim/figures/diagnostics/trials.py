@@ -42,8 +42,8 @@ def tabulated(found: xr.Dataset, spent: list[dict]) -> pd.DataFrame:
     """One row a scene: what was asked and reached, cost over the least, seconds predicted and spent."""
     table = pd.concat([found.to_dataframe().reset_index(), pd.DataFrame(spent)], axis=1)
     return table.assign(
-        met=table.true_error <= table.asked,
-        cost=table.work / table.least_work,
+        met=table.true_error <= table.requested_error,
+        cost=table.work / table.min_work,
         cost_in_seconds=table.seconds / table.least,
         prediction=table.predicted / table.seconds,
     )
@@ -58,7 +58,7 @@ def _footer(table: pd.DataFrame, plan: Mapping) -> str:
             f"{int(table.met.sum())} of {len(table)} scenes within the error asked for",
             f"median cost {table.cost.median():.3g} times the least ({table.cost_in_seconds.median():.3g} in seconds)",
             f"time within a factor of two in {int(near.sum())} of {len(table)}",
-            f"refined in {int((table.solved > 2).sum())}",
+            f"refined in {int((table.solve_count > 2).sum())}",
         ]
     )
 
@@ -71,13 +71,15 @@ def draw(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
         look = {"marker": marker, "color": color, "ls": "", "ms": 5, "mfc": "white"}
         if rows.empty:
             continue
-        errors.plot(rows.asked, np.maximum(rows.true_error, LEAST), label=words, **look)
-        cost.plot(rows.true_error.clip(lower=LEAST) / rows.asked, rows.cost, **look)
+        errors.plot(rows.requested_error, np.maximum(rows.true_error, LEAST), label=words, **look)
+        cost.plot(rows.true_error.clip(lower=LEAST) / rows.requested_error, rows.cost, **look)
         seconds.plot(rows.seconds, rows.predicted, **look)
-    ends = np.array([table.asked.min() / 1.5, table.asked.max() * 1.5])
+    ends = np.array([table.requested_error.min() / 1.5, table.requested_error.max() * 1.5])
     errors.plot(ends, ends, color=style.EXACT, lw=0.8)
     errors.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="true relative error")
-    errors.set_xticks(sorted(set(table.asked)), [f"{value:g}" for value in sorted(set(table.asked))])
+    errors.set_xticks(
+        sorted(set(table.requested_error)), [f"{value:g}" for value in sorted(set(table.requested_error))]
+    )
     errors.minorticks_off()
     errors.legend(fontsize=6.5)
     cost.axvline(1, color=style.EXACT, lw=0.8)
