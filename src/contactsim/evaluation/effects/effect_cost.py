@@ -33,7 +33,7 @@ KEYS = {
 
 
 def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
-    """Settings of the study of cost: how it is shown; name, title and run of each variant; None without effects.yaml."""
+    """Return the settings of the study of costs, with name, title and run of each variant; None without the file."""
     given = tiered(Path(folder) / "effects.yaml", over, tier)
     if given is None:
         return None
