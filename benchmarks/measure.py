@@ -21,7 +21,7 @@ from contactsim.grid import Array, Grid, Tally
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
-from contactsim.study.scenes import scene_of
+from contactsim.study.scenes import build_scene
 
 CAP = 120
 """CPU seconds that one solution may take."""
@@ -47,7 +47,9 @@ def posed(plan: Plan, case: dict, loads: list[float], study: str = "rough_line")
     study = plan.studies[study]
     wanted = {"hurst": case["hurst"]}
     run = next(run for run in study.runs() if (run.coordinates, run.member) == (wanted, case["member"]))
-    scene = scene_of(run.settings | {"points": case["points"], "load": {"name": "reduced_pressure", "values": loads}})
+    scene = build_scene(
+        run.settings | {"points": case["points"], "load": {"name": "reduced_pressure", "values": loads}}
+    )
     return scene, scene.heights(case["points"])
 
 

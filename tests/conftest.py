@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import fcntl
 import json
-import math
 import os
 from concurrent.futures import ProcessPoolExecutor
+from importlib import import_module
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -15,12 +15,14 @@ from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.analysis import aggregate, costs
-from contactsim.error_control.neglect import decide, run
 from contactsim.figures.diagnostics.claims import render_claims
 from contactsim.figures.layout import render
 from contactsim.files import write_text
+from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
-from contactsim.study.scenes import scene_of
+from contactsim.study.select_effects import select_effects
+from contactsim.study.stages import STAGES
+from contactsim.study.study import Run
 from support.places import ROOT
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of processes that tests start; of this one, see below
@@ -32,15 +34,17 @@ def pytest_configure() -> None:
     threadpool_limits(1, "blas")
 
 
-def solved(job: tuple) -> None:
-    """One run, in a process of its own."""
-    run(*job)
+def compute_run(job: tuple[Run, RunFiles, Path | None, Path | None]) -> None:
+    """Compute one run, in a process of its own."""
+    run, files, decision, twin = job
+    neglect = {name: file for name, file in {"decision": decision, "twin": twin}.items() if file}
+    import_module(STAGES[run.stage][0]).run(run.settings, run.source, files, **neglect)
 
 
-def decided(job: tuple) -> None:
-    """What is negligible in a variant, in a process of its own."""
+def decide_run(job: tuple[dict, Path]) -> None:
+    """Select the effects that a variant neglects, in a process of its own."""
     settings, file = job
-    write_text(decide(settings, **settings["auto"]).text, file)
+    write_text(select_effects(settings).text, file)
 
 
 def shown(plan: Plan, name: str) -> None:
@@ -80,15 +84,15 @@ def make_quick_tier(folder: Path) -> None:
         plan = Plan.read(ROOT / "config", "quick")
         for study in plan.studies:
             for one, entry in zip(plan.studies[study].runs(), plan.study_settings(study)["runs"], strict=True):
-                files = entry["path"], entry["costs"]
-                jobs.append((one.settings, one.source, *files, 1, plan.decision(one), plan.twin(one)))
+                files = RunFiles(entry["path"], entry["costs"])
+                jobs.append((one, files, plan.decision(one), plan.twin(one)))
                 if plan.decision(one) and one.member == 0:
                     decisions.append((one.settings, plan.decision(one)))
-        jobs.sort(key=lambda job: -math.prod(scene_of(job[0]).upper.surface.shape(job[0]["points"])))
+        jobs.sort(key=lambda job: -job[0].setup.size)
         with ProcessPoolExecutor(2, get_context("spawn")) as pool:
-            list(pool.map(decided, decisions))
-            list(pool.map(solved, [job for job in jobs if not job[-1]]))
-            list(pool.map(solved, [job for job in jobs if job[-1]]))
+            list(pool.map(decide_run, decisions))
+            list(pool.map(compute_run, [job for job in jobs if not job[-1]]))
+            list(pool.map(compute_run, [job for job in jobs if job[-1]]))
         for study in plan.studies:
             settings, name = plan.study_settings(study), plan.dataset_name(study)
             data = aggregate.aggregate(settings["runs"], settings["settings"], settings["source"])

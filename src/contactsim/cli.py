@@ -12,6 +12,7 @@ import argparse
 import logging
 import sys
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,24 +20,25 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.tiers import difference_text, is_within
-from contactsim.contact.scene import Scene
-from contactsim.error_control.control import reach
-from contactsim.error_control.forecast import expectation, forecast_of
-from contactsim.error_control.neglect import without
-from contactsim.error_control.options import chosen
+from contactsim.error_control.control import solve_to_error
+from contactsim.error_control.effect_maps import neglect_effects
+from contactsim.error_control.forecast import Forecast, forecast_run
+from contactsim.error_control.options import choose_options
 from contactsim.errors import SceneError
 from contactsim.evaluation import budget
 from contactsim.explain import explain
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.forms import form_of
-from contactsim.solvers.registry import make_solver
+from contactsim.paths.driver import follow_path
+from contactsim.paths.options import Accuracy, Setup
 from contactsim.status import Status, is_solved
 from contactsim.study import tier_comparison
-from contactsim.study.execute import asked_of, labelled, simulate
+from contactsim.study.execute import label_run
 from contactsim.study.keys import COMPANIONS
 from contactsim.study.plan import Plan
 from contactsim.study.reading import load_yaml, whole
-from contactsim.study.scenes import increments_of, points_of, scene_of
+from contactsim.study.scenes import build_setup, updated_settings
+from contactsim.study.select_effects import select_effects
 from contactsim.study.study import Study
 
 DRAWN = (".png", ".pdf", ".svg")
@@ -78,13 +80,6 @@ def named(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
     return studies[scene]
 
 
-def first_scene(study: Study) -> tuple[Scene, dict, int]:
-    """Scene, settings and grid points of a study's first run."""
-    settings = study.runs()[0].settings
-    scene = scene_of(settings)
-    return scene, settings, points_of(settings, scene.upper.surface)
-
-
 SHOWN = (
     *(
         "mean_pressure",
@@ -108,16 +103,13 @@ def explain_scene(options: argparse.Namespace) -> None:
     if options.draw and Path(options.draw).suffix not in DRAWN:
         raise SceneError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
     study = named(options.scene, options.tier)
-    scene, settings, points = first_scene(study)
-    runs = len(study.runs())
-    sys.stdout.write(f"{study.settings['title']}: {points} points, {runs} run{'s' * (runs > 1)}\n")
-    increments = increments_of(settings) if "increments" in settings else None
-    told = explain(scene, points, settings["solver"]["kind"], increments, study.settings["leave_out"])
-    sys.stdout.write(told.text + "\n")
+    setup, runs = study.runs()[0].setup, len(study.runs())
+    sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
+    sys.stdout.write(explain(setup, study.settings["leave_out"]).text + "\n")
     if options.draw:
         from contactsim.figures.sketch import save_sketch
 
-        save_sketch(scene, points, options.draw)
+        save_sketch(setup.scene, setup.points, options.draw)
 
 
 def run_scene(options: argparse.Namespace) -> None:
@@ -172,17 +164,18 @@ def _reached(data: xr.Dataset) -> str:
 
 
 def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
-    """The simulation of a study's first run, as it asks for or to its accuracy; and the settings that it came to."""
-    settings, decided = without(study.runs()[0].settings)
-    if decided:
-        sys.stdout.write(f"{decided}\n")
-    if "accuracy" in settings:
-        found = reach(settings, **settings["accuracy"], threads=threads)
-        return found.data, found.last.settings
-    scene, method = scene_of(settings), make_solver(**settings["solver"])
-    points = points_of(settings, scene.upper.surface)
-    given = {"tolerance": settings["tolerance"], "method": method, "threads": threads}
-    return simulate(scene, points=points, **given, **asked_of(settings)), settings
+    """Return the simulation of a study's first run, and its settings with what was neglected and chosen."""
+    settings = study.runs()[0].settings
+    setup = build_setup(settings, threads)
+    if "auto" in settings:
+        decision = select_effects(settings)
+        sys.stdout.write(f"{decision.words}\n")
+        setup, settings = neglect_effects(setup, decision.left_out), settings | {"leave_out": decision.left_out}
+    accuracy = setup.options.accuracy
+    if accuracy is None:
+        return follow_path(setup), settings
+    controlled = solve_to_error(setup, accuracy.error, accuracy.quantities)
+    return controlled.data, updated_settings(settings, controlled.last.setup)
 
 
 def cost_scene(options: argparse.Namespace) -> None:
@@ -193,19 +186,50 @@ def cost_scene(options: argparse.Namespace) -> None:
         sys.stdout.write(budget.table("config", Plan.read("config", options.tier)))
         return
     study = named(options.scene, options.tier, options.accuracy)
-    runs = [run.settings for run in study.runs() if not run.companion]
+    runs = [run for run in study.runs() if not run.companion]
+    setups = [run.setup for run in runs]
     try:
         if options.accuracy is not None:
-            asked = {"of": []} | (study.settings["accuracy"] or {}) | {"error": options.accuracy}
-            runs = [chosen(settings, **asked) | {"accuracy": asked} for settings in runs]
-        sys.stdout.write(expectation(runs, [forecast_of(settings) for settings in runs]))
+            wanted = Accuracy(options.accuracy, tuple((study.settings["accuracy"] or {"of": ()})["of"]))
+            setups = [
+                choose_options(setup, wanted.error, wanted.quantities).with_options(accuracy=wanted) for setup in setups
+            ]
+        text = describe_forecasts(setups, [forecast_run(setup) for setup in setups])
+        note = "with all effects: what is negligible is found out by the run\n"
+        sys.stdout.write(text + note * ("auto" in runs[0].settings))
     except SceneError as error:
         raise error.within(study.file) from error
 
 
+def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -> str:
+    """Return forecasts in words: grid and cost of the first run, and the cost of all together."""
+    first, setup = forecasts[0], setups[0]
+    grid = f"{first.points} points, tolerance {setup.options.tolerance:.2g}"
+    if setup.scene.path.increment is not None:
+        increments = type(setup.options.increments).__name__.lower()
+        grid += f", increments of {setup.scene.path.increment:g} {increments}"
+    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
+    before = ", a coarser run before included" * (setup.options.accuracy is not None)
+    lines = [
+        f"grid         {grid}",
+        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
+        f"transforms   {first.transforms:.3g} of that grid{before}",
+        f"seconds      {first.seconds:.2g} of CPU on one thread",
+        f"memory       {first.megabytes:.3g} MB of arrays",
+        f"error        {errors} (relative, as expected of such scenes)",
+    ]
+    if len(setups) > 1:
+        seconds = sum(forecast.seconds for forecast in forecasts)
+        transforms = sum(forecast.transforms for forecast in forecasts)
+        lines.append(f"all {len(setups):4d} runs {seconds:.3g} s, {transforms:.3g} transforms")
+    unsure = dict.fromkeys(name for forecast in forecasts for name in forecast.unsure)
+    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
+    return "\n".join(lines) + "\n"
+
+
 def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
     """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
-    data = labelled(data, settings, [""] * data.step.size).drop_vars("point_digest")
+    data = label_run(data, settings, [""] * data.step.size).drop_vars("point_digest")
     form = form_of(data)
     return data if form.is_path else dataset.described(form.derive(data))
 

@@ -5,7 +5,6 @@ Everything said here is read off the scene and the solvers' own declarations, so
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
@@ -16,7 +15,8 @@ from contactsim.dataset import SETTINGS
 from contactsim.interface.pairing import Pairing
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.increments import Increments
-from contactsim.solvers.registry import SOLVERS, is_installed, make_solver, solver_class
+from contactsim.paths.options import Setup
+from contactsim.solvers.registry import SOLVERS, default_solver, is_installed, solver_class
 from contactsim.traits import Trait
 
 COMPONENTS = {"n": "normal", "t": "tangential"}
@@ -67,12 +67,19 @@ class Explanation:
         return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
 
 
-def explain(
-    scene: Scene, points: int, method: str, increments: Increments | None = None, asked: Sequence[str] = ()
-) -> Explanation:
-    """Explain a scene on a grid of `points`, with the solver named `method` and, of smooth laws, increments."""
-    chosen = make_solver(method)
-    size = math.prod(scene.upper.surface.shape(points))
+def explain(setup: Setup, neglected: Sequence[str] = ()) -> Explanation:
+    """Explain which effects of a scene act, which fields exist, and what an iteration costs.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options: grid, solver and increments.
+    neglected : sequence of str, optional
+        Effects that were neglected on request.
+    """
+    scene, options = setup.scene, setup.options
+    method = options.solver or default_solver(scene)
+    size, exerted = setup.size, len(scene.exerted)
     return Explanation(
         bodies=(_body(scene, "upper"), _body(scene, "lower")),
         effects={_name(effect): _effect(effect) for effect in scene.effects},
@@ -81,15 +88,15 @@ def explain(
             for component in scene.components
             for field in ("displacement", *["traction"] * (component in scene.exerted))
         ),
-        left_out=dict.fromkeys(asked, "as the study asks") | _left_out(scene),
+        left_out=dict.fromkeys(neglected, "as the study asks") | _left_out(scene),
         pairing=_described(scene.pairing) + _slide(scene),
-        unknowns=size * len(scene.exerted),
+        unknowns=size * exerted,
         steps=len(scene.path.steps),
-        increments="" if increments is None else _described(increments),
-        transforms=chosen.transforms(points) * (len(scene.exerted) if Trait.SMOOTH in scene.traits else 1),
-        megabytes=chosen.fields * len(scene.components) * size * 8 / 1e6,
+        increments="" if options.increments is None else _described(options.increments),
+        transforms=method.transforms(setup.points) * exerted,
+        megabytes=method.fields * len(scene.components) * size * 8 / 1e6,
         solvers={name: _why_not(scene, name) for name in SOLVERS},
-        chosen=method,
+        chosen=next(name for name in SOLVERS if is_installed(name) and type(method) is solver_class(name)),
     )
 
 

@@ -9,7 +9,6 @@ units nm, GPa, N/m, in which E* times a length is a line load without further fa
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import erf
 
 from contactsim.grid import Array, Grid
 
@@ -97,12 +96,16 @@ def complete_contact(heights: Array, length: float, contact_modulus: float) -> A
 
 def persson_area(reduced_pressure: Array) -> Array:
     """Relative contact area erf(√2 p*) of a rough surface (J. Chem. Phys. 115, 3840, doi:10.1063/1.1388626)."""
+    from scipy.special import erf  # takes longer to import than most of this package
+
     return erf(np.sqrt(2) * np.asarray(reduced_pressure))
 
 
 def line_area(reduced_pressure: Array, b1: float, b2: float) -> Array:
     """Relative contact area erf(√2 p*/Ψ), Ψ = b1 + (1 - b1) erf(b2 p*), of a rough line (Eq. 3.11)."""
     pressure = np.asarray(reduced_pressure)
+    from scipy.special import erf
+
     return persson_area(pressure / (b1 + (1 - b1) * erf(b2 * pressure)))
 
 

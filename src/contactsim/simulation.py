@@ -2,30 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from contextlib import nullcontext
-from inspect import signature
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
-from threadpoolctl import threadpool_limits
 
-from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
+from contactsim.contact.loading import approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
+from contactsim.error_control.control import solve_to_error
+from contactsim.error_control.effect_maps import neglect_effects
+from contactsim.error_control.forecast import Forecast, forecast_run
+from contactsim.error_control.neglect import Decision, decide_neglect
 from contactsim.errors import SceneError
 from contactsim.interface.hard_wall import HardWall
-from contactsim.paths.pressures import simulate_loads
-from contactsim.paths.record import simulate_path
+from contactsim.paths.driver import follow_path
+from contactsim.paths.increments import Increments
+from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.solvers.base import HardWallSolver, Result, require, solve
+from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import default_solver, make_solver
 from contactsim.surfaces.measured import Sampled
 from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
-from contactsim.traits import Trait
 
 
 def press(
@@ -75,10 +77,10 @@ def press(
     if (mean_pressure is None) == (approach is None):
         given = {"mean_pressure": mean_pressure, "approach": approach}
         raise SceneError("load", given, "exactly one of mean_pressure and approach")
-    path = loading.pressures([mean_pressure]) if approach is None else loading.approaches([approach])
+    path = pressures([mean_pressure]) if approach is None else approaches([approach])
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), path)
-    method = default_solver(scene) if solver is None else make_solver(solver) if isinstance(solver, str) else solver
+    method = _solver(solver) or default_solver(scene)
     require(method, scene)
     return solve(method, *pose_hard_wall(scene, path.steps[0], profile.heights, tolerance, threads))
 
@@ -95,41 +97,131 @@ def simulate(
     scene: Scene,
     *,
     points: int | None = None,
-    tolerance: float = 1e-3,
-    method: str | HardWallSolver | None = None,
+    tolerance: float | None = None,
+    accuracy: float | None = None,
+    quantities: Sequence[str] = (),
+    solver: str | HardWallSolver | CohesiveSolver | None = None,
+    increments: Increments | None = None,
+    snapshots: Sequence[float] | None = None,
+    keep: Sequence[str] | None = None,
+    keep_fields: bool | None = None,
     threads: int = 1,
-    **given: object,
 ) -> xr.Dataset:
-    """Follow a scene's load path; the workflow's runs are this function.
+    """Follow the load path of a scene.
 
-    points: of the grid along x, None for those of a measured surface; tolerance: in grid steps or, of smooth laws, in
-    parts of their strength; method: a solver or the name of one, None for the default one; given: what
-    `simulate_loads`, at a hard wall, or `simulate_path` takes besides, None being as good as left out.
-    Returns one dataset with dimension `step`: numbers and what is kept; and `seconds`, the one variable that is not
-    reproducible.
+    Grid, tolerance and increments are as given or, with an accuracy, chosen for it: the scene is then solved on two
+    grids, the error is estimated, and the grid is refined once if need be.
+
+    Parameters
+    ----------
+    scene : Scene
+        Bodies, effects and load path.
+    points : int, optional
+        Grid points along x; a measured surface comes with its own.
+    tolerance : float, optional
+        In grid steps at a hard wall, in parts of the strength with cohesive laws; 1e-3 by default.
+    accuracy : float, optional
+        Relative error of the quantities, in place of points, tolerance and increments.
+    quantities : sequence of str, optional
+        Quantities whose error counts; those usual for the scene by default.
+    solver : str or solver, optional
+        Name of a solver, or a solver with options of its own; the default solver of the scene where None.
+    increments : Increments, optional
+        How a path of cohesive laws is followed: `Requested()` (the default), `Adaptive(...)` or `Nested(...)`.
+    snapshots : sequence of float, optional
+        With cohesive laws: values of the path near which histograms and fields are kept.
+    keep : sequence of str, optional
+        At a hard wall: what to keep of each solution, some of "contact", "pressure", "profile" and "fields".
+    keep_fields : bool, optional
+        With cohesive laws: False to keep histograms alone at the snapshots.
+    threads : int
+        Threads of the transforms; results are the same bit for bit at one number of threads.
+
+    Returns
+    -------
+    xarray.Dataset
+        One dataset with dimension `step`: numbers, and what is kept. `seconds` is the one variable that is not
+        reproducible.
+
+    Raises
+    ------
+    InputError
+        For an option that the scene has no use for, a solver that does not accept it, or an accuracy that no
+        affordable grid reaches.
     """
-    method = default_solver(scene) if method is None else make_solver(method) if isinstance(method, str) else method
-    require(method, scene)
-    smooth = Trait.SMOOTH in scene.traits
-    _refuse_unused(smooth, given)
-    given = {name: value for name, value in given.items() if value is not None}  # the rest is as good as left out
-    given |= {"points": points or scene.upper.surface.points, "tolerance": tolerance, "threads": threads}
-    # on small dense systems more threads would only wait for each other
-    with threadpool_limits(threads, "blas") if smooth else nullcontext():
-        return FOLLOWED[smooth](scene, method, **given)
+    options = RunOptions(
+        points=points,
+        tolerance=1e-3 if tolerance is None else tolerance,
+        solver=_solver(solver),
+        threads=threads,
+        keep=None if keep is None else tuple(keep),
+        increments=increments,
+        snapshots=None if snapshots is None else tuple(snapshots),
+        keep_fields=keep_fields,
+    )
+    setup = Setup(scene, options)
+    if accuracy is None:
+        if quantities:
+            raise SceneError("quantities", list(quantities), "none without an accuracy")
+        return follow_path(setup)
+    for name, value in {"points": points, "tolerance": tolerance, "increments": increments}.items():
+        if value is not None:
+            raise SceneError(name, value, "left out, for it follows from the accuracy")
+    wanted = Accuracy(accuracy, tuple(quantities))
+    return solve_to_error(setup, wanted.error, wanted.quantities).data
 
 
-FOLLOWED = (simulate_loads, simulate_path)
-"""How a scene is followed: with a hard wall, and with smooth laws."""
+def estimate_cost(
+    scene: Scene,
+    *,
+    points: int | None = None,
+    tolerance: float = 1e-3,
+    accuracy: float | None = None,
+    quantities: Sequence[str] = (),
+    increments: Increments | None = None,
+) -> Forecast:
+    """Forecast work, time, memory and error of a simulation before it runs; parameters as in `simulate`.
+
+    Raises
+    ------
+    InputError
+        For a scene whose costs were not measured.
+    """
+    wanted = None if accuracy is None else Accuracy(accuracy, tuple(quantities))
+    options = RunOptions(points=points, tolerance=tolerance, accuracy=wanted, increments=increments)
+    return forecast_run(Setup(scene, options))
 
 
-def _refuse_unused(smooth: bool, given: Mapping[str, object]) -> None:
-    """SceneError for an option that is unknown or that such a scene has no use for."""
-    shared = list(signature(simulate).parameters)[1:-1]  # its own, but for the scene and what is given besides
-    kinds = [[name for name in list(signature(how).parameters)[2:] if name not in shared] for how in FOLLOWED]
-    used = ", ".join((*shared, *kinds[smooth]))
-    for key, value in given.items():
-        if key in kinds[not smooth] and value is not None:
-            raise SceneError(key, value, f"none with {'smooth laws' if smooth else 'a hard wall'}, only {used}")
-        if key not in kinds[0] + kinds[1]:
-            raise SceneError(key, value, f"no such option, but {used}")
+def neglect(
+    scene: Scene,
+    *,
+    within: float,
+    quantities: Sequence[str],
+    points: int,
+    tolerance: float = 1e-3,
+    increments: Increments | None = None,
+) -> tuple[Scene, Decision]:
+    """Return a scene without the effects that hardly change it, and why.
+
+    The effects are proposed by maps that were measured, and checked by solving the scene with and without them on a
+    coarser grid.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene with all its effects.
+    within : float
+        Relative change that the quantities may have.
+    quantities : sequence of str
+        Quantities to compare.
+    points, tolerance, increments
+        Grid, tolerance and increments that the scene will be simulated with; see `simulate`.
+    """
+    setup = Setup(scene, RunOptions(points=points, tolerance=tolerance, increments=increments))
+    decision = decide_neglect([setup], within, quantities)
+    return neglect_effects(setup, decision.left_out).scene, decision
+
+
+def _solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:
+    """Return a solver by its name, or the one that is given."""
+    return make_solver(solver) if isinstance(solver, str) else solver

@@ -4,33 +4,46 @@ from __future__ import annotations
 
 import logging
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 
 from contactsim import cli, dataset
-from contactsim.error_control import control, scaling
-from contactsim.error_control.control import outcome, reach
-from contactsim.error_control.forecast import forecast, forecast_of, forecast_to
-from contactsim.error_control.options import FEWEST, SIZES, at_least, chosen, coarser, left_open
+from contactsim.error_control import control, options
+from contactsim.error_control.control import Controlled, estimate_errors, solve_setup, solve_to_error
+from contactsim.error_control.forecast import forecast_run, forecast_setup, forecast_to_error
+from contactsim.error_control.options import (
+    GRID_FACTORS,
+    MIN_POINTS,
+    choose_options,
+    coarsen,
+    expect_error,
+    round_grid,
+)
 from contactsim.error_control.scaling import (
-    KINDS,
+    FAMILIES,
     LINE,
-    MEASURES,
     PATH,
+    QUANTITIES,
     ROUGH_PATH,
     SLIDE,
     SURFACE,
     Relation,
     features,
-    kind_of,
+    scaling_relations,
+    scene_family,
 )
 from contactsim.errors import SceneError
 from contactsim.evaluation.calibration.sampling import draw, read_draws
 from contactsim.evaluation.resources import told
-from contactsim.study.scenes import scene_of
-from contactsim.study.study import Study
+from contactsim.paths.increments import Adaptive
+from contactsim.paths.options import Setup
+from contactsim.solvers.registry import make_solver
+from contactsim.study import execute_to_accuracy
+from contactsim.study.execute import RunFiles
+from contactsim.study.study import Run, Study
 from support.cases import refused
 from support.places import ROOT
 
@@ -63,12 +76,12 @@ def study(section: dict, **more: object) -> Study:
     return Study.read("one", {"title": "One"} | section | more, "file", 1)
 
 
-def settings_of(section: dict, **more: object) -> dict:
-    return study(section, **more).runs()[0].settings
+def setup_of(section: dict, **more: object) -> Setup:
+    return study(section, **more).runs()[0].setup
 
 
-def drawn(kind: str, count: int = 0) -> dict:
-    return draw(kind, DRAWS["kinds"][kind], 4, count).settings
+def drawn(family: str, count: int = 0) -> Run:
+    return draw(family, DRAWS["kinds"][family], 4, count)
 
 
 def test_a_relation_is_a_power_law_with_its_scatter():
@@ -77,53 +90,57 @@ def test_a_relation_is_a_power_law_with_its_scatter():
     assert law({"one": 1.0, "grid": 0.0}, 2.0) == pytest.approx(2 * np.exp(0.2))
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_relations_are_known_of_every_kind_and_errors_fall_with_the_grid(kind):
-    known = scaling.relations().kinds[kind]
-    assert set(MEASURES[kind]) <= set(known.errors["points"])
-    assert all(law.coefficients["grid"] >= 1 for law in known.errors["points"].values())
-    assert known.seconds["step"] > 0
-    assert 0 < known.begun <= 1.5
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_family_has_relations_and_errors_fall_with_the_grid(family):
+    relations = scaling_relations().families[family]
+    assert set(QUANTITIES[family]) <= set(relations.errors["points"])
+    assert all(relation.coefficients["grid"] >= 1 for relation in relations.errors["points"].values())
+    assert relations.seconds["step"] > 0
+    assert 0 < relations.warm_start <= 1.5
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_drawn_scenes_are_of_their_kind_the_same_each_time_and_within_their_ranges(kind):
-    one, again, other = drawn(kind), drawn(kind), drawn(kind, 1)
-    assert one == again
-    assert one != other
-    assert kind_of(scene_of(one)) == kind
-    if "hurst" in one["surface"]:
-        assert DRAWS["kinds"][kind]["hurst"][0] <= one["surface"]["hurst"] <= DRAWS["kinds"][kind]["hurst"][1]
+@pytest.mark.parametrize("family", FAMILIES)
+def test_drawn_scenes_are_of_their_family_the_same_each_time_and_within_their_ranges(family):
+    first, again, other = drawn(family), drawn(family), drawn(family, 1)
+    assert first.settings == again.settings
+    assert first.settings != other.settings
+    assert scene_family(first.setup.scene) == family
+    if "hurst" in first.settings["surface"]:
+        low, high = DRAWS["kinds"][family]["hurst"]
+        assert low <= first.settings["surface"]["hurst"] <= high
 
 
-@pytest.mark.parametrize("wanted", [1, FEWEST, 33, 100, 1000, 4097, 10**6])
+@pytest.mark.parametrize("wanted", [1, MIN_POINTS, 33, 100, 1000, 4097, 10**6])
 def test_grids_are_short_products_of_a_few_primes_and_never_too_small(wanted):
-    found = at_least(wanted)
-    assert found >= max(wanted, FEWEST)
-    assert found <= 1.3 * max(wanted, FEWEST)
-    assert any(found % size == 0 and (found // size) & (found // size - 1) == 0 for size in SIZES)
+    points = round_grid(wanted)
+    assert points >= max(wanted, MIN_POINTS)
+    assert points <= 1.3 * max(wanted, MIN_POINTS)
+    powers = [points // factor for factor in GRID_FACTORS if points % factor == 0]
+    assert any(power & (power - 1) == 0 for power in powers)
 
 
-@pytest.mark.parametrize(("kind", "finer"), [(LINE, 2.0), (SURFACE, 2.0), (PATH, 2.0)])
-def test_a_quarter_of_the_error_takes_twice_the_points_where_errors_are_of_second_order(kind, finer):
-    coarse, fine = (chosen(drawn(kind, 1), error)["points"] for error in (0.02, 0.005))
-    assert fine / coarse == pytest.approx(finer, rel=0.25)
+@pytest.mark.parametrize("family", [LINE, SURFACE, PATH])
+def test_a_quarter_of_the_error_takes_twice_the_points_where_errors_are_of_second_order(family):
+    coarse, fine = (choose_options(drawn(family, 1).setup, error).points for error in (0.02, 0.005))
+    assert fine / coarse == pytest.approx(2.0, rel=0.25)
 
 
-@pytest.mark.parametrize("kind", [PATH, ROUGH_PATH, SLIDE])
-def test_what_a_path_leaves_open_is_within_what_was_asked_for_and_its_companion_leaves_more(kind):
+@pytest.mark.parametrize("family", [PATH, ROUGH_PATH, SLIDE])
+def test_the_error_expected_of_a_path_is_within_the_wanted_one_and_that_of_its_companion_is_larger(family):
     for error in (0.01, 0.05):
-        found = chosen(drawn(kind), error)
-        known = scaling.relations().kinds[kind]
-        for name in MEASURES[kind]:
-            assert left_open(found, known, name) < 1.3 * error
-            assert left_open(coarser(found), known, name) > left_open(found, known, name)
+        setup = choose_options(drawn(family).setup, error)
+        relations = scaling_relations().families[family]
+        for name in QUANTITIES[family]:
+            expected = expect_error(setup, relations, name)
+            assert expected < 1.3 * error
+            assert expect_error(coarsen(setup), relations, name) > expected
 
 
 def test_the_choice_does_not_depend_on_the_grid_and_increments_that_a_run_has():
-    run = drawn(PATH)
-    other = run | {"points": 512, "tolerance": 1e-7, "load": run["load"] | {"increment": 0.37}}
-    assert chosen(run, 0.02) == chosen(other, 0.02)
+    setup = drawn(PATH).setup
+    other = setup.with_options(points=512, tolerance=1e-7).with_increment(0.37)
+    assert other != setup
+    assert choose_options(other, 0.02) == choose_options(setup, 0.02)
 
 
 def test_what_was_not_measured_is_refused():
@@ -170,91 +187,96 @@ def test_without_an_accuracy_tolerance_and_increments_are_required():
         study(plain, tolerance=1e-3)
 
 
-def true_error(found: control.Reached, factor: int) -> float:
-    """Against a grid that many times finer."""
-    settings = found.last.settings | {"points": found.last.points * factor, "tolerance": 1e-6}
-    if "increments" in settings:
-        settings["increments"] = {"kind": "adaptive"}
-    reference = outcome(settings, tuple(found.errors))
-    return max(float(np.max(np.abs(found.last.values[name] / reference.values[name] - 1))) for name in found.errors)
+def true_error(result: Controlled, factor: int) -> float:
+    """Return the error against a grid that many times finer."""
+    setup = result.last.setup.with_options(points=result.last.points * factor, tolerance=1e-6)
+    if setup.options.increments is not None:
+        setup = setup.with_options(increments=Adaptive())
+    reference = solve_setup(setup, tuple(result.errors))
+    return max(float(np.max(np.abs(result.last.values[name] / reference.values[name] - 1))) for name in result.errors)
 
 
 @pytest.mark.parametrize("error", [0.05, 0.01])
 def test_a_rough_line_is_as_accurate_as_was_asked_for(error):
-    found = reach(settings_of(LINE_SCENE), error)
-    assert found.met
-    assert true_error(found, 8) <= error
-    assert found.last.points > 2 * found.before[0].points
+    result = solve_to_error(setup_of(LINE_SCENE), error)
+    assert result.met
+    assert true_error(result, 8) <= error
+    assert result.last.points > 2 * result.before[0].points
 
 
 def test_an_adhesive_asperity_is_as_accurate_as_was_asked_for():
-    found = reach(settings_of(ASPERITY), 0.03)
-    assert found.met
-    assert true_error(found, 4) <= 0.03
-    assert set(found.errors) == set(MEASURES[PATH])
+    result = solve_to_error(setup_of(ASPERITY), 0.03)
+    assert result.met
+    assert true_error(result, 4) <= 0.03
+    assert set(result.errors) == set(QUANTITIES[PATH])
 
 
-@pytest.mark.parametrize("kind", [LINE, SURFACE])
-def test_a_run_that_begins_from_its_companion_takes_fewer_transforms_to_the_same_contact(kind):
-    run = chosen(drawn(kind, 2 if kind == LINE else 1), 0.05) | {"tolerance": 1e-4}
-    before = outcome(coarser(run) | {"keep": ["fields"]}, MEASURES[kind])
-    begun, alone = outcome(run, MEASURES[kind], 1, before), outcome(run, MEASURES[kind])
-    assert begun.transforms < alone.transforms
-    name = MEASURES[kind][0]
-    assert begun.values[name] == pytest.approx(alone.values[name], rel=2e-3)
+@pytest.mark.parametrize("family", [LINE, SURFACE])
+def test_a_run_that_begins_from_its_companion_takes_fewer_transforms_to_the_same_contact(family):
+    names = QUANTITIES[family]
+    setup = choose_options(drawn(family, 2 if family == LINE else 1).setup, 0.05).with_options(tolerance=1e-4)
+    coarse = solve_setup(coarsen(setup).with_options(keep=("fields",)), names)
+    warm, cold = solve_setup(setup, names, coarse), solve_setup(setup, names)
+    assert warm.transforms < cold.transforms
+    assert warm.values[names[0]] == pytest.approx(cold.values[names[0]], rel=2e-3)
+
+
+def run_to_accuracy(run: Run, folder: Path, name: str = "run") -> Path:
+    """Compute a run of a study into a folder; return the file of its dataset."""
+    files = RunFiles(folder / f"{name}.nc", folder / f"{name}.json")
+    execute_to_accuracy.run(run.settings, "source", files)
+    return files.data
 
 
 def test_a_grid_that_was_too_hopeful_is_refined_and_an_error_that_is_still_missed_is_told(
     monkeypatch, caplog, tmp_path
 ):
-    true = scaling.relations()
-    line = true.kinds[LINE]
+    true = scaling_relations()
+    line = true.families[LINE]
     hopeful = {
         knob: {
-            name: Relation(law.coefficients | {"one": law.coefficients["one"] - 4}, law.spread)
-            for name, law in laws.items()
+            name: Relation(relation.coefficients | {"one": relation.coefficients["one"] - 4}, relation.spread)
+            for name, relation in relations.items()
         }
-        for knob, laws in line.errors.items()
+        for knob, relations in line.errors.items()
     }
-    wrong = replace(true, kinds=true.kinds | {LINE: replace(line, errors=hopeful)})
-    monkeypatch.setattr(control, "relations", lambda: wrong)
-    run = settings_of(LINE_SCENE)
-    monkeypatch.setattr("contactsim.error_control.options.relations", lambda: wrong)
-    found = reach(run, 0.005)
-    assert len(found.before) == 2
-    assert found.last.points > found.before[1].points > found.before[0].points
-    assert found.data.refinements == 1
-    assert bool(found.data.reached) == found.met
-    monkeypatch.setattr(control.Reached, "met", property(lambda self: False))
+    wrong = replace(true, families=true.families | {LINE: replace(line, errors=hopeful)})
+    run = study(LINE_SCENE).runs()[0]
+    for module in (control, options):
+        monkeypatch.setattr(module, "scaling_relations", lambda: wrong)
+    result = solve_to_error(run.setup, 0.005)
+    assert len(result.before) == 2
+    assert result.last.points > result.before[1].points > result.before[0].points
+    assert result.data.refinements == 1
+    assert bool(result.data.reached) == result.met
+    monkeypatch.setattr(Controlled, "met", property(lambda self: False))
     with caplog.at_level(logging.WARNING):
-        control.run(run, "source", tmp_path / "a.nc", tmp_path / "a.json")
+        file = run_to_accuracy(run, tmp_path)
     assert "is not reached" in caplog.text
-    assert dataset.read(tmp_path / "a.nc").reached == 0
+    assert dataset.read(file).reached == 0
 
 
 def test_a_run_stores_its_estimate_what_it_was_asked_for_and_all_that_it_cost(tmp_path):
-    run = settings_of(LINE_SCENE)
-    control.run(run, "source", tmp_path / "a.nc", tmp_path / "a.json")
-    data = dataset.read(tmp_path / "a.nc")
+    run = study(LINE_SCENE).runs()[0]
+    file = run_to_accuracy(run, tmp_path)
+    data = dataset.read(file)
     assert data.accuracy == 0.02
     assert data.reached == 1
     assert data.relative_contact_area_subgrid_estimated_error.dims == ("reduced_pressure",)
     assert (data.relative_contact_area_subgrid_estimated_error <= 0.02 * data.relative_contact_area_subgrid).all()
     assert data.points_before < data.points
     assert data.transforms_before > 0
-    again = tmp_path / "b.nc"
-    control.run(run, "source", again, tmp_path / "b.json")
-    assert again.read_bytes() == (tmp_path / "a.nc").read_bytes()
+    assert dataset.settings_of(data)["points"] == data.points
+    assert run_to_accuracy(run, tmp_path, "again").read_bytes() == file.read_bytes()
 
 
-def test_a_quantity_that_only_one_of_two_runs_has_is_of_no_known_error():
-    settings = settings_of(ASPERITY)
-    one = outcome(settings | {"tolerance": 1e-4}, MEASURES[PATH])
-    lost = replace(one, values=one.values | {"pull_off_load_loading": np.array([np.nan])})
-    known = scaling.relations().kinds[PATH]
-    assert np.isinf(control.estimated(one, lost, known, ["pull_off_load_loading"])["pull_off_load_loading"])
-    both = control.estimated(lost, lost, known, ["pull_off_load_loading"])["pull_off_load_loading"]
-    assert both == control._expected(lost, known, "pull_off_load_loading")
+def test_the_error_of_a_quantity_that_only_one_of_two_runs_has_is_unknown():
+    name = "pull_off_load_loading"
+    solution = solve_setup(setup_of(ASPERITY).with_options(tolerance=1e-4), QUANTITIES[PATH])
+    without = replace(solution, values=solution.values | {name: np.array([np.nan])})
+    relations = scaling_relations().families[PATH]
+    assert np.isinf(estimate_errors(solution, without, relations, [name])[name])
+    assert estimate_errors(without, without, relations, [name])[name] == expect_error(solution.setup, relations, name)
 
 
 def test_each_variant_gets_the_grid_that_its_own_scene_needs():
@@ -264,22 +286,22 @@ def test_each_variant_gets_the_grid_that_its_own_scene_needs():
     assert all(run.settings["accuracy"] == {"error": 0.02, "of": []} for run in runs)
 
 
-@pytest.mark.parametrize("kind", [LINE, PATH])
-def test_a_forecast_is_near_what_a_run_takes(kind):
-    run = drawn(kind, 2)
-    expected, found = forecast_to(run, 0.03), reach(run, 0.03)
-    spent = found.work * found.last.size
-    assert 1 / 3 < expected.transforms * expected.points / spent < 3
-    assert expected.points == chosen(run, 0.03)["points"]
+@pytest.mark.parametrize("family", [LINE, PATH])
+def test_a_forecast_is_near_what_a_run_takes(family):
+    setup = drawn(family, 2).setup
+    forecast, result = forecast_to_error(setup, 0.03), solve_to_error(setup, 0.03)
+    spent = result.work * result.last.size
+    assert 1 / 3 < forecast.transforms * forecast.points / spent < 3
+    assert forecast.points == choose_options(setup, 0.03).points
 
 
 def test_a_forecast_tells_what_it_does_not_know():
-    run = settings_of(LINE_SCENE)
+    setup = setup_of(LINE_SCENE)
     with refused("solver.kind", "were not measured"):
-        forecast(run | {"solver": {"kind": "polonsky_keer"}})
-    steep = settings_of(LINE_SCENE, load={"reduced_pressure": [1e-6]}, accuracy=0.3)
-    assert "area" in forecast(steep).unsure
-    assert forecast_of(run).transforms > forecast(run).transforms * 0.5
+        forecast_setup(setup.with_options(solver=make_solver("polonsky_keer")))
+    light = setup_of(LINE_SCENE, load={"reduced_pressure": [1e-6]}, accuracy=0.3)
+    assert "area" in forecast_setup(light).unsure
+    assert forecast_run(setup).transforms > forecast_setup(setup).transforms * 0.5
 
 
 def test_the_shell_tells_the_cost_of_a_scene_and_runs_it_to_its_accuracy(tmp_path, capsys):
@@ -315,10 +337,9 @@ def test_what_lies_ahead_is_told_with_what_is_not_known(tmp_path):
 
 
 def test_features_do_not_depend_on_units():
-    run = settings_of(LINE_SCENE)
-    scaled = run | {
-        "surface": run["surface"]
-        | {name: 10 * run["surface"][name] for name in ("length", "rolloff_wavelength", "shortest_wavelength")}
-    }
-    for one, two in zip(features(scene_of(run)), features(scene_of(scaled)), strict=True):
-        assert one == pytest.approx(two)
+    surface = LINE_SCENE["surface"]
+    lengths = ("length", "rolloff_wavelength", "shortest_wavelength")
+    larger = surface | {name: 10 * surface[name] for name in lengths}
+    setups = setup_of(LINE_SCENE), setup_of(LINE_SCENE, surface=larger)
+    for original, scaled in zip(*(features(setup.scene) for setup in setups), strict=True):
+        assert scaled == pytest.approx(original)

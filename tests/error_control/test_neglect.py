@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.error_control import effect_maps, neglect
-from contactsim.error_control.effect_maps import change, expected, reduced
-from contactsim.error_control.neglect import decide, effects_of, foreseen, run
+from contactsim.error_control.effect_maps import change_without, expected_change, neglect_effects
+from contactsim.error_control.neglect import decide_neglect, expected_neglect, neglectable_effects
 from contactsim.evaluation.effects.survey import as_text, measure, read_maps
+from contactsim.paths.options import Setup
+from contactsim.study import execute_neglecting
+from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
-from contactsim.study.scenes import scene_of
-from contactsim.study.study import Study
+from contactsim.study.study import Run, Study
 from contactsim.surfaces.self_affine import SelfAffine, generator
 from support.cases import refused
 from support.places import ROOT
@@ -37,31 +41,39 @@ def study(**more: object) -> Study:
     return Study.read("asperity", ASPERITY | more, "file", 1)
 
 
-def settings_of(ratio: float = 0.3, work: float = 0.1, **more: object) -> dict:
+PULL_OFF = ["pull_off_load_loading"]
+
+
+def run_of(ratio: float = 0.3, work: float = 0.1, **more: object) -> Run:
     body = ASPERITY["body"] | {"poisson_ratio": ratio}
     law = ASPERITY["cohesive_zone"] | {"work_ratio": work}
-    return study(body=body, cohesive_zone=law, **more).runs()[0].settings
+    return study(body=body, cohesive_zone=law, **more).runs()[0]
+
+
+def setup_of(ratio: float = 0.3, work: float = 0.1, **more: object) -> Setup:
+    return run_of(ratio, work, **more).setup
+
+
+def coupling_change(ratio: float, work: float, **more: object) -> float | None:
+    """Return the change that the maps expect without the coupling."""
+    return expected_change(setup_of(ratio, work, **more).scene, "coupling")
 
 
 def test_the_thesis_three_conditions_are_on_the_map():
-    def coupling(ratio: float, work: float, spacing: float = 0.4) -> float:
-        """Largest change of pull-off and contact length without the coupling."""
-        surface = {"kind": "cylinder", "radius": 25000.0, "length": spacing * 25000.0}
-        return expected(settings_of(ratio, work, surface=surface), "coupling")
-
-    assert coupling(0.1, 0.0) > 0.1
-    assert coupling(0.1, 3.0) < 0.5 * coupling(0.1, 0.0)  # large friction
-    assert coupling(0.49, 0.0) < 0.1 * coupling(0.1, 0.0)  # an incompressible solid
-    assert coupling(0.3, 0.0, 0.04) < 0.5 * coupling(0.3, 0.0)  # closely spaced contacts
+    large = coupling_change(0.1, 0.0)
+    assert large > 0.1
+    assert coupling_change(0.1, 3.0) < 0.5 * large  # large friction
+    assert coupling_change(0.49, 0.0) < 0.1 * large  # an incompressible solid
+    close = ASPERITY["surface"] | {"length": 0.04 * ASPERITY["surface"]["radius"]}
+    assert coupling_change(0.3, 0.0, surface=close) < 0.5 * coupling_change(0.3, 0.0)  # closely spaced contacts
 
 
 def test_between_places_of_a_map_the_largest_change_around_counts_and_beyond_it_nothing_is_known():
-    corners = [expected(settings_of(ratio, 0.1), "coupling") for ratio in (0.3, 0.4)]
-    assert expected(settings_of(0.35, 0.1), "coupling") == max(corners)
-    assert expected(settings_of(0.4999, 0.1), "coupling") is None
-    assert expected(settings_of(0.3, 0.1, counter_body=ASPERITY["body"]), "coupling") is None
-    flat = {"kind": "flat", "length": 10000.0}
-    assert expected(settings_of(0.3, 0.1) | {"surface": flat}, "coupling") is None
+    corners = [coupling_change(ratio, 0.1) for ratio in (0.3, 0.4)]
+    assert coupling_change(0.35, 0.1) == max(corners)
+    assert coupling_change(0.4999, 0.1) is None
+    assert coupling_change(0.3, 0.1, counter_body=ASPERITY["body"]) is None
+    assert coupling_change(0.3, 0.1, surface={"kind": "flat", "length": 10000.0}) is None
 
 
 def test_a_map_is_the_change_that_two_solutions_show():
@@ -80,11 +92,11 @@ def test_a_map_is_the_change_that_two_solutions_show():
 
 def test_the_frozen_maps_are_those_of_the_config():
     settings = read_maps(ROOT / "config", {}, "standard")
-    assert set(effect_maps.maps()) == set(settings["maps"])
-    for name, one in effect_maps.maps().items():
-        assert one["axes"] == settings["maps"][name]["axes"], name
-        assert len(one["change"]) == np.prod([len(axis["values"]) for axis in one["axes"].values()])
-        assert all(np.isfinite(one["change"]))
+    assert set(effect_maps.effect_maps()) == set(settings["maps"])
+    for name, section in effect_maps.effect_maps().items():
+        assert section["axes"] == settings["maps"][name]["axes"], name
+        assert len(section["change"]) == np.prod([len(axis["values"]) for axis in section["axes"].values()])
+        assert all(np.isfinite(section["change"]))
 
 
 @pytest.mark.parametrize(
@@ -120,110 +132,102 @@ def test_what_a_map_cannot_be_is_refused(over, key, allowed):
         read_maps(ROOT / "config", over, "quick")
 
 
-def test_only_effects_that_a_run_has_can_be_left_out_of_it():
-    assert set(effects_of(settings_of(0.3, 0.1))) == {"friction", "coupling", "compressibility", "height"}
-    assert "friction" not in effects_of(settings_of(0.3, 0.0))
-    assert "compressibility" not in effects_of(settings_of(0.5, 0.1))
+def test_only_effects_that_a_scene_has_can_be_neglected():
+    effects = neglectable_effects(setup_of(0.3, 0.1).scene)
+    assert set(effects) == {"friction", "coupling", "compressibility", "height"}
+    assert "friction" not in neglectable_effects(setup_of(0.3, 0.0).scene)
+    assert "compressibility" not in neglectable_effects(setup_of(0.5, 0.1).scene)
 
 
 def test_an_effect_that_maps_and_sample_find_negligible_is_left_out_and_another_stays():
-    less = decide(settings_of(0.49, 0.0), 0.05, ["pull_off_load_loading"], 1)
-    assert "coupling" in less.left_out
-    assert less.together <= 0.05
-    assert "coupling left out" in less.words
-    assert less.work > 0
-    whole = decide(settings_of(0.0, 0.0), 0.05, ["pull_off_load_loading"], 1)
-    assert "coupling" not in whole.left_out
-    assert "coupling kept" in whole.words
-    assert "as no map knows: height" in whole.words
-    assert json.loads(less.text)["left_out"] == less.left_out
-    assert "seconds" not in json.loads(less.text)
+    nearly = decide_neglect([setup_of(0.49, 0.0)], 0.05, PULL_OFF)
+    assert "coupling" in nearly.left_out
+    assert nearly.together <= 0.05
+    assert "coupling left out" in nearly.words
+    assert nearly.work > 0
+    compressible = decide_neglect([setup_of(0.0, 0.0)], 0.05, PULL_OFF)
+    assert "coupling" not in compressible.left_out
+    assert "coupling kept" in compressible.words
+    assert "as no map knows: height" in compressible.words
+    assert json.loads(nearly.text)["left_out"] == nearly.left_out
+    assert "seconds" not in json.loads(nearly.text)
 
 
 def test_the_measured_change_decides_against_the_map(monkeypatch):
-    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.001)
-    found = decide(settings_of(0.0, 0.0), 0.05, ["pull_off_load_loading"], 1)
-    assert found.measured["coupling"] > 0.05
-    assert "coupling" not in found.left_out
+    monkeypatch.setattr(neglect, "expected_change", lambda scene, effect: 0.001)
+    decision = decide_neglect([setup_of(0.0, 0.0)], 0.05, PULL_OFF)
+    assert decision.measured["coupling"] > 0.05
+    assert "coupling" not in decision.left_out
 
 
 def test_of_effects_that_are_too_much_together_the_largest_is_put_back(monkeypatch):
     changes = {"friction": 0.01, "coupling": 0.03, "compressibility": 0.04, "height": 0.2}
-    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.001)
-    monkeypatch.setattr(neglect, "change", lambda run, names, of, known: sum(changes[name] for name in names))
-    found = decide(settings_of(), 0.05, ["pull_off_load_loading"], 1)
-    assert found.left_out == ["friction", "coupling"]
-    assert found.together == pytest.approx(0.04)
+    monkeypatch.setattr(neglect, "expected_change", lambda scene, effect: 0.001)
+    monkeypatch.setattr(neglect, "change_without", lambda setup, effects, *rest: sum(changes[name] for name in effects))
+    decision = decide_neglect([setup_of()], 0.05, PULL_OFF)
+    assert decision.left_out == ["friction", "coupling"]
+    assert decision.together == pytest.approx(0.04)
 
 
 def test_an_effect_far_from_negligible_is_not_even_checked(monkeypatch):
-    monkeypatch.setattr(neglect, "expected", lambda run, name: 0.9)
-    monkeypatch.setattr(neglect, "change", lambda *given: pytest.fail("checked"))
-    assert decide(settings_of(), 0.05, ["pull_off_load_loading"], 1).left_out == []
+    monkeypatch.setattr(neglect, "expected_change", lambda scene, effect: 0.9)
+    monkeypatch.setattr(neglect, "change_without", lambda *arguments: pytest.fail("checked"))
+    assert decide_neglect([setup_of()], 0.05, PULL_OFF).left_out == []
 
 
-def test_runs_whose_scenes_are_the_same_without_an_effect_are_the_same():
-    one, two = (settings_of(0.45, work) for work in (0.0, 0.5))
-    assert reduced(one) != reduced(two)
-    assert reduced(one | {"leave_out": ["coupling"]}) == reduced(two | {"leave_out": ["coupling"]})
-    assert reduced(one | {"leave_out": ["coupling"]}) != reduced(settings_of(0.3, 0.0) | {"leave_out": ["coupling"]})
+def test_setups_have_the_same_fingerprint_where_their_scenes_are_the_same_without_an_effect():
+    frictionless, frictional, other = setup_of(0.45, 0.0), setup_of(0.45, 0.5), setup_of(0.3, 0.0)
+    assert frictionless.fingerprint != frictional.fingerprint
+    uncoupled = [neglect_effects(setup, ["coupling"]).fingerprint for setup in (frictionless, frictional, other)]
+    assert uncoupled[0] == uncoupled[1]
+    assert uncoupled[0] != uncoupled[2]
 
 
 def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(monkeypatch):
     values = iter([np.nan, 3.0, np.nan, np.nan, 2.0, 3.0])
-    monkeypatch.setattr(
-        effect_maps, "_solved", lambda *given: SimpleNamespace(values={"a": np.array([next(values)])}, solved=True)
-    )
-    assert change({}, ["coupling"], ["a"]) == np.inf
-    assert change({}, ["coupling"], ["a"]) == np.inf  # nothing can be said of what neither has
-    assert change({}, ["coupling"], ["a"]) == 0.5
+    solutions = (SimpleNamespace(values={"a": np.array([value])}, solved=True) for value in values)
+    monkeypatch.setattr(effect_maps, "solve_setup", lambda setup, quantities: next(solutions))
+    setup = setup_of()
+    assert change_without(setup, ["coupling"], ["a"]) == np.inf
+    assert change_without(setup, ["coupling"], ["a"]) == np.inf  # nothing can be said of what neither has
+    assert change_without(setup, ["coupling"], ["a"]) == 0.5
 
 
 def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_taken_over(tmp_path):
-    one, two = (settings_of(0.49, work, points=128) for work in (0.0, 0.5))
+    frictionless, frictional = (run_of(0.49, work, points=128) for work in (0.0, 0.5))
+
+    def compute(run: Run, name: str, decision: Path, twin: Path | None = None) -> xr.Dataset:
+        """Return the dataset of a run that neglects what was decided."""
+        files = RunFiles(tmp_path / f"{name}.nc", tmp_path / f"{name}.json")
+        execute_neglecting.run(run.settings, "source", files, decision=decision, twin=twin)
+        return dataset.read(files.data)
+
     decision = tmp_path / "decision.json"
-    decision.write_text(decide(one, 0.05, ["pull_off_load_loading"], 1).text)
-    left = json.loads(decision.read_text())["left_out"]
-    assert "coupling" in left
-    run(one, "source", tmp_path / "one.nc", tmp_path / "one.json", decision=decision)
-    data = dataset.read(tmp_path / "one.nc")
-    assert data.left_out.item() == ", ".join(left)
+    decision.write_text(decide_neglect([frictionless.setup], 0.05, PULL_OFF).text)
+    left_out = json.loads(decision.read_text())["left_out"]
+    assert "coupling" in left_out
+    data = compute(frictionless, "first", decision)
+    assert data.left_out.item() == ", ".join(left_out)
     assert data.left_out_change <= 0.05
     assert data.transforms_of_check > 0
-    run(
-        two,
-        "source",
-        tmp_path / "two.nc",
-        tmp_path / "two.json",
-        decision=decision,
-        twin=tmp_path / "one.nc",
-    )
-    other = dataset.read(tmp_path / "two.nc")
-    assert (other.line_load == data.line_load).all()
-    assert other.transforms.sum() == 0
-    assert (other.point_digest != data.point_digest).all()
-    other_decision = tmp_path / "other.json"
-    other_decision.write_text(json.dumps(json.loads(decision.read_text()) | {"left_out": []}))
-    run(
-        two,
-        "source",
-        tmp_path / "three.nc",
-        tmp_path / "three.json",
-        decision=other_decision,
-        twin=tmp_path / "one.nc",
-    )
-    assert dataset.read(tmp_path / "three.nc").transforms.sum() > 0
+    same = compute(frictional, "same", decision, twin=tmp_path / "first.nc")
+    assert (same.line_load == data.line_load).all()
+    assert same.transforms.sum() == 0
+    assert (same.point_digest != data.point_digest).all()
+    nothing = tmp_path / "nothing.json"
+    nothing.write_text(json.dumps(json.loads(decision.read_text()) | {"left_out": []}))
+    assert compute(frictional, "whole", nothing, twin=tmp_path / "first.nc").transforms.sum() > 0
 
 
 def test_chapter_5_leaves_the_coupling_out_where_it_is_negligible_and_simulates_such_variants_once():
     plan = Plan.read(ROOT / "config", "standard")
-    runs = [one for one in plan.studies["rough_adhesive_auto"].runs() if not one.companion]
-    twins = {one.stem: plan.twin(one) for one in runs}
-    for one in runs:
-        place = one.coordinates["poisson_ratio"], one.coordinates["work_ratio"]
-        assert "coupling" in foreseen(one.settings, 0.05) if place[0] == 0.45 else True
-        assert bool(twins[one.stem]) == (place == (0.45, 0.5)), place
-    assert all(plan.decision(one) for one in runs)
+    runs = [run for run in plan.studies["rough_adhesive_auto"].runs() if not run.companion]
+    for run in runs:
+        place = run.coordinates["poisson_ratio"], run.coordinates["work_ratio"]
+        if place[0] == 0.45:
+            assert "coupling" in expected_neglect(run.setup.scene, 0.05)
+        assert bool(plan.twin(run)) == (place == (0.45, 0.5)), place
+    assert all(plan.decision(run) for run in runs)
 
 
 @pytest.mark.parametrize(
@@ -264,9 +268,8 @@ def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
 
 
 def test_a_second_body_and_short_waves_are_left_out_where_there_are_such():
-    stiff = ASPERITY["body"] | {"youngs_modulus": 700.0}
-    scene = scene_of(settings_of(counter_body=stiff) | {"leave_out": []})
-    assert simplify(scene, ["second_body"]).upper.elasticity is None
-    soft = scene_of(settings_of(counter_body=ASPERITY["body"] | {"youngs_modulus": 7.0}) | {"leave_out": []})
+    stiff = setup_of(counter_body=ASPERITY["body"] | {"youngs_modulus": 700.0}).scene
+    assert simplify(stiff, ["second_body"]).upper.elasticity is None
+    soft = setup_of(counter_body=ASPERITY["body"] | {"youngs_modulus": 7.0}).scene
     assert simplify(soft, ["second_body"]).lower.elasticity is None
     assert set(SIMPLIFICATIONS) >= {"second_body", "short_waves"}

@@ -18,9 +18,9 @@ from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.figures.sketch import save_sketch
 from contactsim.interface.hard_wall import HardWall
+from contactsim.simulation import simulate
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver
-from contactsim.study.execute import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from support.cases import ALL, press, rough
 

@@ -9,9 +9,9 @@ import yaml
 
 from contactsim.errors import SceneError
 from contactsim.evaluation.work_precision import case_config, cases, error_cost
+from contactsim.simulation import simulate
 from contactsim.solvers import registry as solver_registry
 from contactsim.status import Status
-from contactsim.study.execute import simulate
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study

@@ -12,8 +12,8 @@ import contactsim
 from contactsim import dataset
 from contactsim.errors import SceneError
 from contactsim.figures import ch3, maps
+from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
-from contactsim.study.execute import simulate
 from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study
 

@@ -24,7 +24,7 @@ from contactsim.observables.adhesion import (
     pull_off,
     summarised,
 )
-from contactsim.study.execute import simulate
+from contactsim.simulation import simulate
 from contactsim.study.law_table import tabulated
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.surfaces.statistics import local_squares, rms_gradient

@@ -12,7 +12,7 @@ from contactsim import status
 from contactsim.contact.loading import approaches
 from contactsim.dataset import described
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
-from contactsim.study.execute import simulate
+from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Sinusoid
 from support.smooth import LENGTH, along, scene_of
 

@@ -15,9 +15,9 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.continuation import PathState, Walk
 from contactsim.paths.increments import Nested
+from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
 from contactsim.study import execute
-from contactsim.study.execute import simulate
 from contactsim.study.plan import Plan
 from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.surfaces.shapes import Flat

@@ -10,7 +10,7 @@ def bundle_titles():
 
 def bundle_data():
     data = {PLAN.dataset_name(name): PLAN.study_settings(name) for name in PLAN.studies}
-    data |= {"stability": PLAN.map_settings()} if PLAN.stability else {}
+    data |= {"stability": survey.map_settings(HAZARDS, PLAN)} if HAZARDS else {}
     data |= {"effects": effect_cost.plan(LADDER)} if LADDER else {}
     return data | ({"trials": validation.figure(DRAWS, PLAN.tier)} if DRAWS else {})
 

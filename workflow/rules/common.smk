@@ -11,10 +11,12 @@ from contactsim.evaluation import resources
 from contactsim.evaluation.calibration import measurement, sampling, validation
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.effects import survey as effect_survey
+from contactsim.evaluation.robustness import survey
 from contactsim.evaluation.work_precision import case_config, cases
 from contactsim.publish import gallery, report
 from contactsim.errors import SceneError
 from contactsim.study.plan import Plan
+from contactsim.study.stages import STAGES
 from contactsim.provenance import canonical, digest, source_digest
 
 try:
@@ -23,16 +25,17 @@ try:
     CONFIG = Path(workflow.basedir) / "config"
     PLAN = Plan.read(CONFIG, config.get("tier"))
     CASES = case_config.read_cases(CONFIG, PLAN)
-    LADDER = effect_cost.read_ladder(CONFIG, PLAN.seed, PLAN.effects, PLAN.tier)
-    DRAWS = sampling.read_draws(CONFIG, PLAN.trials, PLAN.tier)
+    HAZARDS = survey.read_stability(CONFIG, PLAN)
+    LADDER = effect_cost.read_ladder(CONFIG, PLAN.seed, PLAN.overrides["effects"], PLAN.tier)
+    DRAWS = sampling.read_draws(CONFIG, PLAN.overrides["trials"], PLAN.tier)
     OVERVIEW = case_config.read_overview(CONFIG) if CASES else None
-    MAPS = effect_survey.read_maps(CONFIG, PLAN.effect_maps, PLAN.tier)
+    MAPS = effect_survey.read_maps(CONFIG, PLAN.overrides["effect_maps"], PLAN.tier)
 except SceneError as error:
     sys.exit(f"Error: {error}")
 RESULTS = PLAN.results
 REAL_PYTHON = sys.executable
 sys.executable = shlex.quote(sys.executable)  # snakemake starts jobs with it and does not quote it
-STABILITY = ["stability"] if PLAN.stability else []
+STABILITY = ["stability"] if HAZARDS else []
 EFFECTS = ["effects"] if LADDER else []
 TRIALS = ["trials"] if DRAWS else []
 OVERVIEWS = ["overview"] if OVERVIEW else []
@@ -82,7 +85,7 @@ def together(name):
 
 
 def of_the_standard_tier(wildcards):
-    if PLAN.trials or PLAN.effect_maps:
+    if PLAN.overrides["trials"] or PLAN.overrides["effect_maps"]:
         sys.exit(f"Error: tier: got {PLAN.tier}; allowed: one at which trials and maps are whole, such as standard")
     return []
 
@@ -104,7 +107,7 @@ def all_claims(wildcards):
 def target_lines():
     lines = [f"  {name:14} {figure.settings['title']}" for name, figure in PLAN.figures.items()]
     lines += [f"  {name:14} dataset: {study.settings['title']}" for name, study in PLAN.studies.items()]
-    lines += [f"  {name:14} {PLAN.stability['title']}" for name in STABILITY]
+    lines += [f"  {name:14} {HAZARDS['title']}" for name in STABILITY]
     lines += [f"  {name:14} {LADDER['title']}" for name in EFFECTS]
     lines += [f"  {name:14} {DRAWS['title']}" for name in TRIALS]
     lines += [f"  {name:14} {OVERVIEW['title']}" for name in OVERVIEWS]

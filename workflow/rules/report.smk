@@ -2,7 +2,7 @@
 _accuracy = {f"accuracy_{name}": case.settings for name, case in CASES.items()} | ({"trials": DRAWS} if DRAWS else {})
 OTHER_FIGURES = {
     "accuracy": _accuracy | ({"overview": OVERVIEW} if OVERVIEW else {}),
-    "stability": {"stability": PLAN.stability} if PLAN.stability else {},
+    "stability": {"stability": HAZARDS} if HAZARDS else {},
     "effects": ({"effects": LADDER} if LADDER else {}) | ({"effect_maps": MAPS} if MAPS else {}),
 }
 OTHER_TITLES = {name: one["title"] for group in OTHER_FIGURES.values() for name, one in group.items()}

@@ -1,7 +1,7 @@
 # One job a study, variant and member, sweeping all its loads.
 def run_params(wildcards):
     run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
-    return canonical({"settings": run.settings, "source": run.source})
+    return canonical({"settings": run.settings, "source": run.source, "module": STAGES[run.stage][0]})
 
 
 def run_label(wildcards):

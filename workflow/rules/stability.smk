@@ -1,8 +1,8 @@
 # Every solver on every hazard: one job a hazard, one dataset, one map.
-if PLAN.stability:
+if HAZARDS:
 
     def hazard_params(wildcards):
-        return canonical(PLAN.hazard_settings(wildcards.hazard))
+        return canonical(survey.job_settings(HAZARDS, wildcards.hazard))
 
 
     rule hazard:
@@ -15,10 +15,10 @@ if PLAN.stability:
 
 
     rule stability_dataset:
-        input: PLAN.map_settings()["paths"]
+        input: survey.map_settings(HAZARDS, PLAN)["paths"]
         output: RESULTS / "datasets/stability.nc"
         log: RESULTS / "logs/datasets/stability.log"
-        params: plan=canonical(PLAN.map_settings())
+        params: plan=canonical(survey.map_settings(HAZARDS, PLAN))
         group: together("figures")
         message: "dataset of stability"
         script: "../scripts/stability.py"
@@ -32,7 +32,7 @@ if PLAN.stability:
             pdf=RESULTS / "figures/stability.pdf",
             csv=RESULTS / "figures/stability.csv",
         log: RESULTS / "logs/figures/stability.log"
-        params: plan=canonical(PLAN.map_figure())
+        params: plan=canonical(survey.map_figure(HAZARDS, PLAN))
         group: together("figures")
         message: f"stability: {RESULTS}/figures/stability.png"
         script: "../scripts/figure.py"

@@ -1,13 +1,12 @@
-"""What is negligible in a variant of a study; what the check spent apart."""
+"""The effects that a variant of a study neglects; the seconds of the check stand apart."""
 
 import json
 
-from contactsim.error_control.neglect import decide
 from contactsim.files import write_text
 from contactsim.joblog import logged
+from contactsim.study.select_effects import select_effects
 
 logged(snakemake.log[0])
-plan = json.loads(snakemake.params.plan)
-found = decide(plan["settings"], **plan["settings"]["auto"])
-write_text(found.text, snakemake.output.decision)
-write_text(json.dumps({"seconds": found.seconds}), snakemake.output.costs)
+decision = select_effects(json.loads(snakemake.params.plan)["settings"])
+write_text(decision.text, snakemake.output.decision)
+write_text(json.dumps({"seconds": decision.seconds}), snakemake.output.costs)

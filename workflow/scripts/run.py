@@ -1,13 +1,14 @@
 """One run: all loads of one member of one variant."""
 
 import json
+from importlib import import_module
 
-from contactsim.error_control.neglect import run
 from contactsim.files import write_text
 from contactsim.joblog import logged
+from contactsim.study.execute import RunFiles
 
 logged(snakemake.log[0])
-plan, files = json.loads(snakemake.params.plan), [snakemake.output.data, snakemake.output.costs]
-decision, twin = (snakemake.input.get(name) or None for name in ("decision", "twin"))
-run(plan["settings"], plan["source"], *files, snakemake.threads, decision, twin)
+plan, files = json.loads(snakemake.params.plan), RunFiles(snakemake.output.data, snakemake.output.costs)
+neglect = {name: snakemake.input[name] for name in ("decision", "twin") if snakemake.input.get(name)}
+import_module(plan["module"]).run(plan["settings"], plan["source"], files, threads=snakemake.threads, **neglect)
 write_text(plan["source"], snakemake.output.done)

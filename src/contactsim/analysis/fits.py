@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from scipy.optimize import least_squares
-from scipy.special import stdtrit
 
 from contactsim import reference
 from contactsim.analysis.ensemble import converged
@@ -44,6 +42,8 @@ def fit_line_area(pressure: Array, area: Array, weighting: str) -> tuple[float, 
 
     weighting: "area" weighs the area itself, so the largest loads decide; "logarithm" weighs all alike.
     """
+    from scipy.optimize import least_squares  # takes longer to import than to fit
+
     known = np.isfinite(area) & (area > 0)
     if not known.any():
         return float("nan"), float("nan")
@@ -58,6 +58,8 @@ def fit_line_area(pressure: Array, area: Array, weighting: str) -> tuple[float, 
 
 
 def _jackknife(pressure: Array, area: Array, weighting: str) -> Array:
+    from scipy.special import stdtrit
+
     members = area.shape[1]
     if members < 3:
         return np.full(2, np.nan)

@@ -97,6 +97,11 @@ class HalfSpace:
             _check_ratio(self.poisson_ratio)
 
     @property
+    def youngs_modulus(self) -> float | None:
+        """Young's modulus E = (1 - ν²) E*, GPa; None without Poisson's ratio."""
+        return None if self.poisson_ratio is None else self.contact_modulus * (1 - self.poisson_ratio**2)
+
+    @property
     def couples(self) -> bool:
         """Whether normal traction moves the surface along x: unless it keeps its volume."""
         return self.poisson_ratio != 0.5
@@ -137,6 +142,11 @@ class Layer:
         _check_ratio(self.poisson_ratio)
         if not (is_number(self.thickness) and self.thickness > 0):
             raise SceneError("thickness", self.thickness, "a positive, finite number in nm")
+
+    @property
+    def youngs_modulus(self) -> float | None:
+        """Young's modulus E = (1 - ν²) E*, GPa; None without Poisson's ratio."""
+        return None if self.poisson_ratio is None else self.contact_modulus * (1 - self.poisson_ratio**2)
 
     @property
     def base_depth(self) -> float:

@@ -1,74 +1,95 @@
-"""A run to an accuracy: solved on two grids, the error estimated, and refined once where it is missed.
+"""Solve a scene to a wanted error: on two grids, the error estimated, and refined once where it is missed.
 
-The coarser companion comes first. At a hard wall it says how small the contacts are, from which the grid of the run
-follows better than from any relation, and its pressure is where the cascade of the run begins; of a path it has
-three times the increments too, so that what differs is what all knobs together leave open. The estimate
-is the larger of that change, as it shrinks with the order of convergence, and of what is expected of such a grid:
-changes may vanish by chance.
+The coarse companion is solved first. At a hard wall it shows how small the contacts are, so the grid of the run follows
+from it better than from any relation, and its pressure is where the cascade of the run begins. Along a path it has
+three times the increments too, so that its difference from the run is what all knobs together leave. The estimate
+is the larger of that difference, which shrinks with the order of convergence, and of the error expected of such a grid,
+as differences may vanish by chance.
 """
 
 from __future__ import annotations
 
 import logging
 import math
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.error_control.options import SAFETY, chosen, coarser, left_open, on_grid, on_points, rescaled
-from contactsim.error_control.scaling import MEASURES, ORDERS, SECOND, Kind, kind_of, relations
+from contactsim.contact.scene import ProblemKind
+from contactsim.error_control.options import (
+    SAFETY,
+    choose_options,
+    coarsen,
+    expect_error,
+    grid_features,
+    scale_increment,
+    set_grid,
+)
+from contactsim.error_control.scaling import (
+    DEFAULT_GRID_ORDER,
+    GRID_ORDERS,
+    QUANTITIES,
+    Family,
+    scaling_relations,
+    scene_family,
+)
 from contactsim.grid import Array
 from contactsim.observables.derived import combine_runs, summarise_paths
-from contactsim.solvers.registry import make_solver
+from contactsim.paths.driver import Reuse, follow_path
+from contactsim.paths.options import Setup
 from contactsim.status import is_solved
-from contactsim.study.execute import asked_of, keep, names_of, simulate
-from contactsim.study.keys import is_smooth
-from contactsim.study.scenes import scene_of
 
 logger = logging.getLogger(__name__)
 
-MOST = {1: 8.0, 2: 4.0}
+MAX_REFINEMENT = {1: 8.0, 2: 4.0}
 """How many times finer a run may be than its companion, or a refined one than the first, by dimension."""
-TRUST = 0.7
-"""Part of a change that counts: the coarser run is often too coarse to be of any order, and makes it large."""
-TINY = 1e-9
+DIFFERENCE_WEIGHT = 0.7
+"""Part of a difference that counts: the coarser run is often too coarse to be of any order, and makes it large."""
+MIN_EDGE_SHARE = 1e-9
 """Least part of a contact that counts as its edge."""
-BLIND = 2.0
+BLIND_REFINEMENT = 2.0
 """How much finer a grid is made where nothing is known of the error."""
-LEAST = 1.25
+MIN_REFINEMENT = 1.25
 """How much finer a refined grid is at least."""
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """One solution of a run: its settings, dataset, values by quantity, one of each load or of the path as a whole.
+class Solution:
+    """One solution of a setup.
 
-    resolved: pairs of neighbours at an edge over points in contact, by load; empty of smooth laws.
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options that were solved.
+    data : xarray.Dataset
+        The dataset of the path, with dimension `step`.
+    values : dict from str to Array
+        Quantities, one value for each load or for the path as a whole.
+    resolved : Array
+        Pairs of neighbours at an edge of contact over points in contact, for each load; empty for cohesive laws.
     """
 
-    settings: dict
+    setup: Setup
     data: xr.Dataset
     values: dict[str, Array]
     resolved: Array
 
     @property
     def points(self) -> int:
-        """Of the grid along x."""
-        return self.settings["points"]
+        """Grid points along x."""
+        return self.setup.points
 
     @property
     def solved(self) -> bool:
-        """Whether every state has converged."""
+        """True where every state has converged."""
         return bool(is_solved(self.data.status).all())
 
     @property
     def transforms(self) -> float:
-        """Of all steps, in those of its own grid."""
+        """Transforms of all steps, in those of its own grid."""
         return float(self.data.transforms.sum())
 
     @property
@@ -82,186 +103,215 @@ class Outcome:
         return self.points * int(self.data.get("points_y", 1))
 
 
-def outcome(settings: dict, names: Sequence[str], threads: int = 1, begun: Outcome | None = None) -> Outcome:
-    """A run's settings simulated as they are; names: of the quantities read off it.
-
-    begun: the same at a wall on a coarser grid with its fields, from which the solver's cascade begins.
-    """
-    asked = asked_of(settings)
-    if begun is not None and "pressure" in begun.data:
-        asked["begun"] = begun.data
-    data = simulate(
-        scene_of(settings),
-        points=settings["points"],
-        tolerance=settings["tolerance"],
-        method=make_solver(**settings["solver"]),
-        threads=threads,
-        **asked,
-    )
-    if is_smooth(settings):
-        whole = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
-        return Outcome(
-            settings, data, {name: np.atleast_1d(whole[name].values.astype(float)) for name in names}, np.empty(0)
-        )
+def _read_loads(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
+    """Return quantities of each load at a hard wall, and how well its contacts are resolved."""
     values = {name: data[name].values.astype(float) for name in names}
-    resolved = data.contact_edges.values / np.maximum(data.contact_points.values, 1)
-    return Outcome(settings, data, values, resolved)
+    return values, data.contact_edges.values / np.maximum(data.contact_points.values, 1)
 
 
-def difference(one: Outcome, two: Outcome, name: str) -> Array:
-    """Size of the change of a quantity from one solution to another, over the first's: of each load, or of the path.
+def _read_path(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
+    """Return quantities of a whole path of cohesive laws."""
+    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
+    return {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}, np.empty(0)
 
-    Zero where both are equal or neither has it, as a path without a pull-off; infinite where one alone has it, where
-    only the first is zero, and everywhere if a state of either has not converged.
+
+Reader = Callable[[xr.Dataset, Sequence[str]], tuple[dict[str, Array], Array]]
+READERS: dict[ProblemKind, Reader] = {ProblemKind.HARD_WALL: _read_loads, ProblemKind.COHESIVE: _read_path}
+
+
+def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = None) -> Solution:
+    """Simulate a setup as it is and read quantities off it.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options.
+    names : sequence of str
+        Quantities to read.
+    coarse : Solution, optional
+        The same at a hard wall on a coarser grid with its fields, from which the solver's cascade begins.
     """
-    if not (one.solved and two.solved):
-        return np.full(one.values[name].shape, np.inf)
-    first, second = one.values[name], two.values[name]
-    found, missing = np.full(first.shape, np.inf), np.isnan(first) | np.isnan(second)
-    np.divide(np.abs(second - first), np.abs(first), out=found, where=~missing & (first != 0))
-    return np.where((np.isnan(first) & np.isnan(second)) | (first == second), 0.0, found)
+    reuse = Reuse(coarse=coarse.data) if coarse is not None and "pressure" in coarse.data else None
+    data = follow_path(setup.with_options(accuracy=None), reuse)
+    return Solution(setup, data, *READERS[setup.scene.kind](data, names))
+
+
+def relative_difference(first: Solution, second: Solution, name: str) -> Array:
+    """Return the size of the change of a quantity from one solution to another, over the first's value.
+
+    One value for each load, or one for the path. It is zero where both are equal or neither has the quantity, as a
+    path without a pull-off; infinite where one alone has it, where only the first is zero, and everywhere if a state of
+    either has not converged.
+    """
+    if not (first.solved and second.solved):
+        return np.full(first.values[name].shape, np.inf)
+    before, after = first.values[name], second.values[name]
+    change, missing = np.full(before.shape, np.inf), np.isnan(before) | np.isnan(after)
+    np.divide(np.abs(after - before), np.abs(before), out=change, where=~missing & (before != 0))
+    return np.where((np.isnan(before) & np.isnan(after)) | (before == after), 0.0, change)
 
 
 @dataclass(frozen=True)
-class Reached:
-    """What came of an accuracy that was asked for.
+class Controlled:
+    """Outcome of a run to a wanted error.
 
-    last: the final run; before: what was solved before it, the companion of the last estimate last; errors: relative,
-    as estimated, by quantity, of each load or of the path.
+    Parameters
+    ----------
+    last : Solution
+        The final run.
+    before : list of Solution
+        What was solved before it; the companion of the last estimate comes last.
+    errors : dict from str to Array
+        Estimated relative error by quantity, of each load or of the path.
+    wanted : float
+        The relative error that was asked for.
     """
 
-    last: Outcome
-    before: list[Outcome]
+    last: Solution
+    before: list[Solution]
     errors: dict[str, Array]
-    asked: float
+    wanted: float
 
     @property
     def met(self) -> bool:
-        """Whether every estimate is within what was asked for."""
-        return all(bool((values <= self.asked).all()) for values in self.errors.values())
+        """True where every estimate is within the wanted error."""
+        return all(bool((values <= self.wanted).all()) for values in self.errors.values())
 
     @property
     def data(self) -> xr.Dataset:
-        """The last run's dataset, with the error of each quantity as estimated and what was solved before."""
-        found = self.last.data
+        """Dataset of the final run with the estimated error of each quantity, and the work done before it."""
+        data = self.last.data
         for name, values in self.errors.items():
             sizes = values * np.abs(self.last.values[name])
-            found = found.assign({f"{name}_estimated_error": ("step", sizes) if name in found else float(sizes[0])})
-        spent = sum(one.seconds for one in self.before)
-        seconds = found.seconds.values + spent * (np.arange(found.step.size) == 0)
-        found = found.assign(
-            accuracy=self.asked,
+            data = data.assign({f"{name}_estimated_error": ("step", sizes) if name in data else float(sizes[0])})
+        seconds_before = sum(solution.seconds for solution in self.before)
+        seconds = data.seconds.values + seconds_before * (np.arange(data.step.size) == 0)
+        data = data.assign(
+            accuracy=self.wanted,
             reached=int(self.met),
             points_before=self.before[-1].points,
             refinements=len(self.before) - 1,
             transforms_before=self.work - self.last.transforms,
             seconds=("step", seconds),
         )
-        return dataset.described(found)
+        return dataset.described(data)
 
     @property
     def work(self) -> float:
         """Transforms of all runs, in those of the last one's grid."""
-        return sum(one.transforms * one.size for one in [*self.before, self.last]) / self.last.size
+        return sum(run.transforms * run.size for run in [*self.before, self.last]) / self.last.size
 
     @property
     def seconds(self) -> float:
         """CPU seconds of all runs."""
-        return sum(one.seconds for one in [*self.before, self.last])
+        return sum(run.seconds for run in [*self.before, self.last])
+
+    @property
+    def summary(self) -> str:
+        """Estimated errors in words."""
+        return describe_errors(self.errors, self.wanted)
 
 
-def reach(settings: dict, error: float, of: Sequence[str] = (), threads: int = 1) -> Reached:
-    """Solve a run's scene to a relative error of quantities, as it is estimated; the grid given is of no account."""
-    first = chosen(settings, error, of)
-    scene = scene_of(first)
-    kind = kind_of(scene)
-    known, names = relations().kinds[kind], tuple(of or MEASURES[kind])
-    companion = coarser(first)
-    if "keep" in companion:
-        companion = companion | {"keep": ["fields"]}
-    before = [outcome(companion, names, threads)]
-    settings = _after(first, before[0], known, names, error)
-    last = outcome(settings, names, threads, before[0])
-    errors = estimated(last, before[0], known, names)
-    logger.info("on %d points, after %d: %s", last.points, before[0].points, _told(errors, error))
+def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Controlled:
+    """Solve a scene to a relative error of its quantities, as it is estimated.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options; its grid, tolerance and increments do not matter.
+    error : float
+        Relative error, above 0 and below 1.
+    quantities : sequence of str, optional
+        Quantities whose error counts; those usual for the scene where empty.
+
+    Returns
+    -------
+    Controlled
+        The final solution with its estimates. `met` is false where the error is missed after one refinement.
+    """
+    first = choose_options(setup, error, quantities)
+    name_of_family = scene_family(first.scene)
+    family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
+    companion = COMPANIONS[setup.scene.kind](coarsen(first))
+    before = [solve_setup(companion, names)]
+    last = solve_setup(_follow_companion(first, before[0], family, names, error), names, before[0])
+    errors = estimate_errors(last, before[0], family, names)
+    logger.info("on %d points, after %d: %s", last.points, before[0].points, describe_errors(errors, error))
     if any(not (values <= error).all() for values in errors.values()):
         before.append(last)
-        settings = _refined(last, errors, error)
-        last = outcome(settings, names, threads, before[0])
-        errors = estimated(last, before[1], known, names)
-        logger.info("refined to %d points: %s", last.points, _told(errors, error))
-    return Reached(last, before, errors, error)
+        last = solve_setup(_refine(last, errors, error), names, before[0])
+        errors = estimate_errors(last, before[1], family, names)
+        logger.info("refined to %d points: %s", last.points, describe_errors(errors, error))
+    return Controlled(last, before, errors, error)
 
 
-def estimated(fine: Outcome, coarse: Outcome, known: Kind, names: Sequence[str]) -> dict[str, Array]:
-    """Relative errors of a run, by quantity: what its knobs leave open, and its change from a coarser one.
+COMPANIONS: dict[ProblemKind, Callable[[Setup], Setup]] = {
+    ProblemKind.HARD_WALL: lambda setup: setup.with_options(keep=("fields",)),
+    ProblemKind.COHESIVE: lambda setup: setup,
+}
+"""What a companion is solved with: at a hard wall its fields are kept, from which the run begins."""
 
-    A change shrinks as the relations say that errors do between the two.
+
+def estimate_errors(fine: Solution, coarse: Solution, family: Family, names: Sequence[str]) -> dict[str, Array]:
+    """Return relative errors of a run by quantity.
+
+    The larger counts of what its knobs are expected to leave and its difference from a coarser run, which shrinks as
+    the relations say that errors do between the two.
     """
-    found = {}
+    errors = {}
     for name in names:
-        left, before = _expected(fine, known, name), _expected(coarse, known, name)
-        changes = difference(fine, coarse, name) * left / np.maximum(before - left, left)
-        found[name] = np.maximum(TRUST * changes, left)
-    return found
+        expected, expected_before = _expected_errors(fine, family, name), _expected_errors(coarse, family, name)
+        changes = relative_difference(fine, coarse, name) * expected / np.maximum(expected_before - expected, expected)
+        errors[name] = np.maximum(DIFFERENCE_WEIGHT * changes, expected)
+    return errors
 
 
-def _expected(run: Outcome, known: Kind, name: str) -> Array:
-    """The relative error that grid and increments leave.
+def _expected_errors(run: Solution, family: Family, name: str) -> Array:
+    """Return the relative error that grid and increments leave.
 
-    At a wall both by what is known of such scenes and by how well the contacts that were found are shown: their mean.
+    Where the contacts of a solution have been seen, it is the geometric mean of what is known of such scenes and of
+    what follows from how well the contacts are resolved.
     """
-    places = on_grid(scene_of(run.settings), run.points)
-    if name in known.resolved:
-        seen = [one | {"resolved": math.log(max(x, TINY))} for one, x in zip(places, run.resolved, strict=True)]
-        return np.array([math.sqrt(known.resolved[name](one) * known.errors["points"][name](one)) for one in seen])
-    return np.array([left_open(run.settings, known, name)])
+    if name in family.resolved:
+        places = grid_features(run.setup.scene, run.points)
+        seen = [
+            numbers | {"resolved": math.log(max(share, MIN_EDGE_SHARE))}
+            for numbers, share in zip(places, run.resolved, strict=True)
+        ]
+        return np.array(
+            [math.sqrt(family.resolved[name](numbers) * family.errors["points"][name](numbers)) for numbers in seen]
+        )
+    return np.array([expect_error(run.setup, family, name)])
 
 
-def _after(settings: dict, companion: Outcome, known: Kind, names: Sequence[str], error: float) -> dict:
-    """The settings of a run after its companion: at a wall on the grid for contacts as small as those it found."""
+def _follow_companion(setup: Setup, companion: Solution, family: Family, names: Sequence[str], error: float) -> Setup:
+    """Return the setup of a run after its companion: at a hard wall on the grid that the contacts found there need."""
     if not companion.resolved.size:
-        return settings
-    finest = 1.0  # what follows from the companion
+        return setup
+    refinement, wanted = 1.0, SAFETY[scene_family(setup.scene)] * error
     for name in names:
-        off = _expected(companion, known, name).max()
-        finest = max(finest, (off / (SAFETY[kind_of(scene_of(settings))] * error)) ** (1 / ORDERS.get(name, SECOND)))
-    return on_points(settings, companion.points * min(max(finest, 2.0), _most(companion)), error)
+        expected = _expected_errors(companion, family, name).max()
+        refinement = max(refinement, (expected / wanted) ** (1 / GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)))
+    return set_grid(setup, companion.points * min(max(refinement, 2.0), _max_refinement(companion)), error)
 
 
-def _refined(run: Outcome, errors: dict[str, Array], error: float) -> dict:
-    """The settings of a run that missed: a finer grid by as much as the estimates say, and half the increments."""
-    wanted = SAFETY[kind_of(scene_of(run.settings))] * error
+def _refine(run: Solution, errors: dict[str, Array], error: float) -> Setup:
+    """Return the setup of a run that missed: a grid finer by as much as the estimates say, and half the increments."""
+    wanted = SAFETY[scene_family(run.setup.scene)] * error
     worst = {name: float(values.max()) for name, values in errors.items()}
-    found = [
-        BLIND if np.isinf(one) else (one / wanted) ** (1 / ORDERS.get(name, SECOND)) for name, one in worst.items()
-    ]
-    finer = max(found)
-    settings = run.settings | (rescaled(run.settings, 0.5) if is_smooth(run.settings) else {})
-    return on_points(settings, run.points * float(np.clip(finer, LEAST, _most(run))), error)
+    refinement = max(
+        BLIND_REFINEMENT if np.isinf(value) else (value / wanted) ** (1 / GRID_ORDERS.get(name, DEFAULT_GRID_ORDER))
+        for name, value in worst.items()
+    )
+    finer = run.points * float(np.clip(refinement, MIN_REFINEMENT, _max_refinement(run)))
+    return set_grid(scale_increment(run.setup, 0.5), finer, error)
 
 
-def _most(run: Outcome) -> float:
-    return MOST[2 if "points_y" in run.data else 1]
+def _max_refinement(run: Solution) -> float:
+    """Return how many times finer the next grid may be."""
+    return MAX_REFINEMENT[len(run.setup.scene.lengths)]
 
 
-def _told(errors: dict[str, Array], asked: float) -> str:
-    """The estimates in words."""
-    return ", ".join(f"{name} to {values.max():.2g} of {asked:g}" for name, values in errors.items())
-
-
-def run(
-    settings: dict,
-    source: str,
-    target: str | Path,
-    costs: str | Path,
-    threads: int = 1,
-    told: Mapping[str, object] | None = None,
-) -> None:
-    """Compute a run to the accuracy that its settings ask for, into its dataset and costs; see `march.run`."""
-    begin = time.process_time()
-    found = reach(settings, **settings["accuracy"], threads=threads)
-    final = found.last.settings
-    if not found.met:
-        logger.warning("an accuracy of %g is not reached: %s", found.asked, _told(found.errors, found.asked))
-    keep(found.data.assign(told or {}), final, names_of(final, source), source, (target, costs), begin)
+def describe_errors(errors: dict[str, Array], wanted: float) -> str:
+    """Return the estimated errors in words."""
+    return ", ".join(f"{name} to {values.max():.2g} of {wanted:g}" for name, values in errors.items())

@@ -1,9 +1,8 @@
-"""What leaving effects out changes, as maps tell it that were measured over the numbers that govern it.
+"""Look up how much neglecting an effect changes a scene, in maps that were measured.
 
-The maps are kept in a file of the package, measured by `contactsim.evaluation.effects.survey`. Of a scene whose place
-lies between
-those of a map, the largest change at the corners around it counts; of one beyond its axes nothing is known. What is on
-no axis, such as how deep a surface is pressed, a map takes to matter less: it proposes, and a check on the scene itself
+The maps are kept in a file of the package, measured by `contactsim.evaluation.effects.survey`. For a scene whose place
+lies between those of a map, the largest change at the corners around it counts; beyond the axes nothing is known. What
+is on no axis, such as how deep a surface is pressed, matters less: a map proposes, and a check on the scene itself
 decides (`contactsim.error_control.neglect`).
 """
 
@@ -11,123 +10,132 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from contactsim.error_control.control import Outcome, difference, outcome
+from contactsim.contact.scene import Scene
+from contactsim.contact.simplification import simplify
+from contactsim.elasticity.solids import ELASTICITIES
+from contactsim.error_control.control import Solution, relative_difference, solve_setup
+from contactsim.error_control.scaling import read_data_file
 from contactsim.grid import Array
+from contactsim.interface.pairing import ALIGNED
 from contactsim.interface.registry import EFFECTS
-from contactsim.provenance import digest
-from contactsim.study.reading import keys_of, load_yaml
-from contactsim.study.scenes import scene_of
+from contactsim.paths.options import Setup
+from contactsim.surfaces.measured import SURFACES
+from contactsim.traits import Trait
 
 FILE = Path(__file__).with_name("effect_maps.yaml")
-
-
-def change(run: dict, names: list[str], of: list[str], known: dict[str, Outcome] | None = None) -> float:
-    """The largest relative change of quantities on leaving effects out of a run; infinite where it has none of them.
-
-    known: solutions by digest of what they depend on, which is added to.
-    """
-    known = {} if known is None else known
-    with_all, without = (_solved(run | {"leave_out": left}, of, known) for left in ([], names))
-    if all(np.isnan(one.values[name]).all() for one in (with_all, without) for name in of):
-        return np.inf
-    return max(float(difference(with_all, without, name).max()) for name in of)
-
-
-def _solved(run: dict, of: list[str], known: dict[str, Outcome]) -> Outcome:
-    """The solution of a run, one for all whose scenes are the same."""
-    key = reduced(run)
-    if key not in known:
-        known[key] = outcome({name: value for name, value in run.items() if name != "accuracy"}, of)
-    return known[key]
-
-
-def reduced(run: dict) -> str:
-    """A digest of a run's scene as it acts, of its grid and path: runs with the same give the same."""
-    scene = scene_of(run)
-    rest = (
-        "surface",
-        "points",
-        "tolerance",
-        "load",
-        "slide",
-        "pairing",
-        "increments",
-        "solver",
-        "seed",
-        "study",
-        "member",
-    )
-    bodies = [body.elasticity for body in (scene.lower, scene.upper)]
-    acts = scene.components == ("n",)
-    if acts:  # of bodies in which nothing moves along the surface
-        bodies = [body if body is None or body.base_depth < math.inf else body.contact_modulus for body in bodies]
-    told = [repr(scene.acting), repr(bodies), getattr(scene.upper.surface, "smoothed", None)]
-    return digest(told, {name: run[name] for name in rest if name in run})
-
-
-@cache
-def maps() -> dict:
-    """The maps of the package."""
-    return load_yaml(FILE)
-
-
-def expected(run: dict, effect: str) -> float | None:
-    """The largest relative change that the maps expect of a run without an effect; None where none knows it."""
-    found = [_read(run, one) for one in maps().values() if one["leave_out"] == [effect] and _applies(run, one)]
-    known = [value for value in found if value is not None]
-    return max(known, default=None)
-
-
-def _applies(run: dict, one: Mapping) -> bool:
-    """Whether a map is about such scenes: of that surface, of such bodies, with these effects, pressed and not slid."""
-    bodies = [run[part]["kind"] for part in ("body", "counter_body") if run.get(part)]
-    if run.get("pairing") or run.get("slide") or run["load"].get("control", "approach") != "approach":
-        return False
-    return (one["surface"], one["effects"], one["bodies"]) == (run["surface"]["kind"], run["effects"], bodies)
-
-
-def _read(run: dict, one: Mapping) -> float | None:
-    """The largest change at the corners of a map around a run; None beyond it."""
-    table = np.reshape(one["change"], [len(axis["values"]) for axis in one["axes"].values()])
-    corners = []
-    for axis in one["axes"].values():
-        value, unit = value_at(run, axis["key"]), product(run, axis["per"])
-        known = value is not None and unit is not None
-        place = _around(np.array(axis["values"]), value / unit) if known else None
-        if place is None:
-            return None
-        corners.append(place)
-    return max(float(table[corner]) for corner in itertools.product(*corners))
-
-
-def value_at(section: Mapping, key: str) -> object:
-    """The value of a dotted key of a study's section; a law's own where none is given, None where there is none."""
-    head, _, tail = key.partition(".")
-    found = section.get(head)
-    if not tail or not isinstance(found, Mapping):
-        return None if tail else found
-    known = keys_of(EFFECTS[head]) if head in EFFECTS else {}
-    return found.get(tail, known[tail].default if tail in known else None)
-
-
-def product(section: Mapping, keys: list[str]) -> float | None:
-    """The product of the values of dotted keys; None where one is missing."""
-    found = [value_at(section, key) for key in keys]
-    return None if None in found else math.prod(found)
-
-
 CLOSE = 1e-3
 """Part of a value by which it may miss one of a map's and count as that."""
 
 
+def neglect_effects(setup: Setup, effects: Sequence[str]) -> Setup:
+    """Return a setup without some effects of its scene."""
+    return Setup(simplify(setup.scene, effects), setup.options)
+
+
+def change_without(
+    setup: Setup, effects: Sequence[str], quantities: Sequence[str], solutions: dict[str, Solution] | None = None
+) -> float:
+    """Return the largest relative change of quantities on neglecting effects.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene with all its effects, and options.
+    effects : sequence of str
+        Effects to neglect, together.
+    quantities : sequence of str
+        Quantities to compare.
+    solutions : dict, optional
+        Solutions by the fingerprint of their setup, which is added to.
+
+    Returns
+    -------
+    float
+        Infinite where the scene has none of the quantities.
+    """
+    solutions = {} if solutions is None else solutions
+    full, simple = (_solve_once(neglect_effects(setup, names), quantities, solutions) for names in ([], effects))
+    if all(np.isnan(solution.values[name]).all() for solution in (full, simple) for name in quantities):
+        return np.inf
+    return max(float(relative_difference(full, simple, name).max()) for name in quantities)
+
+
+def _solve_once(setup: Setup, quantities: Sequence[str], solutions: dict[str, Solution]) -> Solution:
+    """Return the solution of a setup, one for all with the same fingerprint."""
+    key = setup.fingerprint
+    if key not in solutions:
+        solutions[key] = solve_setup(setup, quantities)
+    return solutions[key]
+
+
+@cache
+def effect_maps() -> dict[str, dict]:
+    """Return the maps of the package."""
+    return read_data_file(FILE)
+
+
+def expected_change(scene: Scene, effect: str) -> float | None:
+    """Return the largest relative change that the maps expect without an effect; None where none knows it."""
+    maps = [section for section in effect_maps().values() if section["leave_out"] == [effect]]
+    changes = [_read_map(scene, section) for section in maps if _applies(scene, section)]
+    return max((change for change in changes if change is not None), default=None)
+
+
+def _applies(scene: Scene, section: Mapping) -> bool:
+    """Return True where a map is about such scenes: that surface, bodies and effects, pressed by approach, not slid."""
+    by_pressure = scene.path.increment is not None and Trait.MEAN_PRESSURE in scene.traits
+    if scene.pairing != ALIGNED or scene.sliding or by_pressure:
+        return False
+    described = (
+        _kind_name(SURFACES, scene.upper.surface),
+        [_kind_name(EFFECTS, effect) for effect in scene.effects],
+        [_kind_name(ELASTICITIES, body) if body else "rigid" for body in _bodies(scene)],
+    )
+    return described == (section["surface"], section["effects"], section["bodies"])
+
+
+def _bodies(scene: Scene) -> list:
+    """Return the elasticity of the lower body, and of the upper one if it gives way."""
+    lower, upper = scene.lower.elasticity, scene.upper.elasticity
+    return [lower] if upper is None else [lower, upper]
+
+
+def _kind_name(registry: Mapping[str, type], item: object) -> str | None:
+    """Return the name of a class in its registry."""
+    return next((name for name, kind in registry.items() if type(item) is kind), None)
+
+
+def _read_map(scene: Scene, section: Mapping) -> float | None:
+    """Return the largest change at the corners of a map around a scene; None beyond it."""
+    table = np.reshape(section["change"], [len(axis["values"]) for axis in section["axes"].values()])
+    corners = []
+    for axis in section["axes"].values():
+        value, units = _scene_value(scene, axis["key"]), [_scene_value(scene, key) for key in axis["per"]]
+        if value is None or None in units:
+            return None
+        corner = _around(np.array(axis["values"]), value / math.prod(units))
+        if corner is None:
+            return None
+        corners.append(corner)
+    return max(float(table[corner]) for corner in itertools.product(*corners))
+
+
+def _scene_value(scene: Scene, key: str) -> float | None:
+    """Return the value of a dotted key, such as `body.poisson_ratio`, of a scene; None where it has none."""
+    part, _, name = key.partition(".")
+    owners = {"surface": scene.upper.surface, "body": scene.lower.elasticity, "counter_body": scene.upper.elasticity}
+    owners |= {_kind_name(EFFECTS, effect): effect for effect in scene.effects}
+    return getattr(owners.get(part), name, None)
+
+
 def _around(values: Array, value: float) -> tuple[int, ...] | None:
-    """The places beside a value, or its own; None beyond all."""
+    """Return the places beside a value, or its own; None beyond all."""
     near = np.flatnonzero(np.isclose(values, value, rtol=CLOSE, atol=1e-12))
     if near.size:
         return (int(near[0]),)

@@ -1,7 +1,7 @@
-"""What a run will cost and how far off it will be, from relations that were measured, before anything runs.
+"""Forecast work, time, memory and error of a run from the measured relations, before anything runs.
 
-Work is in transforms, which do not depend on the machine; seconds are counted in those of one transform, which is timed
-here and now.
+Work is counted in transforms, which do not depend on the machine. Seconds are counted in those of one transform, which
+is timed here and now.
 """
 
 from __future__ import annotations
@@ -14,26 +14,40 @@ from functools import cache
 
 import numpy as np
 
-from contactsim.error_control.options import PATH_TOLERANCE, chosen, coarser, left_open, on_grid, paced_part, size_of
-from contactsim.error_control.scaling import MEASURES, Kind, kind_of, relations
+from contactsim.error_control.options import PATH_TOLERANCE, choose_options, coarsen, expect_error, grid_features
+from contactsim.error_control.scaling import QUANTITIES, scaling_relations, scene_family
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
-from contactsim.solvers.registry import default_solver_name, make_solver
-from contactsim.study.keys import is_smooth
-from contactsim.study.scenes import scene_of
+from contactsim.paths.increments import Requested
+from contactsim.paths.options import Setup
+from contactsim.solvers.registry import default_solver_name, make_solver, solver_class
 
-REPEATS, UNIT_POINTS, BATCH = 7, 4096, 100
-"""How the unit of predicted times is timed: the best of some batches of transforms of a grid."""
+TIMINGS, UNIT_POINTS, BATCH = 7, 4096, 100
+"""How the unit of forecast times is timed: the best of some batches of transforms of a grid."""
 
 
 @dataclass(frozen=True)
 class Forecast:
     """What is expected of a run.
 
-    points: of its grid along x; unknowns: of a step; transforms: in those of its grid; units: of time, what a transform
-    of 4096 points takes;
-    megabytes: of all arrays at their peak; errors: relative, by quantity; unsure: features in which the scene is beyond
-    all that was measured.
+    Parameters
+    ----------
+    points : int
+        Grid points along x.
+    unknowns : int
+        Unknowns of one load step.
+    steps : int
+        Load steps.
+    transforms : float
+        Transforms in all, in those of the run's grid.
+    units : float
+        Time in that of one transform of 4096 points.
+    megabytes : float
+        Memory of all arrays at their peak.
+    errors : dict from str to float
+        Relative errors by quantity.
+    unsure : tuple of str
+        Features in which the scene lies beyond all that was measured.
     """
 
     points: int
@@ -51,99 +65,73 @@ class Forecast:
         return self.units * transform_seconds()
 
 
-def forecast(settings: dict, of: Sequence[str] = ()) -> Forecast:
-    """What a run with these settings will cost, and how far off its quantities will be.
+def forecast_run(setup: Setup) -> Forecast:
+    """Forecast a run, to the accuracy that its options ask for or as it is.
 
-    of: names of quantities, the usual ones where empty. SceneError for scenes and solvers that were not measured.
+    Raises
+    ------
+    SceneError
+        For scenes and solvers whose costs were not measured.
     """
-    scene, points = scene_of(settings), settings["points"]
-    kind, default = kind_of(scene), default_solver_name(scene)
-    if settings["solver"]["kind"] != default:
-        raise SceneError("solver.kind", settings["solver"]["kind"], f"{default}: the costs of others were not measured")
-    told = relations()
-    known = told.kinds[kind]
-    places = [one | walk_features(settings) for one in on_grid(scene, points)]
-    size, steps = size_of(scene, points), len(scene.path.steps)
-    transforms, per = sum(known.transforms(one) for one in places), known.seconds
+    accuracy = setup.options.accuracy
+    if accuracy is None:
+        return forecast_setup(setup)
+    return forecast_to_error(setup, accuracy.error, accuracy.quantities)
+
+
+def forecast_setup(setup: Setup, quantities: Sequence[str] = ()) -> Forecast:
+    """Forecast a run as it is; quantities: whose errors are told, those usual for the scene where empty."""
+    scene, options = setup.scene, setup.options
+    name_of_family, default = scene_family(scene), default_solver_name(scene)
+    if options.solver is not None and type(options.solver) is not solver_class(default):
+        allowed = f"{default}: the costs of others were not measured"
+        raise SceneError("solver.kind", type(options.solver).__name__, allowed)
+    relations = scaling_relations()
+    family = relations.families[name_of_family]
+    size, steps = setup.size, len(scene.path.steps)
+    places = [numbers | step_features(setup) for numbers in grid_features(scene, setup.points)]
+    transforms, per = sum(family.transforms(numbers) for numbers in places), family.seconds
     seconds = per["step"] * steps + transforms * (per["transform"] + per["point"] * size * math.log2(size))
+    method = options.solver or make_solver(default)
     return Forecast(
-        points=points,
+        points=setup.points,
         unknowns=size * len(scene.exerted),
         steps=steps,
         transforms=transforms,
-        units=seconds / told.unit,
-        megabytes=make_solver(**settings["solver"]).fields * len(scene.components) * size * 8 / 1e6,
-        errors={name: _left_open(settings, places, known, name) for name in of or MEASURES[kind]},
-        unsure=tuple(dict.fromkeys(name for one in places for name in known.outside(one))),
+        units=seconds / relations.unit,
+        megabytes=method.fields * len(scene.components) * size * 8 / 1e6,
+        errors={name: expect_error(setup, family, name) for name in quantities or QUANTITIES[name_of_family]},
+        unsure=tuple(dict.fromkeys(name for numbers in places for name in family.outside(numbers))),
     )
 
 
-def _left_open(settings: dict, places: list[dict[str, float]], known: Kind, name: str) -> float:
-    """The largest relative error that is expected of a quantity."""
-    if is_smooth(settings):
-        return left_open(settings, known, name)
-    return max(known.errors["points"][name](one) for one in places)
-
-
-def walk_features(settings: dict) -> dict[str, float]:
-    """Features of how a run is solved: its tolerance, looser and tighter than usual, and whether every increment is."""
-    tolerance = math.log(settings["tolerance"] / PATH_TOLERANCE)
-    every = settings.get("increments", {}).get("kind") == "requested"
+def step_features(setup: Setup) -> dict[str, float]:
+    """Return the features of how a run is solved: its tolerance, and 1 where every increment is solved."""
+    tolerance = math.log(setup.options.tolerance / PATH_TOLERANCE)
     return {
-        "tolerance": math.log(settings["tolerance"]),
+        "tolerance": math.log(setup.options.tolerance),
         "loose": max(tolerance, 0.0),
         "tight": max(-tolerance, 0.0),
-        "every": float(every),
+        "every": float(setup.options.increments == Requested()),
     }
 
 
-def forecast_to(settings: dict, error: float, of: Sequence[str] = ()) -> Forecast:
-    """What a run to an accuracy is expected to cost, its companion included, in transforms of its own grid."""
-    found = chosen(settings, error, of)
-    scene, own, other = scene_of(found), forecast(found, of), forecast(coarser(found), of)
-    before = other.transforms * size_of(scene, other.points) / size_of(scene, own.points)
-    part = relations().kinds[kind_of(scene)].begun
-    return replace(own, transforms=part * own.transforms + before, units=part * own.units + other.units)
-
-
-def forecast_of(settings: dict) -> Forecast:
-    """What a run is expected to cost, to the accuracy that it asks for or as it is."""
-    if "accuracy" in settings:
-        return forecast_to(settings, **settings["accuracy"])
-    return forecast(settings)
-
-
-def expectation(runs: list[dict], expected: list[Forecast]) -> str:
-    """Forecasts of runs in words: what the first is to be and costs, and all of them together."""
-    first, settings = expected[0], runs[0]
-    part = settings[paced_part(settings)]
-    grid = f"{first.points} points, tolerance {settings['tolerance']:.2g}"
-    grid += f", increments of {part['increment']:g} {settings['increments']['kind']}" if "increment" in part else ""
-    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
-    before = ", a coarser run before included" * ("accuracy" in settings)
-    lines = [
-        f"grid         {grid}",
-        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
-        f"transforms   {first.transforms:.3g} of that grid{before}",
-        f"seconds      {first.seconds:.2g} of CPU on one thread",
-        f"memory       {first.megabytes:.3g} MB of arrays",
-        f"error        {errors} (relative, as expected of such scenes)",
-    ]
-    if len(runs) > 1:
-        total = sum(one.seconds for one in expected)
-        lines.append(f"all {len(runs):4d} runs {total:.3g} s, {sum(one.transforms for one in expected):.3g} transforms")
-    unsure = dict.fromkeys(name for one in expected for name in one.unsure)
-    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
-    lines += ["with all effects: what is negligible is found out by the run"] * ("auto" in settings)
-    return "\n".join(lines) + "\n"
+def forecast_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Forecast:
+    """Forecast a run to a wanted error, its companion included, in transforms of its own grid."""
+    chosen = choose_options(setup, error, quantities)
+    companion = coarsen(chosen)
+    run, before = forecast_setup(chosen, quantities), forecast_setup(companion, quantities)
+    transforms_before = before.transforms * companion.size / chosen.size
+    part = scaling_relations().families[scene_family(chosen.scene)].warm_start
+    return replace(run, transforms=part * run.transforms + transforms_before, units=part * run.units + before.units)
 
 
 @cache
 def transform_seconds() -> float:
-    """Seconds that a real transform of 4096 points takes here and now, the unit of predicted times."""
+    """Return the seconds of a real transform of 4096 points here and now, the unit of forecast times."""
     grid = Grid((UNIT_POINTS,), (1.0,))
     field, times = np.sin(np.arange(float(UNIT_POINTS))), []
-    for _ in range(REPEATS):
+    for _ in range(TIMINGS):
         begin = time.process_time()
         for _ in range(BATCH):
             grid.forward(field)

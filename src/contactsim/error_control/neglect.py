@@ -1,55 +1,61 @@
-"""Effects that a study leaves out because they are negligible: by the maps, and by a check on a sample.
+"""Neglect effects that hardly change a scene: proposed by maps, checked on a sample.
 
-The maps say which effects may be left out to a tolerance. A sample of members is solved with and without them on a
-coarser grid, which costs little and changes the effect of an effect hardly; what the check does not bear out stays. An
-effect that the maps find near the tolerance is checked as well; one that they do not know stays.
+The maps (`contactsim.error_control.effect_maps`) say which effects may be neglected to a tolerance. A sample of members
+is then solved with and without them on a coarser grid, which costs little and hardly changes how much they matter. What
+the check does not bear out stays. An effect that the maps find near the tolerance is checked as well; one that no map
+knows stays.
 """
 
 from __future__ import annotations
 
 import json
 import logging
-import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
-from contactsim import dataset
-from contactsim.contact.scene import Scene
+from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.error_control import control
-from contactsim.error_control.control import Outcome
-from contactsim.error_control.effect_maps import FILE, change, expected, reduced
-from contactsim.error_control.options import coarser, size_of
-from contactsim.error_control.scaling import reach_of, strength_of
+from contactsim.error_control.control import Solution
+from contactsim.error_control.effect_maps import FILE, change_without, expected_change
+from contactsim.error_control.options import coarsen
+from contactsim.error_control.scaling import shortest_range, total_strength
 from contactsim.errors import SceneError
+from contactsim.paths.options import Setup
 from contactsim.provenance import computing_digest, digest
 from contactsim.status import LIMITS, process_zone
-from contactsim.study import execute
-from contactsim.study.execute import Files, keep, names_of
-from contactsim.study.keys import is_smooth
-from contactsim.study.scenes import points_of, scene_of
-from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
 
-NEAR = 10.0
+NEAR_FACTOR = 10.0
 """Up to how many times the tolerance an effect is checked."""
-LOOSE = 1e-5
+LOOSE_TOLERANCE = 1e-5
 """Tolerance of a check along a path, in parts of the strength, if that of the run is not looser."""
-COARSER = 4
-"""How many times coarser the grid of the check is, where it shows all waves."""
+COARSE_FACTOR = 4
+"""How many times coarser the grid of the check is, where it resolves all waves."""
 
 
 @dataclass
 class Decision:
-    """What is left out of a variant of a study, and why.
+    """Effects that are neglected, and why.
 
-    expected: by the maps, measured: on the sample, relative changes by effect; together: of all that is left out;
-    words: what was done; work: transforms times points of the check, seconds: its CPU time, kept apart.
+    Parameters
+    ----------
+    left_out : list of str
+        Effects that are neglected.
+    expected : dict
+        Relative change by effect as the maps expect it; None where no map knows it.
+    measured : dict
+        Relative change by effect on the sample, as far as it was checked.
+    together : float
+        Relative change on the sample without all of them.
+    words : str
+        What was done, in words.
+    work : float
+        Transforms times points of the check.
+    seconds : float
+        CPU seconds of the check, which are not reproducible and kept apart.
     """
 
     left_out: list[str] = field(default_factory=list)
@@ -62,159 +68,132 @@ class Decision:
 
     @property
     def text(self) -> str:
-        """As it is kept."""
+        """The decision as JSON, without its seconds."""
         return json.dumps({name: value for name, value in asdict(self).items() if name != "seconds"}, indent=1)
 
 
-def source() -> str:
-    """Digest of what decides: the code, and the maps."""
+def decision_digest() -> str:
+    """Return a digest of what decides: the code and the maps."""
     return digest(computing_digest("contactsim.error_control.neglect"), FILE.read_text(encoding="utf-8"))
 
 
-def effects_of(run: dict) -> list[str]:
-    """The effects of a run that can be left out."""
-    scene = scene_of(run | {"leave_out": []})
-    return [name for name, less in SIMPLIFICATIONS.items() if _leaves(scene, less)]
+def neglectable_effects(scene: Scene) -> list[str]:
+    """Return the effects of a scene that can be neglected."""
+    return [name for name, simplify in SIMPLIFICATIONS.items() if _simplifies(scene, simplify)]
 
 
-def _leaves(scene: Scene, less: Callable[[Scene], Scene]) -> bool:
-    """Whether a scene has an effect, and is one without it."""
+def _simplifies(scene: Scene, simplify: Callable[[Scene], Scene]) -> bool:
+    """Return True where a scene has an effect, and is a scene without it."""
     try:
-        return less(scene) != scene
+        return simplify(scene) != scene
     except SceneError:
         return False
 
 
-def foreseen(run: dict, within: float) -> list[str]:
-    """The effects that the maps find negligible."""
-    found = {name: expected(run, name) for name in effects_of(run)}
-    return [name for name, value in found.items() if value is not None and value <= within]
+def expected_neglect(scene: Scene, tolerance: float) -> list[str]:
+    """Return the effects that the maps find negligible."""
+    changes = {name: expected_change(scene, name) for name in neglectable_effects(scene)}
+    return [name for name, change in changes.items() if change is not None and change <= tolerance]
 
 
-def decide(run: dict, within: float, of: list[str], sample: int) -> Decision:
-    """What may be left out of a run's scene so that quantities change by no more than a tolerance."""
-    found = Decision(expected={name: expected(run, name) for name in effects_of(run)})
-    samples = [_coarse(run | {"member": member}) for member in range(sample)]
-    known: list[dict[str, Outcome]] = [{} for _ in samples]
+def decide_neglect(samples: Sequence[Setup], tolerance: float, quantities: Sequence[str]) -> Decision:
+    """Decide which effects to neglect.
 
-    def measured(names: list[str]) -> float:
-        """The largest change on the sample."""
-        return max(change(one, names, of, solved) for one, solved in zip(samples, known, strict=True))
+    Parameters
+    ----------
+    samples : sequence of Setup
+        The scene with all its effects, for each member of the sample.
+    tolerance : float
+        Relative change that quantities may have.
+    quantities : sequence of str
+        Quantities to compare.
 
-    near = [name for name, value in found.expected.items() if value is not None and value <= NEAR * within]
-    found.left_out = [name for name in near if found.expected[name] <= within]
-    found.together = measured(found.left_out) if found.left_out else 0.0
-    if found.together > within or len(found.left_out) < len(near):  # one by one
-        found.measured = {name: measured([name]) for name in near}
-        found.left_out = [name for name, value in found.measured.items() if value <= within]
-        found.together = measured(found.left_out) if found.left_out else 0.0
-    while found.together > within:
-        worst = max(found.left_out, key=found.measured.__getitem__)
-        found.left_out.remove(worst)
-        found.together = measured(found.left_out) if found.left_out else 0.0
-    solved = [one for each in known for one in each.values()]
-    found.work = sum(one.transforms * one.size for one in solved)
-    found.seconds = sum(one.seconds for one in solved)
-    found.words = _words(found, within)
-    logger.info(found.words)
-    return found
-
-
-def _coarse(run: dict) -> dict:
-    """A run on a coarser grid, which still carries its walk."""
-    if "accuracy" in run:
-        return coarser({name: value for name, value in run.items() if name != "accuracy"})
-    scene = scene_of(run)
-    points, modes = points_of(run, scene.upper.surface), scene.upper.surface.modes or 0
-    coarsest = max(2 * modes + 1, scene.length / _finest(scene))
-    coarser_by = next(by for by in (COARSER, COARSER // 2, 1) if by == 1 or points // by >= coarsest)
-    if scene.upper.surface.points is not None:
-        coarser_by = 1  # a measured surface has its own grid
-    found = run | ({"points": points // coarser_by} if coarser_by > 1 else {})
-    if is_smooth(run):
-        found["tolerance"] = max(run["tolerance"], LOOSE)
-    if is_smooth(run) and run["increments"]["kind"] == "nested":
-        ratio = max(run["increments"]["ratio"] // coarser_by, 1)
-        found["increments"] = run["increments"] | {"ratio": ratio, "between": min(run["increments"]["between"], ratio)}
-    return found
-
-
-def _finest(scene: Scene) -> float:
-    """The longest grid spacing, nm, at which the model describes a scene's process zone."""
-    if Trait.SMOOTH not in scene.traits:
-        return np.inf
-    return LIMITS["process_zone_step"][0] * process_zone(scene.contact_modulus, strength_of(scene), reach_of(scene))
-
-
-def _words(found: Decision, within: float) -> str:
-    """What was done, effect by effect."""
-    parts, unknown = [], [name for name, value in found.expected.items() if value is None]
-    for name, value in found.expected.items():
-        if value is not None:
-            checked = f", {_told(found.measured[name])} on the sample" if name in found.measured else ""
-            parts.append(f"{name} {'left out' if name in found.left_out else 'kept'}, {value:.2g} by the maps{checked}")
-    parts += [f"together {found.together:.2g} on the sample"] * bool(found.left_out)
-    parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
-    return f"within {within:g}: " + "; ".join(parts or ["there is nothing to leave out"])
-
-
-def without(run: dict) -> tuple[dict, str]:
-    """A run's settings without what is found negligible now, and what was decided; as they are where none is sought."""
-    if "auto" not in run:
-        return run, ""
-    found = decide(run, **run["auto"])
-    return run | {"leave_out": found.left_out}, found.words
-
-
-def _told(change: float) -> str:
-    """A change in words."""
-    return f"{change:.2g}" if change < float("inf") else "not to be compared"
-
-
-def run(
-    settings: dict,
-    source: str,
-    target: str | Path,
-    costs: str | Path,
-    threads: int = 1,
-    decision: str | Path | None = None,
-    twin: str | Path | None = None,
-) -> None:
-    """Compute a run as it asks for, into its dataset and costs: see `march.run` and `confirm.run`.
-
-    decision: the file that says what is negligible, of a run that leaves that out; twin: dataset of a run whose scene
-    is the same without what the maps find negligible, which is taken over where that was left out of both.
+    Returns
+    -------
+    Decision
+        The effects whose neglect changes no quantity by more, each and all together.
     """
-    follow = control.run if "accuracy" in settings else execute.run
-    if decision is None:
-        follow(settings, source, target, costs, threads)
-        return
-    found = json.loads(Path(decision).read_text(encoding="utf-8"))
-    left = found["left_out"]
-    told = {"left_out": ", ".join(left), "left_out_change": found["together"], "decision": found["words"]}
-    size = size_of(scene_of(settings), points_of(settings, scene_of(settings).upper.surface))
-    told["transforms_of_check"] = found["work"] / size if settings["member"] == 0 else 0.0
-    settings = settings | {"leave_out": left}
-    other = dataset.read(twin) if twin else None
-    final = dataset.settings_of(other) if twin else {}
-    same = settings | {name: final[name] for name in CHOSEN if name in final}
-    if twin and reduced(final) == reduced(same):
-        _take_over(other, same, source, (target, costs), told)
-    else:
-        follow(settings, source, target, costs, threads, told)
+    scene = samples[0].scene
+    decision = Decision(expected={name: expected_change(scene, name) for name in neglectable_effects(scene)})
+    checks: list[tuple[Setup, dict[str, Solution]]] = [(_coarse_check(setup), {}) for setup in samples]
+
+    def measure(effects: list[str]) -> float:
+        """Return the largest change on the sample."""
+        return max(change_without(setup, effects, quantities, solutions) for setup, solutions in checks)
+
+    near = [name for name, value in decision.expected.items() if value is not None and value <= NEAR_FACTOR * tolerance]
+    decision.left_out = [name for name in near if decision.expected[name] <= tolerance]
+    decision.together = measure(decision.left_out) if decision.left_out else 0.0
+    if decision.together > tolerance or len(decision.left_out) < len(near):  # each on its own
+        decision.measured = {name: measure([name]) for name in near}
+        decision.left_out = [name for name, value in decision.measured.items() if value <= tolerance]
+        decision.together = measure(decision.left_out) if decision.left_out else 0.0
+    while decision.together > tolerance:
+        decision.left_out.remove(max(decision.left_out, key=decision.measured.__getitem__))
+        decision.together = measure(decision.left_out) if decision.left_out else 0.0
+    solutions = [solution for _, solved in checks for solution in solved.values()]
+    decision.work = sum(solution.transforms * solution.size for solution in solutions)
+    decision.seconds = sum(solution.seconds for solution in solutions)
+    decision.words = _describe(decision, tolerance)
+    logger.info(decision.words)
+    return decision
 
 
-CHOSEN = ("points", "tolerance", "load", "increments")
-"""What a run to an accuracy may have come to."""
+def _coarse_check(setup: Setup) -> Setup:
+    """Return a setup on a coarser grid, on which its path can still be followed."""
+    if setup.options.accuracy is not None:
+        return coarsen(setup.with_options(accuracy=None))
+    return COARSE_CHECKS[setup.scene.kind](setup)
 
 
-def _take_over(data: xr.Dataset, settings: dict, source: str, files: Files, told: Mapping[str, object]) -> None:
-    """A run's dataset from that of one whose scene is the same: nothing is spent."""
-    begin = time.process_time()
-    (dim,) = data.transforms.dims
-    spent = {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}
-    data = data.drop_vars("point_digest").assign(spent | dict(told)).assign(seconds=(dim, np.zeros(data[dim].size)))
-    if dim != "step":
-        data = data.rename({dim: "step"})
-    logger.info("taken over from a run whose scene is the same without %s", told["left_out"])
-    keep(data, settings, names_of(settings, source), source, files, begin)
+def _coarse_loads(setup: Setup) -> Setup:
+    """Return loads at a hard wall on a coarser grid."""
+    factor = _coarse_factor(setup, np.inf)
+    return setup.with_options(points=setup.points // factor) if factor > 1 else setup
+
+
+def _coarse_path(setup: Setup) -> Setup:
+    """Return a path of cohesive laws on a coarser grid which still resolves its process zone."""
+    scene, options = setup.scene, setup.options
+    zone = process_zone(scene.contact_modulus, total_strength(scene), shortest_range(scene))
+    factor = _coarse_factor(setup, LIMITS["process_zone_step"][0] * zone)
+    return setup.with_options(
+        points=setup.points // factor if factor > 1 else options.points,
+        tolerance=max(options.tolerance, LOOSE_TOLERANCE),
+        increments=None if options.increments is None else options.increments.coarsened(factor),
+    )
+
+
+COARSE_CHECKS: dict[ProblemKind, Callable[[Setup], Setup]] = {
+    ProblemKind.HARD_WALL: _coarse_loads,
+    ProblemKind.COHESIVE: _coarse_path,
+}
+
+
+def _coarse_factor(setup: Setup, max_spacing: float) -> int:
+    """Return how many times coarser the grid may be; 1 for a measured surface, which has its own grid."""
+    surface = setup.scene.upper.surface
+    if surface.points is not None:
+        return 1
+    fewest = max(2 * (surface.modes or 0) + 1, setup.scene.length / max_spacing)
+    factors = (COARSE_FACTOR, COARSE_FACTOR // 2, 1)
+    return next(factor for factor in factors if factor == 1 or setup.points // factor >= fewest)
+
+
+def _describe(decision: Decision, tolerance: float) -> str:
+    """Return what was done, effect by effect."""
+    parts, unknown = [], [name for name, value in decision.expected.items() if value is None]
+    for name, value in decision.expected.items():
+        if value is not None:
+            measured = decision.measured.get(name)
+            checked = "" if measured is None else f", {_describe_change(measured)} on the sample"
+            action = "left out" if name in decision.left_out else "kept"
+            parts.append(f"{name} {action}, {value:.2g} by the maps{checked}")
+    parts += [f"together {decision.together:.2g} on the sample"] * bool(decision.left_out)
+    parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
+    return f"within {tolerance:g}: " + "; ".join(parts or ["there is nothing to leave out"])
+
+
+def _describe_change(change: float) -> str:
+    """Return a change in words."""
+    return f"{change:.2g}" if change < float("inf") else "not to be compared"

@@ -1,222 +1,296 @@
-"""Grid, tolerance and increments for an accuracy that is asked for, before anything runs.
+"""Choose grid, tolerance and increments for a wanted error, before anything runs.
 
-They follow from relations that were measured (`contactsim.error_control.scaling`). An accuracy is a relative error of a
-run's
-quantities; each knob gets its share of it. What is chosen here is where a run begins;
-`contactsim.error_control.control` finds out
-whether it was right.
+They follow from measured relations between error and cost (`contactsim.error_control.scaling`). The wanted error is a
+relative error of a run's quantities, of which each knob gets a share. `contactsim.error_control.control` then solves
+and finds out whether the choice was right.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Protocol
 
 import numpy as np
 
-from contactsim.contact.scene import Scene
+from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.error_control.scaling import (
     LINE,
-    MEASURES,
     PATH,
+    QUANTITIES,
     ROUGH_PATH,
     SLIDE,
     SURFACE,
-    Kind,
+    Family,
     Relation,
     contact_scale,
     features,
-    kind_of,
-    reach_of,
-    relations,
+    scaling_relations,
+    scene_family,
+    shortest_range,
 )
 from contactsim.errors import SceneError
-from contactsim.study.keys import is_smooth
-from contactsim.study.scenes import scene_of
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.paths.adaptive import Adaptive
+from contactsim.paths.increments import Increments, Requested
+from contactsim.paths.nested import Nested
+from contactsim.paths.options import Setup
 from contactsim.traits import Trait
 
 SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}
-"""Part of an error that the grid is chosen for: less where scenes of a kind differ more than what is known of them."""
-SHARES = {"increment": 0.2, "tolerance": 0.1}
+"""Part of an error that the grid is chosen for: less where scenes of a family differ more from their relation."""
+ERROR_SHARES = {"increment": 0.2, "tolerance": 0.1}
 """Parts of the error that other knobs may make."""
-SIZES = (8, 9, 10, 12, 15)
+GRID_FACTORS = (8, 9, 10, 12, 15)
 """Points of a grid are one of these times a power of two: short transforms, and blocks of eight."""
-FEWEST = 16
-"""Least points of a grid; a run has twice as many, as its companion has fewer."""
-LARGEST = 2**28
-"""Most points of a grid that an accuracy may lead to."""
-PACE = 3.0
-"""Increments of a companion, over those of its run."""
-COARSER = {LINE: 5.0}
-"""How many times coarser the companion of a run is than what is expected to be needed, if not three times."""
+MIN_POINTS = 16
+"""Least points of a grid; a run has twice as many, as its coarse companion has fewer."""
+MAX_POINTS = 2**28
+"""Most points of a grid that a wanted error may lead to."""
+COARSE_INCREMENT_RATIO = 3.0
+"""Increments of a coarse companion, over those of its run."""
+COARSE_GRID_RATIOS = {LINE: 5.0}
+"""How many times coarser the companion's grid is than the one expected to be needed, where it is not three times."""
 PATH_TOLERANCE = 1e-4
-"""Tolerance on paths, in parts of the strength: one that is looser costs more, as states are then sought by flow."""
-TOLERANCES = (1e-4, 1e-2)
-"""Least and largest tolerance at a wall, in grid steps."""
-FLAT = 0.3
+"""Tolerance on paths, in parts of the strength: a looser one costs more, as states are then sought by flow."""
+WALL_TOLERANCES = (1e-4, 1e-2)
+"""Least and largest tolerance at a hard wall, in grid steps."""
+MIN_POWER = 0.3
 """Powers of a knob below it count as none."""
-LONGEST = 2.0
+MAX_INCREMENT = 2.0
 """Longest increment of a path, in the laws' length."""
-PRESSING = 0.5
-"""Least increment, nm, of the path that presses before a slide: that of the slides that were measured, see `draws`."""
-WAVES = 2.5
+MIN_PRESSING_INCREMENT = 0.5
+"""Least increment (nm) of the path that presses before a slide: that of the slides that were measured."""
+POINTS_PER_WAVE = 2.5
 """Least points for each shortest wavelength."""
 
 
-def at_least(points: float) -> int:
-    """The smallest grid with that many points that the transforms like."""
-    exponent = max(math.ceil(math.log2(max(points, FEWEST) / SIZES[-1])), 0)
-    sizes = [size * 2**power for size in SIZES for power in range(exponent + 2) if size * 2**power >= FEWEST]
-    return min(size for size in sizes if size >= points)
+class Knobs(Protocol):
+    """What can be chosen for one kind of problem, beside its grid."""
+
+    def choose_increment(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
+        """Return the setup with the increments of its path for an error, and the tolerance that goes with them."""
+        ...
+
+    def scale_increment(self, setup: Setup, factor: float) -> Setup:
+        """Return the setup with the increments of its path times a factor."""
+        ...
+
+    def choose_tolerance(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
+        """Return the setup with the tolerance for an error on its grid."""
+        ...
+
+    def suit_grid(self, setup: Setup) -> Setup:
+        """Return the setup with its path followed as suits its grid."""
+        ...
+
+    def contact_scales(self, scene: Scene) -> list[float]:
+        """Return the length (nm) that contacts are measured by, for each set of features."""
+        ...
+
+    def expect_error(self, setup: Setup, family: Family, name: str) -> float:
+        """Return the largest relative error of a quantity that grid and increments are expected to leave."""
+        ...
 
 
-def chosen(settings: dict, error: float, of: Sequence[str] = ()) -> dict:
-    """A run's settings with the grid, tolerance and increments for a relative error of quantities.
+class LoadKnobs:
+    """Grid and tolerance of loads at a hard wall; there are no increments."""
 
-    settings: of a run, whose path may have any increments; of: names of quantities, the usual ones where empty.
-    """
-    scene = scene_of(settings)
-    kind = kind_of(scene)
-    known, names = relations().kinds[kind], of or MEASURES[kind]
-    for name in names:
-        if name not in known.errors["points"]:
-            raise SceneError("accuracy.of", name, f"some of {', '.join(known.errors['points'])}")
-    found = dict(settings)
-    if is_smooth(settings):
-        found |= _paced(settings, scene, known, names, error)
-        found["tolerance"] = min(PATH_TOLERANCE, error * PATH_TOLERANCE / 1e-2)
+    def choose_increment(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
+        """Return the setup itself."""
+        return setup
+
+    def scale_increment(self, setup: Setup, factor: float) -> Setup:
+        """Return the setup itself."""
+        return setup
+
+    def choose_tolerance(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
+        """Return the setup with the tolerance (grid steps) whose share of the error every load can bear."""
+        target = ERROR_SHARES["tolerance"] * error
+        worst = [
+            min(solve_relations(family.errors["tolerance"], names, "tolerance", numbers, target))
+            for numbers in grid_features(setup.scene, setup.points)
+        ]
+        return setup.with_options(tolerance=float(np.clip(math.exp(min(worst)), *WALL_TOLERANCES)))
+
+    def suit_grid(self, setup: Setup) -> Setup:
+        """Return the setup itself."""
+        return setup
+
+    def contact_scales(self, scene: Scene) -> list[float]:
+        """Return a length (nm) for each load."""
+        return [contact_scale(scene, step.value) for step in scene.path.steps]
+
+    def expect_error(self, setup: Setup, family: Family, name: str) -> float:
+        """Return the error that the grid leaves at the worst load."""
+        return max(family.errors["points"][name](numbers) for numbers in grid_features(setup.scene, setup.points))
+
+
+class PathKnobs:
+    """Grid, tolerance and increments of a path of cohesive laws."""
+
+    def choose_increment(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
+        """Return the setup with increments in two digits; of a path that slides, those of the slide."""
+        scene = setup.scene
+        (numbers,) = features(scene)
+        target = ERROR_SHARES["increment"] * error
+        logarithms = solve_relations(family.errors["increment"], names, "increment", numbers, target)
+        increment = float(f"{shortest_range(scene) * math.exp(min([*logarithms, math.log(MAX_INCREMENT)])):.2g}")
         try:
-            scene = scene_of(found)
+            setup = setup.with_increment(increment, pressing=max(increment, MIN_PRESSING_INCREMENT))
         except SceneError as too_many:
             raise SceneError("accuracy", error, f"an error for which increments are {too_many.allowed}") from too_many
-    scale = scales(scene)
-    spacing = min(
-        scale_of * math.exp(grid)
-        for one, scale_of in zip(features(scene), scale, strict=True)
-        for grid in _solved(known.errors["points"], names, "grid", one, SAFETY[kind] * error)
-    )
-    found["points"] = grid_for(scene, max(scene.length / spacing, 2 * FEWEST), error)
-    if not is_smooth(settings):
-        worst = [
-            _solved(known.errors["tolerance"], names, "tolerance", one, SHARES["tolerance"] * error)
-            for one in on_grid(scene, found["points"])
-        ]
-        found["tolerance"] = float(np.clip(math.exp(min(min(each) for each in worst)), *TOLERANCES))
-    else:
-        found["increments"] = walked(scene, kind, found["points"], settings)
-    return found
+        return setup.with_options(tolerance=min(PATH_TOLERANCE, error * PATH_TOLERANCE / 1e-2))
+
+    def scale_increment(self, setup: Setup, factor: float) -> Setup:
+        """Return the setup with the increments of its slide or, without one, of its path times a factor."""
+        return setup.with_increment(setup.scene.path.increment * factor)
+
+    def choose_tolerance(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
+        """Return the setup itself: the tolerance has been chosen with the increments."""
+        return setup
+
+    def suit_grid(self, setup: Setup) -> Setup:
+        """Return the setup with increments as requested, adaptive or, for rough lines, on nested grids."""
+        return setup.with_options(increments=choose_increments(setup.scene, setup.points))
+
+    def contact_scales(self, scene: Scene) -> list[float]:
+        """Return one length (nm) for the whole path."""
+        return [contact_scale(scene)]
+
+    def expect_error(self, setup: Setup, family: Family, name: str) -> float:
+        """Return the error that grid and increments leave together."""
+        scene = setup.scene
+        (numbers,) = grid_features(scene, setup.points)
+        numbers |= {"increment": math.log(scene.path.increment / shortest_range(scene))}
+        relations = [family.errors[knob][name] for knob in ("points", "increment") if name in family.errors[knob]]
+        return sum(relation(numbers) for relation in relations)
 
 
-def grid_for(scene: Scene, points: float, error: float) -> int:
-    """The grid of about that many points which resolves the surface; SceneError where it is beyond all bounds."""
-    surface = scene.upper.surface
-    if isinstance(surface, SelfAffine):
-        points = max(points, WAVES * surface.length / surface.finest)
-    if not math.prod(surface.shape(at_least(min(points, LARGEST)))) <= LARGEST or points > LARGEST:
-        raise SceneError("accuracy", error, f"an error for which {LARGEST:.2g} grid points are enough")
-    return at_least(points)
+KNOBS: dict[ProblemKind, Knobs] = {ProblemKind.HARD_WALL: LoadKnobs(), ProblemKind.COHESIVE: PathKnobs()}
 
 
-def on_points(settings: dict, points: float, error: float = 0.0) -> dict:
-    """A run's settings on a grid of about that many points, its path walked as suits it; error: see `grid_for`."""
-    scene = scene_of(settings)
-    found = settings | {"points": grid_for(scene, points, error)}
-    if is_smooth(settings):
-        found["increments"] = walked(scene, kind_of(scene), found["points"], found)
-    return found
+def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Setup:
+    """Choose grid, tolerance and increments for a relative error.
 
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options; its grid, tolerance and increments do not matter.
+    error : float
+        Relative error, above 0 and below 1.
+    quantities : sequence of str, optional
+        Quantities whose error counts; those usual for the scene where empty.
 
-def coarser(settings: dict) -> dict:
-    """The companion of a run: its grid and increments coarser."""
-    ratio = COARSER.get(kind_of(scene_of(settings)), 3.0)
-    paced = settings | rescaled(settings, PACE) if is_smooth(settings) else settings
-    return on_points(paced, settings["points"] / ratio)
+    Returns
+    -------
+    Setup
+        The same scene, its path in other increments, with options for that error.
 
-
-def paced_part(settings: dict) -> str:
-    """The section of a run whose increment counts: that of its slide, or of its path."""
-    return "slide" if settings.get("slide") else "load"
-
-
-def by_increment(settings: dict, increment: float) -> dict:
-    """The section of a run with such an increment."""
-    part = paced_part(settings)
-    return {part: settings[part] | {"increment": increment}}
-
-
-def rescaled(settings: dict, factor: float) -> dict:
-    """The section of a run with its increment times a factor."""
-    return by_increment(settings, settings[paced_part(settings)]["increment"] * factor)
-
-
-def size_of(scene: Scene, points: int) -> int:
-    """All points of a grid with that many along x."""
-    return math.prod(scene.upper.surface.shape(points))
-
-
-def _solved(
-    laws: dict[str, Relation], names: Sequence[str], knob: str, one: dict[str, float], target: float
-) -> list[float]:
-    """The logarithm of a knob at which the errors of quantities are on a target, as far as they depend on it."""
-    found = []
+    Raises
+    ------
+    SceneError
+        For a quantity or a scene without a relation, or where no affordable grid is fine enough.
+    """
+    scene = setup.scene
+    name_of_family = scene_family(scene)
+    family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
     for name in names:
-        law = laws.get(name)
-        if law is None or not law.coefficients.get(knob, 0.0) > FLAT:
+        if name not in family.errors["points"]:
+            raise SceneError("accuracy.of", name, f"some of {', '.join(family.errors['points'])}")
+    knobs = KNOBS[scene.kind]
+    setup = knobs.choose_increment(setup, family, names, error)
+    scene = setup.scene
+    spacing = min(
+        scale * math.exp(logarithm)
+        for numbers, scale in zip(features(scene), knobs.contact_scales(scene), strict=True)
+        for logarithm in solve_relations(
+            family.errors["points"], names, "grid", numbers, SAFETY[name_of_family] * error
+        )
+    )
+    points = choose_grid(scene, max(scene.length / spacing, 2 * MIN_POINTS), error)
+    setup = knobs.choose_tolerance(setup.with_options(points=points), family, names, error)
+    return knobs.suit_grid(setup)
+
+
+def round_grid(points: float) -> int:
+    """Return the smallest grid with that many points that has short transforms."""
+    exponent = max(math.ceil(math.log2(max(points, MIN_POINTS) / GRID_FACTORS[-1])), 0)
+    sizes = [factor * 2**power for factor in GRID_FACTORS for power in range(exponent + 2)]
+    return min(size for size in sizes if size >= max(points, MIN_POINTS))
+
+
+def choose_grid(scene: Scene, points: float, error: float) -> int:
+    """Return a grid of about that many points which resolves the surface.
+
+    Raises
+    ------
+    SceneError
+        Where it has more than `MAX_POINTS` points in all; `error` is named as the cause.
+    """
+    surface = scene.upper.surface
+    points = max(points, POINTS_PER_WAVE * scene.length / surface.finest)
+    if not math.prod(surface.shape(round_grid(min(points, MAX_POINTS)))) <= MAX_POINTS or points > MAX_POINTS:
+        raise SceneError("accuracy", error, f"an error for which {MAX_POINTS:.2g} grid points are enough")
+    return round_grid(points)
+
+
+def set_grid(setup: Setup, points: float, error: float = 0.0) -> Setup:
+    """Return a setup on a grid of about that many points, its path followed as suits it; error: see `choose_grid`."""
+    setup = setup.with_options(points=choose_grid(setup.scene, points, error))
+    return KNOBS[setup.scene.kind].suit_grid(setup)
+
+
+def scale_increment(setup: Setup, factor: float) -> Setup:
+    """Return a setup with the increments of its slide or path times a factor; unchanged where there are none."""
+    return KNOBS[setup.scene.kind].scale_increment(setup, factor)
+
+
+def coarsen(setup: Setup) -> Setup:
+    """Return the coarse companion of a setup: a coarser grid and longer increments."""
+    ratio = COARSE_GRID_RATIOS.get(scene_family(setup.scene), 3.0)
+    return set_grid(scale_increment(setup, COARSE_INCREMENT_RATIO), setup.points / ratio)
+
+
+def expect_error(setup: Setup, family: Family, name: str) -> float:
+    """Return the largest relative error of a quantity that grid and increments are expected to leave."""
+    return KNOBS[setup.scene.kind].expect_error(setup, family, name)
+
+
+def solve_relations(
+    relations: Mapping[str, Relation], names: Sequence[str], knob: str, numbers: Mapping[str, float], target: float
+) -> list[float]:
+    """Return the logarithms of a knob at which the errors of quantities meet a target, as far as they depend on it."""
+    logarithms = []
+    for name in names:
+        relation = relations.get(name)
+        if relation is None or not relation.coefficients.get(knob, 0.0) > MIN_POWER:
             continue
-        rest = math.log(law(one | {knob: 0.0}))
-        found.append((math.log(target) - rest) / law.coefficients[knob])
-    return found
+        rest = math.log(relation({**numbers, knob: 0.0}))
+        logarithms.append((math.log(target) - rest) / relation.coefficients[knob])
+    return logarithms
 
 
-def scales(scene: Scene) -> list[float]:
-    """The length that contacts are measured by, for each set of features, nm."""
-    if Trait.WALL in scene.traits:
-        return [contact_scale(scene, step.value) for step in scene.path.steps]
-    return [contact_scale(scene)]
+def grid_features(scene: Scene, points: int) -> list[dict[str, float]]:
+    """Return the features of a scene on a grid, for each load or for the path.
 
-
-def left_open(settings: dict, known: Kind, name: str) -> float:
-    """The relative error of a quantity of a path that its grid and increments are expected to leave."""
-    scene = scene_of(settings)
-    (place,) = on_grid(scene, settings["points"])
-    increment = settings[paced_part(settings)]["increment"]
-    place |= {"increment": math.log(increment / reach_of(scene))}
-    laws = [known.errors[knob][name] for knob in ("points", "increment") if name in known.errors[knob]]
-    return sum(law(place) for law in laws)
-
-
-def on_grid(scene: Scene, points: int) -> list[dict[str, float]]:
-    """Features with the grid's: spacing over what contacts are measured by; and the number of points."""
-    spacing, size = scene.length / points, size_of(scene, points)
+    Beside `scaling.features`: the logarithms of spacing over contact size, and of the number of points.
+    """
+    spacing, size = scene.length / points, math.prod(scene.upper.surface.shape(points))
     return [
-        one | {"grid": math.log(spacing / scale), "size": math.log(size)}
-        for one, scale in zip(features(scene), scales(scene), strict=True)
+        numbers | {"grid": math.log(spacing / scale), "size": math.log(size)}
+        for numbers, scale in zip(features(scene), KNOBS[scene.kind].contact_scales(scene), strict=True)
     ]
 
 
-def _paced(settings: dict, scene: Scene, known: Kind, names: Sequence[str], error: float) -> dict:
-    """The sections of a run with the increments of its path for an error."""
-    (one,) = features(scene)
-    found = _solved(known.errors["increment"], names, "increment", one, SHARES["increment"] * error)
-    increment = float(f"{reach_of(scene) * math.exp(min([*found, math.log(LONGEST)])):.2g}")
-    return by_increment(settings, increment) | _pressed(settings, increment)
-
-
-def _pressed(settings: dict, increment: float) -> dict:
-    """The path that presses before a slide, in increments of its own, as nothing is read off it."""
-    return {"load": settings["load"] | {"increment": max(increment, PRESSING)}} if settings.get("slide") else {}
-
-
-def walked(scene: Scene, kind: str, points: int, settings: dict) -> dict:
-    """How a path is walked on a grid."""
-    if kind == SLIDE or scene.path.steps[0].control is not Trait.APPROACH:
-        return {"kind": "requested"}
-    if kind != ROUGH_PATH:
-        return {"kind": "adaptive"}
+def choose_increments(scene: Scene, points: int) -> Increments:
+    """Return how the path of cohesive laws is followed on a grid of that many points."""
+    family = scene_family(scene)
+    if family == SLIDE or scene.path.steps[0].control is not Trait.APPROACH:
+        return Requested()
+    if family != ROUGH_PATH:
+        return Adaptive()
     waves = points * contact_scale(scene) / scene.length
     ratio = 2 ** int(np.clip(round(math.log2(waves / 2)), 0, 4))
     while points % (2 * ratio):
         ratio //= 2
-    settled = sorted(set(settings["load"]["through"][1:]))
-    return {"kind": "nested", "settled": settled, "ratio": ratio, "between": min(2, ratio)}
+    return Nested(tuple(sorted(set(scene.path.turning_points[1:]))), ratio=ratio, between=min(2, ratio))

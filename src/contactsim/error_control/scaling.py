@@ -1,10 +1,10 @@
-"""What accuracy costs, as relations that were measured once and are read from a file.
+"""Relations between error, cost and a scene, measured once and read from a file.
 
-Errors of the grid follow the size of what it has to show: at a hard wall the contacts, under smooth laws the process
-zone and the contact; errors of a path follow its increments. Work and time follow grid,
-steps and what acts. Each relation is a power law in a few numbers that say what kind of scene it is, `features`, with
-its scatter over the scenes that it was fitted to, none of which it is judged on.
-`contactsim.evaluation.calibration.fit` fits them.
+At a hard wall the error of the grid follows the size of the contacts that it has to show; with cohesive laws it follows
+the process zone and the contact. The error of a path follows its increments. Work and time follow the grid, the steps
+and what acts. Each relation is a power law in a few numbers that describe the scene, its `features`, with its scatter
+over the scenes that it was fitted to. `contactsim.evaluation.calibration.fit` fits them; none of the scenes that judge
+them took part.
 """
 
 from __future__ import annotations
@@ -16,106 +16,140 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+import yaml
 
 from contactsim import reference
 from contactsim.contact.scene import Scene
 from contactsim.errors import SceneError
 from contactsim.status import process_zone
-from contactsim.study.reading import load_yaml
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Sphere
 from contactsim.traits import Trait
 
 FILE = Path(__file__).with_name("scaling.yaml")
-LINE, SURFACE, PATH, ROUGH_PATH, SLIDE = KINDS = ("line", "surface", "path", "rough_path", "slide")
-"""Scenes that relations are known of: lines and surfaces under loads, against a hard wall; asperities, and rough lines,
-along a path by smooth laws; asperities that slide."""
-MEASURES = {
+LINE, SURFACE, PATH, ROUGH_PATH, SLIDE = FAMILIES = ("line", "surface", "path", "rough_path", "slide")
+"""Families of scenes with relations: lines and surfaces under loads at a hard wall; asperities, and rough lines, along
+a path of cohesive laws; asperities that slide."""
+QUANTITIES = {
     LINE: ("relative_contact_area_subgrid",),
     SURFACE: ("relative_contact_area_subgrid",),
     PATH: ("pull_off_load_loading", "final_contact_length"),
     ROUGH_PATH: ("final_contact_length", "final_interacting_length"),
     SLIDE: ("static_friction",),
 }
-"""The quantities whose relative error is asked for where nothing else is said."""
-COUNTED = "relative_contact_area"
-ORDERS = {COUNTED: 1.0, "final_interacting_length": 1.0}
-"""Orders in the grid spacing of errors of what counts points; of all others it is two."""
-SECOND = 2.0
+"""Quantities whose relative error counts where no others are named."""
+COUNTED_AREA = "relative_contact_area"
+GRID_ORDERS = {COUNTED_AREA: 1.0, "final_interacting_length": 1.0}
+"""Orders in the grid spacing for quantities that count points; all others have the default."""
+DEFAULT_GRID_ORDER = 2.0
+TYPICAL_KAPPA = 1.75
+"""Contact area over reduced pressure of a lightly loaded rough surface, about that of Persson and of Bush."""
 
 
 @dataclass(frozen=True)
 class Relation:
-    """A power law: exp of a sum of coefficients times features; spread: standard deviation of its logarithm."""
+    """A power law in the features of a scene.
+
+    Parameters
+    ----------
+    coefficients : mapping from str to float
+        Factor of each feature; their sum is the logarithm of the value.
+    spread : float
+        Standard deviation of the logarithm over the scenes that were fitted.
+    """
 
     coefficients: Mapping[str, float]
     spread: float
 
     def __call__(self, features: Mapping[str, float], deviations: float = 0.0) -> float:
-        """What is expected, or what lies some standard deviations above it."""
+        """Return the expected value, or one that lies some standard deviations above it."""
         total = sum(factor * features[name] for name, factor in self.coefficients.items())
         return float(np.exp(total + deviations * self.spread))
 
 
 @dataclass(frozen=True)
-class Kind:
-    """What is known of one kind of scene.
+class Family:
+    """Relations for one family of scenes.
 
-    errors: by knob and quantity, from features; resolved: by quantity, errors from how well a solution shows its
-    contacts, which is known of a wall once it is solved; transforms: of a load, or of a path; begun: part of them that
-    is left where a companion was solved before; seconds: those of a load or step, of a transform, and of a transform's
-    points times log2 of them; ranges: of the features that were seen.
+    Parameters
+    ----------
+    errors : mapping
+        Relative error by knob ("points", "tolerance", "increment") and quantity.
+    resolved : mapping
+        Relative error by quantity from how well a solution resolves its contacts; for hard walls alone.
+    transforms : Relation
+        Transforms of a load or of a path.
+    warm_start : float
+        Part of the transforms that is left where a coarse companion was solved before.
+    seconds : mapping
+        CPU seconds of a load or step, of a transform, and of a transform's points times their binary logarithm.
+    ranges : mapping
+        Least and largest value of each feature that was measured.
     """
 
     errors: Mapping[str, Mapping[str, Relation]]
     resolved: Mapping[str, Relation]
     transforms: Relation
-    begun: float
+    warm_start: float
     seconds: Mapping[str, float]
     ranges: Mapping[str, tuple[float, float]]
 
     def outside(self, features: Mapping[str, float]) -> list[str]:
-        """Features beyond all that was measured."""
+        """Return the features beyond all that was measured."""
         return [name for name, (low, high) in self.ranges.items() if not low <= features[name] <= high]
 
 
 @dataclass(frozen=True)
-class Relations:
-    """All kinds, and what the transform that is the unit of time took on the machine that they were measured on."""
+class ScalingRelations:
+    """All families, and the seconds of a transform (the unit of time) on the machine that measured them."""
 
     unit: float
-    kinds: Mapping[str, Kind]
+    families: Mapping[str, Family]
 
 
 @cache
-def relations() -> Relations:
-    """The relations of the package."""
-    return as_relations(load_yaml(FILE))
+def scaling_relations() -> ScalingRelations:
+    """Return the relations of the package."""
+    return build_relations(read_data_file(FILE))
 
 
-def as_relations(told: Mapping) -> Relations:
-    """Relations from the numbers of their file."""
+def read_data_file(file: Path) -> dict:
+    """Return the mapping in a YAML file of the package."""
+    return yaml.load(file.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
-    def one(section: Mapping) -> Relation:
-        """One relation."""
+
+def build_relations(numbers: Mapping) -> ScalingRelations:
+    """Return relations from the numbers of their file."""
+
+    def relation(section: Mapping) -> Relation:
+        """Return one relation."""
         return Relation(section["coefficients"], section["spread"])
 
-    kinds = {
-        name: Kind(
-            {knob: {of: one(law) for of, law in laws.items()} for knob, laws in kind["errors"].items()},
-            {of: one(law) for of, law in kind["resolved"].items()},
-            one(kind["transforms"]),
-            kind["begun"],
-            kind["seconds"],
-            {feature: tuple(ends) for feature, ends in kind["ranges"].items()},
+    families = {
+        name: Family(
+            errors={
+                knob: {quantity: relation(law) for quantity, law in laws.items()}
+                for knob, laws in section["errors"].items()
+            },
+            resolved={quantity: relation(law) for quantity, law in section["resolved"].items()},
+            transforms=relation(section["transforms"]),
+            warm_start=section["warm_start"],
+            seconds=section["seconds"],
+            ranges={feature: tuple(ends) for feature, ends in section["ranges"].items()},
         )
-        for name, kind in told["kinds"].items()
+        for name, section in numbers["families"].items()
     }
-    return Relations(told["unit"], kinds)
+    return ScalingRelations(numbers["unit"], families)
 
 
-def kind_of(scene: Scene) -> str:
-    """Which of `KINDS` a scene is; SceneError for one of which nothing was measured."""
+def scene_family(scene: Scene) -> str:
+    """Return the family of a scene.
+
+    Raises
+    ------
+    SceneError
+        For a scene whose errors and costs were not measured.
+    """
     surface, traits = scene.upper.surface, scene.traits
     rough = isinstance(surface, SelfAffine)
     if not (rough or isinstance(surface, Cylinder | Sphere)):
@@ -134,54 +168,54 @@ def kind_of(scene: Scene) -> str:
     return ROUGH_PATH if rough else PATH
 
 
-def reach_of(scene: Scene) -> float:
-    """The length over which a scene's smooth laws change, nm: the shortest of theirs."""
-    return min(effect.interaction_range for effect in scene.effects if Trait.SMOOTH in effect.traits)
+def shortest_range(scene: Scene) -> float:
+    """Return the shortest length (nm) over which the cohesive laws of a scene change."""
+    return min(law.interaction_range for law in scene.effects if Trait.SMOOTH in law.traits)
 
 
-def strength_of(scene: Scene) -> float:
-    """The strength of a scene's smooth laws together, GPa."""
-    return sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits)
+def total_strength(scene: Scene) -> float:
+    """Return the strength (GPa) of all cohesive laws of a scene together."""
+    return sum(law.strength for law in scene.effects if Trait.SMOOTH in law.traits)
 
 
 def features(scene: Scene) -> list[dict[str, float]]:
-    """What a scene is like, in numbers without units that do not depend on its grid: of each load, or of its path."""
-    kind, surface = kind_of(scene), scene.upper.surface
+    """Return numbers without units that describe a scene, whatever its grid: for each load, or for its path."""
+    family, surface = scene_family(scene), scene.upper.surface
     bodies = scene.elasticities
-    found = {"one": 1.0, "rough": 0.0, "hurst": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
-    found["layers"] = float(sum(Trait.HALF_SPACE not in body.traits for body in bodies))
+    numbers = {"one": 1.0, "rough": 0.0, "hurst": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
+    numbers["layers"] = float(sum(Trait.HALF_SPACE not in body.traits for body in bodies))
     if isinstance(surface, SelfAffine):
         bandwidth = np.log(surface.rolloff_wavelength / surface.finest)
-        found |= {"rough": 1.0, "hurst": surface.hurst, "bandwidth": float(bandwidth)}
-    if kind in (LINE, SURFACE):
-        return [found | _pressed(scene, step.value) for step in scene.path.steps]
-    reach, strength = reach_of(scene), strength_of(scene)
-    deepest = max(step.value for step in scene.path.steps if step.held is None)
-    zone, size = process_zone(scene.contact_modulus, strength, reach), contact_scale(scene)
-    found |= {
-        "deep": float(np.log(max(deepest, reach) / reach)),
-        "steps": float(np.log(len(scene.path.steps))),
-        "span": float(np.log(sum(_lengths(scene)) / reach)),
+        numbers |= {"rough": 1.0, "hurst": surface.hurst, "bandwidth": float(bandwidth)}
+    if family in (LINE, SURFACE):
+        return [numbers | _load_features(scene, step.value) for step in scene.path.steps]
+    return [numbers | _path_features(scene)]
+
+
+def _path_features(scene: Scene) -> dict[str, float]:
+    """Return the features of a path of cohesive laws."""
+    length, strength = shortest_range(scene), total_strength(scene)
+    deepest = _deepest_approach(scene)
+    zone, size = process_zone(scene.contact_modulus, strength, length), contact_scale(scene)
+    values = [step.value for step in scene.path.steps]
+    increments = [abs(after - before) for before, after in itertools.pairwise(values)] or [1.0]
+    return {
+        "deep": float(np.log(max(deepest, length) / length)),
+        "steps": float(np.log(len(values))),
+        "span": float(np.log(sum(increments) / length)),
         "zone": float(np.log(size / zone)),
         "strength": float(np.log(strength / scene.contact_modulus)),
         "coupled": float("t" in scene.components),
         "friction": float("t" in scene.exerted),
     }
-    return [found]
 
 
-def _lengths(scene: Scene) -> list[float]:
-    """By how much a path changes, step by step; nm."""
-    values = [step.value for step in scene.path.steps]
-    return [abs(after - before) for before, after in itertools.pairwise(values)] or [1.0]
-
-
-def _pressed(scene: Scene, pressure: float) -> dict[str, float]:
-    """A load's features: logarithms of the reduced pressure and of the area that is expected."""
+def _load_features(scene: Scene, pressure: float) -> dict[str, float]:
+    """Return the features of a load: logarithms of the reduced pressure and of the expected contact area."""
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
         reduced = pressure / (scene.contact_modulus * surface.gradient)
-        area = min(1.75 * reduced, 1.0)
+        area = min(TYPICAL_KAPPA * reduced, 1.0)
     else:
         size = contact_scale(scene, pressure)
         area = min(2 * size, surface.length) / surface.length
@@ -191,17 +225,22 @@ def _pressed(scene: Scene, pressure: float) -> dict[str, float]:
 
 
 def contact_scale(scene: Scene, pressure: float = 0.0) -> float:
-    """A length, nm, that contacts are measured by: the shortest wavelength, or the half-width or radius of a round one.
+    """Return the length (nm) that contacts are measured by.
 
-    pressure: mean pressure, GPa, on a hard wall; along a path the half-width at the deepest approach is meant.
+    It is the shortest wavelength of a rough surface, and the half-width or radius of the contact of a round one:
+    by Hertz at a mean pressure (GPa) on a hard wall, at the deepest approach along a path.
     """
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
         return surface.finest
     if Trait.WALL not in scene.traits:
-        deepest = max(step.value for step in scene.path.steps if step.held is None)
-        return float(np.sqrt(surface.radius * max(deepest, reach_of(scene))))
+        return float(np.sqrt(surface.radius * max(_deepest_approach(scene), shortest_range(scene))))
     load = pressure * float(np.prod(scene.lengths))
     if len(scene.lengths) == 1:
         return float(np.sqrt(load / reference.cylinder_load(1.0, surface.radius, scene.contact_modulus)))
     return float(np.cbrt(load / reference.sphere_load(1.0, surface.radius, scene.contact_modulus)))
+
+
+def _deepest_approach(scene: Scene) -> float:
+    """Return the largest approach (nm) before any slide."""
+    return max(step.value for step in scene.path.steps if step.held is None)

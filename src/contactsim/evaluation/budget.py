@@ -17,6 +17,7 @@ from contactsim.evaluation.calibration.sampling import read_draws
 from contactsim.evaluation.effects.effect_cost import read_ladder
 from contactsim.evaluation.effects.survey import read_maps
 from contactsim.evaluation.resources import START, megabytes_of, seconds_of
+from contactsim.evaluation.robustness.survey import read_stability
 from contactsim.evaluation.work_precision.case_config import every_tier, read_cases
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
@@ -79,9 +80,13 @@ def others(folder: str | Path, plan: Plan) -> dict[str, int]:
     """From what is solved besides to the number of its jobs, of which nothing is predicted."""
     found = {"decisions": len({plan.decision(run) for run in _runs(plan, plan.studies)} - {None})}
     found |= {f"accuracy_{name}": len(case.jobs()) for name, case in read_cases(folder, plan).items()}
-    drawn, maps = read_draws(folder, plan.trials, plan.tier), read_maps(folder, plan.effect_maps, plan.tier)
-    found |= {"stability": len(plan.stability["hazards"]) if plan.stability else 0}
-    found |= {"effects": int(read_ladder(folder, plan.seed, plan.effects, plan.tier) is not None)}
+    drawn, maps = (
+        read_draws(folder, plan.overrides["trials"], plan.tier),
+        read_maps(folder, plan.overrides["effect_maps"], plan.tier),
+    )
+    stability = read_stability(folder, plan)
+    found |= {"stability": len(stability["hazards"]) if stability else 0}
+    found |= {"effects": int(read_ladder(folder, plan.seed, plan.overrides["effects"], plan.tier) is not None)}
     found |= {"trials": len(validation.names(drawn)) if drawn else 0, "effect_maps": len(maps["maps"]) if maps else 0}
     return {name: jobs for name, jobs in found.items() if jobs}
 

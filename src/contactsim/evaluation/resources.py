@@ -8,10 +8,12 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-from contactsim.error_control.forecast import Forecast, forecast_of
-from contactsim.error_control.neglect import foreseen
+from contactsim.error_control.effect_maps import neglect_effects
+from contactsim.error_control.forecast import Forecast, forecast_run
+from contactsim.error_control.neglect import expected_neglect
 from contactsim.errors import SceneError
 from contactsim.provenance import canonical
+from contactsim.study.scenes import build_setup
 from contactsim.study.study import Run
 
 START = 1.0
@@ -41,10 +43,11 @@ def forecast_for(run: Run) -> Forecast | None:
 @cache
 def _forecast(text: str) -> Forecast | None:
     settings = json.loads(text)
+    setup = build_setup(settings)
     if "auto" in settings:
-        settings = settings | {"leave_out": foreseen(settings, settings["auto"]["within"])}
+        setup = neglect_effects(setup, expected_neglect(setup.scene, settings["auto"]["within"]))
     try:
-        return forecast_of(settings)
+        return forecast_run(setup)
     except SceneError:
         return None
 

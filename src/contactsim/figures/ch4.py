@@ -21,7 +21,7 @@ from contactsim.figures.parts import asperities, stress
 from contactsim.figures.parts import load_curves as curves
 from contactsim.grid import Array, Grid
 from contactsim.observables.adhesion import LEGS
-from contactsim.study.scenes import elastic
+from contactsim.study.scenes import build_elasticity
 
 APPROACHING = -5.0
 """Approach (nm), before the contact is closed, at which fields are kept."""
@@ -216,7 +216,7 @@ def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Stress in the layer under the contact at the largest approach, with friction (Section 2.2)."""
     one = data.sel(work_of_separation=REFERENCE_WORK, work_ratio=1.0).isel(member=0)
     here = one.sel(snapshot=asperities.INDENTED, method="nearest", tolerance=style.SAME)
-    body = elastic(curves.settings(one)["body"])
+    body = build_elasticity(curves.settings(one)["body"])
     grid = Grid((one.x.size,), (float(one.length),))
     shift = one.x.size // 2 - int(np.argmax(here.heights.values))
     traction = np.stack([np.roll(here[f"{name}_traction"].values, shift) for name in ("normal", "tangential")])

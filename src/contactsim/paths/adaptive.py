@@ -98,6 +98,10 @@ class Adaptive:
         if None in given.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
             raise SceneError("least", given, "least and most in GPa, where a mean pressure is prescribed")
 
+    def coarsened(self, factor: int) -> Adaptive:
+        """Return the same for a coarser grid: it does not depend on the grid."""
+        return self
+
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:

@@ -21,6 +21,10 @@ class Increments(Protocol):
         """SceneError for what it cannot follow so."""
         ...
 
+    def coarsened(self, factor: int) -> Increments:
+        """Return the same for a grid that many times coarser."""
+        ...
+
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
@@ -34,6 +38,10 @@ class Requested:
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Any path can be followed so."""
+
+    def coarsened(self, factor: int) -> Requested:
+        """Return the same for a coarser grid: it does not depend on the grid."""
+        return self
 
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]

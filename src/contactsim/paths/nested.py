@@ -61,6 +61,11 @@ class Nested:
         if lost:
             raise SceneError("settled", lost, "steps of the path, which these are not")
 
+    def coarsened(self, factor: int) -> Nested:
+        """Return the same for a grid that many times coarser."""
+        ratio = max(self.ratio // factor, 1)
+        return replace(self, ratio=ratio, between=min(self.between, ratio))
+
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:

@@ -17,10 +17,9 @@ from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
 from contactsim.observables.sliding import slide_observables, slips_of
 from contactsim.paths.continuation import PathState
-from contactsim.paths.increments import Increments, Requested
+from contactsim.paths.increments import Increments
 from contactsim.paths.slips import slip_numbers
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.study.scenes import increments_of
 from contactsim.surfaces.statistics import local_squares
 from contactsim.traits import Trait
 
@@ -42,7 +41,7 @@ def simulate_path(
     points: int,
     tolerance: float,
     threads: int = 1,
-    increments: Increments | None = None,
+    increments: Increments,
     snapshots: Sequence[float] | None = None,
     keep_fields: bool = True,
 ) -> xr.Dataset:
@@ -57,7 +56,7 @@ def simulate_path(
     kept = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
     rows, slips, fields, begin, total, marks = [], [], {}, time.process_time(), 0.0, [0.0]
-    for count, state in enumerate((increments or Requested()).follow(problem, method, steps)):
+    for count, state in enumerate(increments.follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
         rows.append(_numbers(scene, state, slopes))
@@ -79,11 +78,6 @@ def simulate_path(
     for words in status.told(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
-
-
-def options(settings: dict) -> dict:
-    """Increments, and what is kept at which states, of a run's settings."""
-    return {"increments": increments_of(settings)} | {name: settings[name] for name in ("snapshots", "keep_fields")}
 
 
 def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:

@@ -30,7 +30,7 @@ from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, Entry, duration, named_in
 from contactsim.publish.rulegraph import drawn
 from contactsim.study.plan import Plan
-from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.scenes import build_setup
 
 TEMPLATE = Path(__file__).with_name("report.html")
 SKETCH = (4.6, 2.9), 160
@@ -193,10 +193,11 @@ def _sketch(run: dict) -> Picture:
     """The scene of a run, drawn."""
     size, dots = SKETCH
     figure, file = Figure(figsize=size, layout="constrained"), io.BytesIO()
-    scene = scene_of(run)
+    setup = build_setup(run)
+    scene = setup.scene
     surface = scene.upper.surface
     enough = max(SECTION, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
-    points = points_of(run, surface)
+    points = setup.points
     sketch(scene, points if surface.points else min(points, enough), figure.subplots())
     figure.savefig(file, format="png", dpi=dots)
     return _embedded(file)

@@ -1,4 +1,4 @@
-"""Compute a run of a study into its files."""
+"""Compute a run of a study, as its settings are, into its files."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import logging
 import resource
 import sys
 import time
-from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,92 +15,87 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.files import write_text
+from contactsim.paths.driver import DRIVERS, Reuse, follow_path
+from contactsim.paths.options import Setup
 from contactsim.paths.pressures import earlier
-from contactsim.paths.record import options
 from contactsim.provenance import digest
-from contactsim.simulation import simulate
-from contactsim.solvers.registry import make_solver
-from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.scenes import build_setup
 
 logger = logging.getLogger(__name__)
 
 
-Files = tuple[str | Path, str | Path]
-"""A run's dataset, and the file of its costs."""
+@dataclass(frozen=True)
+class RunFiles:
+    """Dataset of a run, and the file of its costs."""
+
+    data: str | Path
+    costs: str | Path
 
 
-def run(
-    settings: dict,
-    source: str,
-    target: str | Path,
-    costs: str | Path,
-    threads: int = 1,
-    told: Mapping[str, object] | None = None,
-) -> None:
-    """Compute a run's dataset and costs, taking over what an earlier dataset of that name already holds.
+def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
+    """Compute a run as its settings are, into its dataset and costs.
 
-    settings: of a `contactsim.study.study.Run`; source: digest of the code that computes it; told: what the dataset
-    says
-    besides.
+    Parameters
+    ----------
+    settings : dict
+        Settings of a `contactsim.study.study.Run`.
+    source : str
+        Digest of the code that computes it.
+    files : RunFiles
+        Files to write; loads that the same code solved before are taken over from an earlier dataset.
+    threads : int
+        Threads of the transforms.
     """
     begin = time.process_time()
-    scene = scene_of(settings)
-    names = names_of(settings, source)
-    solved = {} if "increments" in settings else earlier(target, costs)
-    data = simulate(
-        scene,
-        points=points_of(settings, scene.upper.surface),
-        tolerance=settings["tolerance"],
-        method=make_solver(**settings["solver"]),
-        threads=threads,
-        known={step: solved[name] for step, name in enumerate(names) if name in solved} or None,
-        **asked_of(settings),
-    )
-    keep(data.assign(told or {}), settings, names, source, (target, costs), begin)
+    data, settings = compute(build_setup(settings, threads), settings, source, files)
+    keep_run(data, settings, source, files, begin)
 
 
-def keep(data: xr.Dataset, settings: dict, names: list[str], source: str, files: Files, begin: float) -> None:
-    """Write a run's dataset and, apart from it, its costs; names: of its points; begin: CPU time at which it began."""
-    target, costs = files
+def compute(setup: Setup, settings: dict, source: str, files: RunFiles) -> tuple[xr.Dataset, dict]:
+    """Return the dataset of a run as it is; single loads that an earlier dataset holds are not solved again."""
+    solved = earlier(files.data, files.costs) if DRIVERS[setup.scene.kind].reuses_points else {}
+    names = point_digests(settings, source, len(setup.scene.path.steps))
+    points = {step: solved[name] for step, name in enumerate(names) if name in solved}
+    return follow_path(setup, Reuse(points=points or None)), settings
+
+
+def keep_run(data: xr.Dataset, settings: dict, source: str, files: RunFiles, begin: float) -> None:
+    """Write the dataset of a run and, apart from it, its costs; begin: CPU time at which it began."""
+    names = point_digests(settings, source, data.step.size)
     seconds = data.seconds.values.tolist()
     title = f"contactsim run of {settings['study']}"
-    dataset.write(dataset.stamped(labelled(data, settings, names), title, settings, source), target)
-    price = {
+    dataset.write(dataset.stamped(label_run(data, settings, names), title, settings, source), files.data)
+    spent = {
         "seconds": dict(zip(names, seconds, strict=True)),
         "cpu_seconds_of_last_run": time.process_time() - begin,
         "peak_memory_of_last_run": peak_memory(),
     }
-    write_text(json.dumps(price, indent=1), costs)
+    write_text(json.dumps(spent, indent=1), files.costs)
 
 
-def names_of(settings: dict, source: str) -> list[str]:
-    """Digests of the code and settings that make each point of a run."""
-    return [digest(_alone(settings), place, source) for place in _places(settings)]
+def point_digests(settings: dict, source: str, steps: int) -> list[str]:
+    """Return a digest of the code and settings that make each point of a run.
 
-
-def _places(settings: dict) -> list:
-    """Where a run's steps stand along its load; those of a path by their number, as it may come to a value twice."""
+    Single loads do not depend on the others; a state of a path depends on all of it.
+    """
     load = settings["load"]
-    return load["values"] if "values" in load else list(range(len(scene_of(settings).path.steps)))
+    alone = settings | {"load": load["name"]} if "values" in load else settings
+    return [digest(alone, place, source) for place in _places(settings, steps)]
 
 
-def _alone(settings: dict) -> dict:
-    """Settings of one point: loads solved on their own do not depend on the others, a path does."""
-    return settings | {"load": settings["load"]["name"]} if "values" in settings["load"] else settings
+def _places(settings: dict, steps: int) -> list:
+    """Return the coordinate of each step: its load or, as a path may come to a value twice, its number."""
+    load = settings["load"]
+    return load["values"] if "values" in load else list(range(steps))
 
 
-def asked_of(settings: dict) -> dict:
-    """What a run's simulation is asked for, beside its grid and tolerance: fields to keep, or how a path is walked."""
-    return options(settings) if "increments" in settings else {"keep": settings["keep"]}
+def label_run(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
+    """Return a simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
+    load, values = settings["load"]["name"], _places(settings, data.step.size)
+    data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
+    return dataset.described(data.assign(seed=settings["seed"], point_digest=(load, np.array(names, object))))
 
 
 def peak_memory() -> float:
-    """Largest resident memory of this process so far (MiB)."""
+    """Return the largest resident memory of this process so far (MiB)."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
-
-
-def labelled(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
-    """A simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
-    load, values = settings["load"]["name"], _places(settings)
-    data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
-    return dataset.described(data.assign(seed=settings["seed"], point_digest=(load, np.array(names, object))))

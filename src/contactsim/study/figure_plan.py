@@ -13,7 +13,6 @@ from contactsim.provenance import module_path
 from contactsim.study.claim_plan import read_selection
 from contactsim.study.law_table import read_law
 from contactsim.study.reading import Key, listed, mapping, number, positive, read, size, text, whole
-from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
@@ -105,7 +104,7 @@ def _check_function(name: str, settings: dict, studies: dict[str, Study], file: 
 def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
     """Refuse a map of what has no fields, of a line, and of more than one load of one member."""
     first, load = study.runs()[0], study.settings["load"]
-    if FIELDS not in study.settings["keep"] or Trait.SURFACE not in scene_of(first.settings).traits:
+    if FIELDS not in study.settings["keep"] or Trait.SURFACE not in first.setup.scene.traits:
         raise SceneError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
     places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
     places = [place | {load["name"]: value} for place in places for value in load["values"]]

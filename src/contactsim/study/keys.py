@@ -10,18 +10,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from contactsim.contact import loading
-from contactsim.contact.scene import ProblemKind
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.elasticity.solids import ELASTICITIES
 from contactsim.errors import SceneError
 from contactsim.interface.registry import EFFECTS, PAIRINGS
-from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.contact import KEPT
-from contactsim.observables.hysteresis import CYCLE
-from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.peeling import ONSET
 from contactsim.paths.increments import INCREMENTS
 from contactsim.solvers.registry import DEFAULT_SOLVERS, SOLVERS, solver_class
+from contactsim.study.kinds import STUDY_KINDS, problem_kind, study_kind
 from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, positive, read, text, whole
 from contactsim.surfaces.measured import SURFACES
 from contactsim.surfaces.shapes import Flat
@@ -179,7 +175,7 @@ def acting(settings: dict, file: object, prefix: str) -> dict:
         allowed = "left out, for what is negligible is left out anyway"
         raise SceneError(f"{prefix}.leave_out", settings["leave_out"], allowed, file)
     effects = auto.pop("auto")
-    known = comparable(effects)
+    known = STUDY_KINDS[problem_kind(effects)].comparable
     for name in auto["of"]:
         if name not in known:
             raise SceneError(f"{prefix}.effects.of", name, f"some of {', '.join(known)}", file)
@@ -187,13 +183,6 @@ def acting(settings: dict, file: object, prefix: str) -> dict:
         allowed = f"at most {settings['members']}, the study's members"
         raise SceneError(f"{prefix}.effects.sample", auto["sample"], allowed, file)
     return {"effects": effects, "auto": auto}
-
-
-def comparable(effects: list[str]) -> tuple[str, ...]:
-    """Quantities whose change can say whether one of a scene's effects is negligible."""
-    if is_smooth({"effects": effects}):
-        return (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
-    return ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
 
 
 FOLLOWS = "left out, for it follows from the accuracy"
@@ -229,7 +218,7 @@ def read_load(settings: dict, file: object, prefix: str) -> dict:
         allowed = f"exactly one of load ({', '.join(LOADS)}) and path"
         raise SceneError(f"{prefix}.load", "both load and path" if given else "nothing", allowed, file)
     if given == ["load"]:
-        if is_smooth(settings):
+        if study_kind(settings).needs_path:
             raise SceneError(f"{prefix}.load", settings["load"], "path: smooth laws depend on what came before", file)
         return _loads(settings["load"], file, f"{prefix}.load")
     return _path(settings["path"], settings["accuracy"] is not None, file, f"{prefix}.path")
@@ -279,7 +268,7 @@ def read_slide(settings: dict, file: object, prefix: str) -> dict | None:
     """How surfaces slide after the path has pressed them; None where they do not."""
     if settings["slide"] is None:
         return None
-    if not is_smooth(settings) or settings["path"] is None:
+    if not study_kind(settings).needs_path or settings["path"] is None:
         raise SceneError(f"{prefix}.slide", settings["slide"], "left out, but for smooth laws and a path", file)
     section = slide_part(settings["slide"], file, f"{prefix}.slide", settings["accuracy"] is not None)
     if "approach" in section and settings["load"]["control"] != "approach":
@@ -296,15 +285,9 @@ def slide_part(section: dict, file: object, prefix: str, accurate: bool = False)
     return {name: value for name, value in section.items() if name not in left_out}
 
 
-def default_solver_kind(settings: dict) -> str:
-    """The kind of solver for a study's surface and effects; what is wrong with them is refused later."""
+def default_solver(settings: dict) -> str:
+    """Return the name of the default solver for a study's surface and effects; what is wrong is refused later."""
     surface = settings["surface"]
     kind = SURFACES.get(str(surface.get("kind")), Flat)
     dimensions = surface.get("dimensions", getattr(kind, "dimensions", 2 if surface.get("width") else 1))
-    problem = ProblemKind.COHESIVE if is_smooth(settings) else ProblemKind.HARD_WALL
-    return DEFAULT_SOLVERS[problem, dimensions]
-
-
-def is_smooth(settings: dict) -> bool:
-    """Whether a study lists laws that give a traction: they are followed along a path."""
-    return any(Trait.SMOOTH in EFFECTS[name].traits for name in settings["effects"])
+    return DEFAULT_SOLVERS[problem_kind(settings["effects"]), dimensions]

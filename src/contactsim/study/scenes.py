@@ -1,24 +1,27 @@
-"""From the settings of a run to the scene that it simulates."""
+"""Build the scene and the options of a run from its settings: the one place where YAML becomes objects."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from dataclasses import asdict
 from functools import lru_cache
 
 import numpy as np
 
 from contactsim import reference
-from contactsim.contact import loading
-from contactsim.contact.loading import LoadPath, LoadStep
+from contactsim.contact.loading import LoadPath, LoadStep, Slide, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.simplification import simplify
 from contactsim.elasticity.solids import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Grid
-from contactsim.interface.pairing import Aligned, Pairing
+from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.interface.registry import EFFECTS, PAIRINGS
-from contactsim.paths.increments import INCREMENTS, Increments
+from contactsim.paths.increments import INCREMENTS
+from contactsim.paths.options import Accuracy, RunOptions, Setup
+from contactsim.solvers.registry import make_solver
 from contactsim.study.keys import RIGID
+from contactsim.study.kinds import study_kind
 from contactsim.surfaces.measured import SURFACES
 from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.surfaces.shapes import Flat, Surface
@@ -26,92 +29,106 @@ from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait
 
 
-def scene_of(settings: dict) -> Scene:
-    """The scene of a run: a flat elastic body below, the surface above, rigid or not, taken through all loads.
+def build_setup(settings: Mapping, threads: int = 1) -> Setup:
+    """Return the scene and the options of a run.
 
-    Without the effects that the study leaves out.
+    Parameters
+    ----------
+    settings : mapping
+        Settings of a `contactsim.study.study.Run`, checked and complete.
+    threads : int
+        Threads of the transforms.
     """
-    surface = dict(settings["surface"])
-    kind = SURFACES[surface.pop("kind")]
+    accuracy = settings.get("accuracy")
+    options = RunOptions(
+        points=settings["points"],
+        tolerance=settings["tolerance"],
+        solver=make_solver(**settings["solver"]),
+        threads=threads,
+        accuracy=None if accuracy is None else Accuracy(accuracy["error"], tuple(accuracy["of"])),
+        **study_kind(settings).options(settings),
+    )
+    return Setup(build_scene(settings), options)
+
+
+def build_scene(settings: Mapping) -> Scene:
+    """Return the scene of a run, without the effects that it neglects.
+
+    A flat body lies below, the surface above; either may be rigid.
+    """
+    section = dict(settings["surface"])
+    kind = SURFACES[section.pop("kind")]
     if kind is SelfAffine:
-        surface["rng"] = generator(settings["seed"], settings["study"], surface["hurst"], settings["member"])
-    upper = kind(**surface)
-    elasticity, counter = elastic(settings["body"]), elastic(settings.get("counter_body"))
-    if elasticity is None and counter is None:
+        section["rng"] = generator(settings["seed"], settings["study"], section["hurst"], settings["member"])
+    surface = kind(**section)
+    lower, upper = build_elasticity(settings["body"]), build_elasticity(settings.get("counter_body"))
+    if lower is None and upper is None:
         raise SceneError("counter_body", None, "an elastic body, as the one below is rigid")
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
-    path = load_path(settings, upper, [one for one in (elasticity, counter) if one is not None])
-    bodies = Body(Flat.facing(upper), elasticity), Body(upper, counter)
-    scene = Scene(*bodies, effects, path, paired(settings.get("pairing")))
+    bodies = Body(Flat.facing(surface), lower), Body(surface, upper)
+    elasticities = [body for body in (lower, upper) if body is not None]
+    path = _build_path(settings, surface, elasticities)
+    scene = Scene(*bodies, effects, path, _build_pairing(settings.get("pairing")))
     return simplify(scene, settings.get("leave_out", ()))
 
 
-def paired(settings: dict | None) -> Pairing:
-    """How the surfaces are joined: aligned, where nothing is said."""
-    given = dict(settings or {})
-    return PAIRINGS[given.pop("kind")](**given) if given else Aligned()
+def _build_pairing(section: Mapping | None) -> Pairing:
+    """Return how the surfaces are joined; aligned without a section."""
+    if section is None:
+        return ALIGNED
+    options = dict(section)
+    return PAIRINGS[options.pop("kind")](**options)
 
 
-def elastic(settings: dict | None) -> Elasticity | None:
-    """A body from its settings, by contact modulus E* or, with a Poisson's ratio ν, by Young's modulus E = (1-ν²)E*.
+def build_elasticity(section: Mapping | None) -> Elasticity | None:
+    """Return a body by its contact modulus E* or, with Poisson's ratio ν, by Young's modulus E = (1 - ν²) E*.
 
-    None for one that is rigid.
+    None for a rigid body, and without a section.
     """
-    if settings is None or settings["kind"] == RIGID:
+    if section is None or section["kind"] == RIGID:
         return None
-    given = {name: value for name, value in settings.items() if name not in ("kind", "youngs_modulus")}
-    young = settings.get("youngs_modulus")
-    if (young is None) == (given.get("contact_modulus") is None):
-        both = {name: settings.get(name) for name in ("contact_modulus", "youngs_modulus")}
+    options = {name: value for name, value in section.items() if name not in ("kind", "youngs_modulus")}
+    young = section.get("youngs_modulus")
+    if (young is None) == (options.get("contact_modulus") is None):
+        both = {name: section.get(name) for name in ("contact_modulus", "youngs_modulus")}
         raise SceneError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
     if young is not None:
-        ratio = given.get("poisson_ratio")
+        ratio = options.get("poisson_ratio")
         if ratio is None:
             raise SceneError("poisson_ratio", None, "a number, where Young's modulus is given")
         if not young > 0:
             raise SceneError("youngs_modulus", young, "a positive, finite number in GPa")
-        given["contact_modulus"] = young / (1 - ratio**2)
-    return ELASTICITIES[settings["kind"]](**given)
+        options["contact_modulus"] = young / (1 - ratio**2)
+    return ELASTICITIES[section["kind"]](**options)
 
 
-def increments_of(settings: dict) -> Increments:
-    """How the path of a run with smooth laws is walked."""
-    given = dict(settings["increments"])
-    return INCREMENTS[given.pop("kind")](**given)
+def _build_path(settings: Mapping, surface: Surface, elasticities: list[Elasticity]) -> LoadPath:
+    """Return the load path of a run: swept, swept and slid, or single loads."""
+    load, slide = settings["load"], settings.get("slide")
+    if "control" not in load:
+        return _build_loads(settings, surface, elasticities)
+    from_touch = load.get("origin") == "first_touch"
+    control, points = Trait[load["control"].upper()], tuple(load["through"])
+    if slide is None:
+        return _swept_path(control, points, load["increment"], from_touch)
+    return _sliding_path(
+        control, points, load["increment"], from_touch, tuple(slide["through"]), slide["increment"], _held_step(slide)
+    )
 
 
-def points_of(settings: dict, surface: Surface) -> int:
-    """Number of grid points: the study's, or that of a measured surface."""
-    points = settings["points"] or surface.points
-    if points is None:
-        raise SceneError("points", None, "a whole number: only a measured surface comes with its own")
-    return points
+def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elasticity]) -> LoadPath:
+    """Return single mean pressures from the loads as a study gives them.
 
-
-def load_path(settings: dict, surface: Surface, elasticities: Sequence[Elasticity]) -> LoadPath:
-    """The steps of a path as they are; else mean pressures from the loads as the study gives them.
-
-    reduced_pressure: times E*, of two bodies that of the pair, and the rms gradient, of self-affine heights that of
-    the band-limited profile, of others that of their differences on the grid; contact_ratio: what a cylinder needs for
-    a half-width, or a sphere for a contact radius, of that part of its radius on a half-space (Eq. 3.5).
+    A reduced pressure is multiplied by E*, of two bodies that of the pair, and by the rms gradient: of the
+    band-limited profile for self-affine heights, of the differences on the grid for others. A contact ratio is the
+    half-width of the contact of a cylinder, or the contact radius of a sphere, over its radius (Eq. 3.5).
     """
-    if "control" in settings["load"]:
-        load, slide = settings["load"], settings.get("slide")
-        described = load["control"], tuple(load["through"]), load["increment"], load.get("origin") == "first_touch"
-        if slide is None:
-            return _path(*described)
-        return _sliding(*described, tuple(slide["through"]), slide["increment"], *_held(slide))
-    moduli = [one.contact_modulus for one in elasticities]
+    moduli = [body.contact_modulus for body in elasticities]
     contact_modulus = moduli[0] if len(moduli) == 1 else 1 / sum(1 / modulus for modulus in moduli)
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
-        if isinstance(surface, SelfAffine):
-            gradient = surface.gradient
-        else:
-            points = points_of(settings, surface)
-            heights = surface.heights(points)
-            gradient = rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)
+        gradient = _rms_gradient(surface, settings["points"])
         if not gradient > 0:
             raise SceneError("load", name, "mean_pressure: this surface is flat")
         values = values * contact_modulus * gradient
@@ -119,39 +136,65 @@ def load_path(settings: dict, surface: Surface, elasticities: Sequence[Elasticit
         radius = settings["surface"].get("radius")
         if radius is None:
             raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
-        if any(Trait.HALF_SPACE not in one.traits for one in elasticities):
+        if any(Trait.HALF_SPACE not in body.traits for body in elasticities):
             raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: reference.cylinder_load, 2: reference.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
-    return loading.pressures([float(value) for value in values], labels=labels)
+    return pressures([float(value) for value in values], labels=labels)
+
+
+def _rms_gradient(surface: Surface, points: int | None) -> float:
+    """Return the rms gradient that reduced pressures are counted by."""
+    if isinstance(surface, SelfAffine):
+        return surface.gradient
+    points = points or surface.points
+    if points is None:
+        raise SceneError("points", None, "a whole number: only a measured surface comes with its own")
+    heights = surface.heights(points)
+    return rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)
 
 
 @lru_cache(maxsize=8)
-def _path(control: str, points: tuple[float, ...], increment: float, from_touch: bool) -> LoadPath:
-    """The same for all variants of a study, of which there may be many."""
-    return loading.sweep(Trait[control.upper()], points, increment, from_touch)
-
-
-def _held(slide: dict) -> tuple[str, float]:
-    """What is held while sliding, and at which value."""
-    return next((name, slide[name]) for name in ("approach", "mean_pressure") if name in slide)
+def _swept_path(control: Trait, points: tuple[float, ...], increment: float, from_touch: bool) -> LoadPath:
+    """Return a swept path; the same object for all variants of a study, of which there may be many."""
+    return sweep(control, points, increment, from_touch)
 
 
 @lru_cache(maxsize=64)
-def _sliding(
-    control: str,
+def _sliding_path(
+    control: Trait,
     points: tuple[float, ...],
     increment: float,
     from_touch: bool,
-    slides: tuple[float, ...],
+    distances: tuple[float, ...],
     slide_increment: float,
-    held: str,
-    value: float,
+    held: LoadStep,
 ) -> LoadPath:
-    """A path that presses, then slides: under its own control it goes on to what is held, else by one step."""
-    kind = Trait[held.upper()]
-    further = (value,) if held == control and points[-1] != value else ()
-    path = loading.sweep(Trait[control.upper()], (*points, *further), increment, from_touch)
-    if held != control:
-        path = path >> LoadPath((LoadStep(kind, value),), from_touch)
-    return path >> LoadPath((loading.Slide(slides, slide_increment, LoadStep(kind, value)),), from_touch)
+    """Return a path that presses, then slides.
+
+    Under the control of the slide it presses on to the value that is held; under the other it changes over in one step.
+    """
+    further = (held.value,) if held.control is control and points[-1] != held.value else ()
+    path = sweep(control, (*points, *further), increment, from_touch)
+    if held.control is not control:
+        path = path >> LoadPath((held,), from_touch)
+    return path >> LoadPath((Slide(distances, slide_increment, held),), from_touch)
+
+
+def _held_step(slide: Mapping) -> LoadStep:
+    """Return the approach or the mean pressure that is held while sliding."""
+    name = next(name for name in ("approach", "mean_pressure") if name in slide)
+    return LoadStep(Trait[name.upper()], slide[name])
+
+
+def updated_settings(settings: Mapping, setup: Setup) -> dict:
+    """Return the settings of a run with the grid, tolerance and increments of a setup in their place."""
+    options, path = setup.options, setup.scene.path
+    settings = dict(settings) | {"points": options.points, "tolerance": options.tolerance}
+    if options.increments is not None:
+        kind = next(name for name, kind in INCREMENTS.items() if type(options.increments) is kind)
+        settings["increments"] = {"kind": kind} | asdict(options.increments)
+    sections = [name for name in ("load", "slide") if "increment" in (settings.get(name) or {})]
+    for name, part in zip(sections, (part for part in path.parts if part.increment is not None), strict=True):
+        settings[name] = settings[name] | {"increment": part.increment}
+    return settings

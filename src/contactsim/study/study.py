@@ -1,8 +1,8 @@
-"""A study: one kind of scene, varied and repeated; from its settings to the runs that the workflow plans.
+"""Studies: one kind of scene, varied and repeated; from settings to the runs that the workflow plans.
 
 A run is one variant and one member of the ensemble, swept over all loads. Its settings hold every value that it
-depends on and nothing else, so that two runs with equal settings are equal. Loads are sorted: their order cannot
-matter, since each is solved on its own.
+depends on and nothing else, so two runs with equal settings are equal. Loads are sorted: their order cannot matter,
+since each is solved on its own.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from functools import cached_property
 from pathlib import Path
 
 from contactsim import dataset
-from contactsim.contact.cohesive import check_tolerance
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.error_control.options import chosen
+from contactsim.error_control.options import choose_options
 from contactsim.error_control.scaling import FILE
 from contactsim.errors import SceneError
 from contactsim.interface.registry import EFFECTS
-from contactsim.provenance import computing_digest, digest
+from contactsim.paths.options import Setup
+from contactsim.provenance import digest
 from contactsim.solvers.base import require
-from contactsim.solvers.registry import make_solver, solver_module
+from contactsim.solvers.registry import solver_module
 from contactsim.study.keys import (
     BODIES,
     COMPANIONS,
@@ -31,25 +31,34 @@ from contactsim.study.keys import (
     RIGID,
     STUDY_KEYS,
     acting,
-    default_solver_kind,
-    is_smooth,
+    default_solver,
     read_load,
     read_slide,
     settled,
     slide_part,
 )
+from contactsim.study.kinds import STUDY_KINDS, study_kind
 from contactsim.study.reading import Key, choice, keys_of, read
-from contactsim.study.scenes import increments_of, points_of, scene_of
-
-FOLLOWED = {"accuracy": "contactsim.error_control.control", "auto": "contactsim.error_control.neglect"}
-"""Modules that compute a run beside those that any does, by the key that asks for it."""
+from contactsim.study.scenes import build_scene, build_setup, updated_settings
+from contactsim.study.stages import computing_stage_digest
 
 
 @dataclass(frozen=True)
 class Run:
-    """One job: settings and its place among the varied values.
+    """One job of a study.
 
-    error: what it only measures, of `schema.COMPANIONS`; empty for the study's own runs.
+    Parameters
+    ----------
+    study, variant : str
+        Names of the study and of the variant.
+    member : int
+        Number in the ensemble.
+    coordinates : dict
+        Varied values by dimension of the study's dataset.
+    settings : dict
+        Every value that the run depends on.
+    error : str
+        Kind of error that it measures, of `keys.COMPANIONS`; empty for the study's own runs.
     """
 
     study: str
@@ -61,32 +70,54 @@ class Run:
 
     @property
     def companion(self) -> bool:
-        """Whether it only measures an error."""
+        """True where it only measures an error."""
         return bool(self.error)
 
     @cached_property
+    def setup(self) -> Setup:
+        """Scene and options."""
+        return build_setup(self.settings)
+
+    @property
+    def stage(self) -> str:
+        """Stage of the workflow that computes it, of `stages.STAGES`."""
+        if "auto" in self.settings:
+            return "run_neglecting"
+        return "run_to_accuracy" if "accuracy" in self.settings else "run"
+
+    @cached_property
     def source(self) -> str:
-        """Digest of what computes the run: the marching, the one solver it uses, and the libraries."""
-        follows = ["contactsim.study.execute"]
-        follows += [module for key, module in FOLLOWED.items() if key in self.settings]
-        code = computing_digest(*follows, solver_module(self.settings["solver"]["kind"]))
-        measured = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
-        return digest(code, *measured)
+        """Digest of the code that computes the run, its one solver, the libraries and the relations it is chosen by."""
+        code = computing_stage_digest(self.stage, solver_module(self.settings["solver"]["kind"]))
+        relations = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
+        return digest(code, *relations)
 
     @cached_property
     def digest(self) -> str:
-        """Changes with the settings and with the code that computes the run."""
+        """Digest of the settings and of the code that computes the run."""
         return digest(self.settings, self.source)
 
     @property
     def stem(self) -> str:
-        """Where the run's files lie below runs/ and costs/runs/, without their endings."""
+        """Path of the run's files below runs/ and costs/runs/, without their endings."""
         return f"{self.study}/{self.variant}/{self.member}"
 
 
 @dataclass(frozen=True)
 class Study:
-    """A study as read: its name, settings, the file they stand in, and the seed of all random numbers."""
+    """A study as read from the config.
+
+    Parameters
+    ----------
+    name : str
+        Name in the config.
+    settings : dict
+        Settings with all defaults filled in.
+    file : str
+        File that they stand in, for messages.
+    seed : int
+        Seed of all random numbers.
+    """
 
     name: str
     settings: dict
@@ -103,7 +134,7 @@ class Study:
         settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
-        settings["solver"] = {"kind": default_solver_kind(settings)} | settings["solver"]
+        settings["solver"] = {"kind": default_solver(settings)} | settings["solver"]
         _refuse_unused(section, settings, file, prefix)
         for part in COMPANIONS:
             if settings[part] is not None:
@@ -117,15 +148,15 @@ class Study:
         return study
 
     def _check_left_out(self) -> None:
-        """What is left out must be an effect of one variant at least."""
+        """Raise InputError where no variant has an effect that is to be neglected."""
         names = self.settings["leave_out"]
-        whole = [scene_of(run.settings | {"leave_out": []}) for run in self.runs() if names and run.member == 0]
+        scenes = [build_scene(run.settings | {"leave_out": []}) for run in self.runs() if names and run.member == 0]
         for name in names:
-            if all(SIMPLIFICATIONS[name](scene) == scene for scene in whole):
+            if all(SIMPLIFICATIONS[name](scene) == scene for scene in scenes):
                 raise SceneError(f"studies.{self.name}.leave_out", name, "effects that the study has", self.file)
 
     def _check_fits(self) -> None:
-        """Fits need two loads below the limit, and Hurst exponents alone to be varied."""
+        """Raise InputError for fits without two loads below the limit, or with more varied than Hurst exponents."""
         load, limits = self.settings["load"], self.settings["fit_limits"]
         if limits is None:
             return
@@ -179,75 +210,91 @@ class Study:
         return values
 
     def _run(self, varied: dict, member: int, change: dict, error: str) -> Run:
-        """The run of one variant and member; change: what a run that measures an error does otherwise."""
-        sections = {name: self.settings[name] for name in self._sections()}
-        parts = {name: self._part(name, section) for name, section in sections.items()}
-        grid = {"points": self.settings["points"]}
-        for name, value in varied.items():
-            if name == "points":
-                grid = read({name: value}, {name: STUDY_KEYS[name]}, self.file, f"studies.{self.name}.vary")
-                continue
-            head, _, tail = str(name).partition(".")
-            if tail not in parts.get(head, ()):
-                known = ", ".join(f"{part}.{key}" for part in parts for key in parts[part] if key != "kind")
-                allowed = f"a key of this study: points, {known}"
-                raise SceneError(f"studies.{self.name}.vary", name, allowed, self.file)
-            sections[head] = sections[head] | {tail: value}
-        parts = {name: self._part(name, section) for name, section in sections.items()}
-        smooth = is_smooth(self.settings)
-        kept = "snapshots" if smooth else "keep"
-        shared = (
-            {name: self.settings[name] for name in ("effects", "load", "tolerance", "leave_out", kept)} | grid | change
-        )
-        if smooth:
-            shared["keep_fields"] = member < (self.settings["snapshot_members"] or self.settings["members"])
-        drawn = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
-        if "through" in shared["load"]:  # says all, and is short
-            shared["load"] = {key: value for key, value in shared["load"].items() if key != "values"}
-        settings = drawn | shared | parts
+        """Return the run of one variant and member; change: what a run that measures an error does otherwise."""
+        parts, points = self._varied_parts(varied)
+        kind = study_kind(self.settings)
+        settings = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
+        settings |= {name: self.settings[name] for name in ("effects", "load", "tolerance", "leave_out")}
+        settings |= kind.run_settings(self.settings, member) | {"points": points} | change | parts
+        if "through" in settings["load"]:  # says all, and is short
+            settings["load"] = {key: value for key, value in settings["load"].items() if key != "values"}
         if not settings["leave_out"]:
-            del settings["leave_out"]  # as if it were not thought of
+            del settings["leave_out"]  # a study that neglects nothing has the runs of one that does not mention it
         if self.settings["auto"] is not None and error != COMPANIONS["whole"][1]:
             settings["auto"] = self.settings["auto"]
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
         if self.settings["accuracy"] is not None:
-            settings = self._chosen(settings)
+            settings = self._with_accuracy(settings)
         coordinates = {dataset.dimension(name): value for name, value in varied.items()}
         variant = digest(varied, *change.values() or [None])[:8]
         return Run(self.name, variant, member, coordinates, settings, error)
 
-    def _chosen(self, settings: dict) -> dict:
-        """A run's settings with the grid, tolerance and increments that it begins with for the accuracy asked for."""
-        asked = self.settings["accuracy"]
+    def _varied_parts(self, varied: dict) -> tuple[dict[str, dict], int | None]:
+        """Return the sections of a variant with their defaults, and its grid points."""
+        sections = {name: self.settings[name] for name in self._sections()}
+        points = self.settings["points"]
+        for name, value in varied.items():
+            if name == "points":
+                points = read({name: value}, {name: STUDY_KEYS[name]}, self.file, f"studies.{self.name}.vary")[name]
+                continue
+            head, _, tail = str(name).partition(".")
+            if tail not in self._own_keys.get(head, ()):
+                keys = ", ".join(
+                    f"{part}.{key}" for part, own in self._own_keys.items() for key in own if key != "kind"
+                )
+                raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: points, {keys}", self.file)
+            sections[head] = sections[head] | {tail: value}
+        return {name: self._part(name, section) for name, section in sections.items()}, points
+
+    @cached_property
+    def _own_keys(self) -> dict[str, tuple[str, ...]]:
+        """Keys of each section, which a variant can change."""
+        return {name: tuple(self._part(name, self.settings[name])) for name in self._sections()}
+
+    def _with_accuracy(self, settings: dict) -> dict:
+        """Return a run's settings with the grid, tolerance and increments that it begins with for its accuracy."""
+        accuracy = self.settings["accuracy"]
         try:
-            return chosen(settings, **asked) | {"accuracy": asked}
+            setup = choose_options(build_setup(settings), accuracy["error"], accuracy["of"])
         except SceneError as error:
             raise error.within(self.file, f"studies.{self.name}") from error
+        return updated_settings(settings, setup) | {"accuracy": accuracy}
 
     def _sections(self) -> list[str]:
-        """Names of the sections that this study's runs depend on."""
-        path = ["increments"] if is_smooth(self.settings) else []
+        """Return the names of the sections that this study's runs depend on."""
+        path = study_kind(self.settings).sections
         others = [name for name in ("counter_body", "pairing", "slide") if self.settings[name] is not None]
         laws = [name for name in self.settings["effects"] if name in self.settings]
         return ["surface", "body", *others, "solver", *path, *laws]
 
     def _part(self, name: str, section: dict) -> dict:
-        """A section with the defaults filled in; its keys are those of its `kind`, or of the effect it is named for."""
+        """Return a section with its defaults; most runs of a study share all sections but one."""
+        key = name, repr(section)
+        if key not in self._parts:
+            self._parts[key] = self._read_part(name, section)
+        return self._parts[key]
+
+    @cached_property
+    def _parts(self) -> dict[tuple[str, str], dict]:
+        """Sections that have been read."""
+        return {}
+
+    def _read_part(self, name: str, section: dict) -> dict:
+        """Return a section with its defaults: the keys of its `kind`, or of the effect that it is named for."""
         prefix = f"studies.{self.name}.{name}"
         if name in EFFECTS:
             return read(section, keys_of(EFFECTS[name]), self.file, prefix)
         if name == "slide":
             return slide_part(section, self.file, prefix)
-        known, class_of = KINDS[name]
-        kind = Key(choice(known), f"one of {', '.join(sorted(known))}")
-        given = {"kind": section["kind"]} if "kind" in section else {}
-        chosen = read(given, {"kind": kind}, self.file, prefix)["kind"]
-        moduli = MODULI if name in BODIES and chosen != RIGID else {}
-        keys = {"kind": kind} | keys_of(class_of(chosen)) | moduli
-        return {
-            key: value for key, value in read(section, keys, self.file, prefix).items() if key not in MODULI or value
-        }
+        kinds, class_of = KINDS[name]
+        key = Key(choice(kinds), f"one of {', '.join(sorted(kinds))}")
+        own = {"kind": section["kind"]} if "kind" in section else {}
+        kind = read(own, {"kind": key}, self.file, prefix)["kind"]
+        moduli = MODULI if name in BODIES and kind != RIGID else {}
+        keys = {"kind": key} | keys_of(class_of(kind)) | moduli
+        values = read(section, keys, self.file, prefix)
+        return {key: value for key, value in values.items() if key not in MODULI or value}
 
     def _file_digest(self, path: str) -> str:
         """Digest of a measured surface's file, so that a changed file is pressed anew."""
@@ -258,17 +305,12 @@ class Study:
             raise SceneError(f"studies.{self.name}.surface.file", path, allowed, self.file) from error
 
     def _check(self, run: Run) -> None:
-        """Build the run's scene once, so that nothing impossible is found out by a job."""
+        """Build the run's scene, so that nothing impossible is found out by a job."""
         try:
-            scene = scene_of(run.settings)
-            method, points = make_solver(**run.settings["solver"]), points_of(run.settings, scene.upper.surface)
-            require(method, scene)
-            scene.upper.surface.check(points)
-            if is_smooth(run.settings):
-                check_tolerance(run.settings["tolerance"])
-                increments_of(run.settings).check(points, scene.path.steps, method)
-                for value in run.settings["snapshots"] or ():
-                    scene.path.nearest(value)
+            scene = run.setup.scene
+            require(run.setup.options.solver, scene)
+            scene.upper.surface.check(run.setup.points)
+            study_kind(run.settings).check(run.setup)
         except SceneError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error
@@ -292,10 +334,11 @@ def _companion(part: str, settings: dict, file: object, prefix: str) -> dict:
 
 
 def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:
-    """SceneError for what a study's effects have no use for: the section of another, or how a path is walked."""
-    kinds = ("keep",), ("increments", "snapshots", "snapshot_members")
+    """Raise InputError for the section of an effect that the study lacks, or a key of the other kind of problem."""
     others = [name for name in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])) if settings[name]]
-    for key in [*others, *(key for key in kinds[not is_smooth(settings)] if section.get(key) is not None)]:
+    own = study_kind(settings)
+    unused = [key for kind in STUDY_KINDS.values() if kind is not own for key in kind.keys]
+    for key in [*others, *(key for key in unused if section.get(key) is not None)]:
         what = "section" if key in EFFECTS else "key"
         allowed = f"no such {what}, as effects are {', '.join(settings['effects'])}"
         raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)

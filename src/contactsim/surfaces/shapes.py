@@ -58,6 +58,7 @@ class Smooth:
     dimensions: int
     points = None
     modes = None
+    finest = np.inf
 
     @property
     def lengths(self) -> tuple[float, ...]:

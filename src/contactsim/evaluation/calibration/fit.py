@@ -12,7 +12,16 @@ import pandas as pd
 import yaml
 from scipy.optimize import least_squares
 
-from contactsim.error_control.scaling import LINE, ORDERS, PATH, ROUGH_PATH, SECOND, SLIDE, SURFACE, Relation
+from contactsim.error_control.scaling import (
+    DEFAULT_GRID_ORDER,
+    GRID_ORDERS,
+    LINE,
+    PATH,
+    ROUGH_PATH,
+    SLIDE,
+    SURFACE,
+    Relation,
+)
 from contactsim.evaluation.calibration.measurement import READ
 
 ROUGH = ("hurst", "bandwidth", "rough")
@@ -59,7 +68,7 @@ def fit(table: pd.DataFrame) -> dict:
     """The relations of all kinds, and seconds of the transform that times are counted in."""
     return {
         "unit": _short(table.unit.median()),
-        "kinds": {kind: _kind(kind, rows) for kind, rows in table.groupby("kind", sort=False)},
+        "families": {kind: _kind(kind, rows) for kind, rows in table.groupby("kind", sort=False)},
     }
 
 
@@ -71,22 +80,22 @@ def _kind(kind: str, rows: pd.DataFrame) -> dict:
     grids, others = rows[rows.knob == "points"], rows[rows.knob == other]
     for name in READ[kind]:
         known = f"error_{name}"
-        order = None if name in STEEP else ORDERS.get(name, SECOND)
+        order = None if name in STEEP else GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
         errors["points"][name] = _line(grids, known, ERROR_FEATURES[kind], {"grid": order} if order else {})
         errors[other][name] = _line(others, known, ("one", other), {})
         if wall:
             features = ("one", "resolved", "pressure", *ROUGH)
             errors["resolved"][name] = _line(grids, known, features, {"resolved": order})
     errors = {knob: {name: law for name, law in laws.items() if law} for knob, laws in errors.items()}
-    transforms = _line(rows[rows.knob != "begun"], "transforms", WORK_FEATURES[kind], {})
+    transforms = _line(rows[rows.knob != "warm_start"], "transforms", WORK_FEATURES[kind], {})
     law = Relation(transforms["coefficients"], transforms["spread"])
-    shares = [one["transforms"] / law(one) for one in rows[rows.knob == "begun"].to_dict("records")]
+    shares = [one["transforms"] / law(one) for one in rows[rows.knob == "warm_start"].to_dict("records")]
     seen = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in CHOSEN)]
     return {
         "errors": {knob: errors[knob] for knob in ("points", other)},
         "resolved": errors["resolved"],
         "transforms": transforms,
-        "begun": _short(np.median(shares or [1.0])),
+        "warm_start": _short(np.median(shares or [1.0])),
         "seconds": _seconds(rows),
         "ranges": {name: [_short(rows[name].min()), _short(rows[name].max())] for name in seen},
     }

@@ -13,25 +13,26 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
-from contactsim.error_control.control import Outcome, difference, outcome
-from contactsim.error_control.forecast import transform_seconds, walk_features
-from contactsim.error_control.options import by_increment, chosen, coarser, on_grid, on_points, paced_part
+from contactsim.contact.scene import ProblemKind
+from contactsim.error_control.control import COMPANIONS, Solution, relative_difference, solve_setup
+from contactsim.error_control.forecast import step_features, transform_seconds
+from contactsim.error_control.options import choose_options, coarsen, grid_features, set_grid
 from contactsim.error_control.scaling import (
-    COUNTED,
+    COUNTED_AREA,
     LINE,
-    MEASURES,
     PATH,
+    QUANTITIES,
     ROUGH_PATH,
     SLIDE,
     SURFACE,
     contact_scale,
-    kind_of,
+    scene_family,
 )
 from contactsim.evaluation.calibration.sampling import draw
+from contactsim.paths.increments import Requested
+from contactsim.paths.options import Setup
 from contactsim.provenance import computing_digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
-from contactsim.study.keys import is_smooth
-from contactsim.study.scenes import scene_of
 
 logger = logging.getLogger(__name__)
 
@@ -50,90 +51,109 @@ INCREMENTS = {PATH: (2.0, 1.0, 0.5, 0.2), ROUGH_PATH: (4.0, 2.0, 1.0), SLIDE: (1
 SMALL = {PATH: 0.05, ROUGH_PATH: 0.5, SLIDE: 0.1}
 """Those of the references, and of the ladder of grids."""
 WALL_TOLERANCES, PATH_TOLERANCES = (1e-1, 1e-2, 1e-3), (1e-3, 1e-4, 1e-5)
-REFERENCE_TOLERANCE = {True: 1e-6, False: 1e-4}
+REFERENCE_TOLERANCE = {ProblemKind.COHESIVE: 1e-6, ProblemKind.HARD_WALL: 1e-4}
 READ = {
-    LINE: (*MEASURES[LINE], COUNTED),
-    SURFACE: (*MEASURES[SURFACE], COUNTED),
-    PATH: MEASURES[PATH],
-    ROUGH_PATH: MEASURES[ROUGH_PATH],
-    SLIDE: (*MEASURES[SLIDE], "onset_contact_length"),
+    LINE: (*QUANTITIES[LINE], COUNTED_AREA),
+    SURFACE: (*QUANTITIES[SURFACE], COUNTED_AREA),
+    PATH: QUANTITIES[PATH],
+    ROUGH_PATH: QUANTITIES[ROUGH_PATH],
+    SLIDE: (*QUANTITIES[SLIDE], "onset_repulsive_length"),
 }
 """Quantities whose errors relations are known of."""
 TYPICAL = 0.02
 """Error asked of runs that begin from their companions."""
 
 
-def measure(run: dict) -> pd.DataFrame:
-    """A scene on all ladders: one row a setting and load, with its features, errors, transforms and seconds.
+Ladder = tuple[str, Setup, list[Setup]]
+"""Knob, setup of the reference, and those of the ladder."""
 
-    run: settings of a run, whose grid, tolerance and increments are of no account.
+
+def measure(setup: Setup) -> pd.DataFrame:
+    """Solve a scene on all ladders.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options; its grid, tolerance and increments do not matter.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row a setting and load, with its features, errors, transforms and seconds.
     """
-    kind = kind_of(scene_of(run))
+    family = scene_family(setup.scene)
     rows = []
-    for knob, base, ladder in _ladders(run, kind):
-        reference = outcome(base, READ[kind])
-        for settings in ladder:
-            rows += _rows(knob, outcome(settings, READ[kind]), reference, kind)
-    if not is_smooth(run):
-        rows += _begun(run, kind)
+    for knob, base, ladder in LADDERS[setup.scene.kind](setup, family):
+        reference = solve_setup(base, READ[family])
+        for rung in ladder:
+            rows += _rows(knob, solve_setup(rung, READ[family]), reference, family)
+    rows += WARM_STARTS[setup.scene.kind](setup, family)
     return pd.DataFrame(rows)
 
 
-def _begun(run: dict, kind: str) -> list[dict]:
-    """Rows of a run at a wall that begins from its companion."""
-    fine = chosen(run, TYPICAL)
-    before = outcome(coarser(fine) | {"keep": ["fields"]}, READ[kind])
-    found = outcome(fine, READ[kind], begun=before)
-    return _rows("begun", found, found, kind)
+def _warm_start(setup: Setup, family: str) -> list[dict]:
+    """Return the rows of a run at a hard wall that begins from its companion."""
+    fine = choose_options(setup, TYPICAL)
+    before = solve_setup(COMPANIONS[setup.scene.kind](coarsen(fine)), READ[family])
+    solution = solve_setup(fine, READ[family], before)
+    return _rows("warm_start", solution, solution, family)
 
 
-def _ladders(run: dict, kind: str) -> Iterator[tuple[str, dict, list[dict]]]:
-    """Knob, settings of the reference, and those of the ladder."""
-    scene, smooth = scene_of(run), is_smooth(run)
-    steps = [step.value for step in scene.path.steps] if not smooth else [0.0]
-    scale = min(contact_scale(scene, value) for value in steps)
-
-    def on(resolution: float, **more: object) -> dict:
-        """Settings at that many points for each length of contact."""
-        return on_points(run | more, resolution * scene.length / scale)
-
-    tight = {"tolerance": REFERENCE_TOLERANCE[smooth]}
-    resolutions = RESOLUTIONS[kind]
-    usual = tight | (by_increment(run, SMALL[kind]) if smooth else {})
-    yield "points", on(FINEST[kind] * resolutions[-1], **usual), [on(value, **usual) for value in resolutions]
-    middle = resolutions[len(resolutions) // 2]
-    if smooth:
-        rest = {"tolerance": 1e-4}
-        ladder = [on(middle, **rest, **by_increment(run, value)) for value in INCREMENTS[kind]]
-        if kind in (PATH, ROUGH_PATH):  # the same with every increment solved, for their cost
-            ladder += [one | {"increments": {"kind": "requested"}} for one in ladder[1:2]]
-        yield "increment", on(middle, **rest, **by_increment(run, SMALL[kind])), ladder
-        yield (
-            "tolerance",
-            on(middle, **usual),
-            [on(middle, **usual | {"tolerance": value}) for value in PATH_TOLERANCES],
-        )
-    else:
-        yield "tolerance", on(middle, **tight), [on(middle, tolerance=value) for value in WALL_TOLERANCES]
+def _load_ladders(setup: Setup, family: str) -> Iterator[Ladder]:
+    """Yield the ladders of loads at a hard wall: grids and tolerances."""
+    smallest = min(contact_scale(setup.scene, step.value) for step in setup.scene.path.steps)
+    tight = setup.with_options(tolerance=REFERENCE_TOLERANCE[ProblemKind.HARD_WALL])
+    grids, finest, middle = _resolutions(family)
+    yield "points", _resolve(tight, finest, smallest), [_resolve(tight, value, smallest) for value in grids]
+    ladder = [_resolve(setup.with_options(tolerance=value), middle, smallest) for value in WALL_TOLERANCES]
+    yield "tolerance", _resolve(tight, middle, smallest), ladder
 
 
-def _rows(knob: str, found: Outcome, reference: Outcome, kind: str) -> list[dict]:
-    """One row a load, or one for a path."""
-    scene = scene_of(found.settings)
-    places = on_grid(scene, found.points)
-    part = paced_part(found.settings)
+def _path_ladders(setup: Setup, family: str) -> Iterator[Ladder]:
+    """Yield the ladders of a path of cohesive laws: grids, increments and tolerances."""
+    smallest = contact_scale(setup.scene)
+    fine = setup.with_options(tolerance=REFERENCE_TOLERANCE[ProblemKind.COHESIVE]).with_increment(SMALL[family])
+    grids, finest, middle = _resolutions(family)
+    yield "points", _resolve(fine, finest, smallest), [_resolve(fine, value, smallest) for value in grids]
+    rest = setup.with_options(tolerance=1e-4)
+    ladder = [_resolve(rest.with_increment(value), middle, smallest) for value in INCREMENTS[family]]
+    if family in (PATH, ROUGH_PATH):  # the same with every increment solved, for their cost
+        ladder += [rung.with_options(increments=Requested()) for rung in ladder[1:2]]
+    yield "increment", _resolve(rest.with_increment(SMALL[family]), middle, smallest), ladder
+    tolerances = [_resolve(fine.with_options(tolerance=value), middle, smallest) for value in PATH_TOLERANCES]
+    yield "tolerance", _resolve(fine, middle, smallest), tolerances
+
+
+def _resolutions(family: str) -> tuple[tuple[float, ...], float, float]:
+    """Return points for each contact length: those of the ladder, of its reference, and of other knobs' ladders."""
+    resolutions = RESOLUTIONS[family]
+    return resolutions, FINEST[family] * resolutions[-1], resolutions[len(resolutions) // 2]
+
+
+def _resolve(setup: Setup, resolution: float, length: float) -> Setup:
+    """Return a setup with that many points for each contact length (nm)."""
+    return set_grid(setup, resolution * setup.scene.length / length)
+
+
+LADDERS = {ProblemKind.HARD_WALL: _load_ladders, ProblemKind.COHESIVE: _path_ladders}
+WARM_STARTS = {ProblemKind.HARD_WALL: _warm_start, ProblemKind.COHESIVE: lambda setup, family: []}
+
+
+def _rows(knob: str, solution: Solution, reference: Solution, family: str) -> list[dict]:
+    """Return one row a load, or one for a path."""
+    setup = solution.setup
+    loads = bool(solution.resolved.size)
     rows = []
-    for count, one in enumerate(places):
-        row = {"kind": kind, "knob": knob, **one, **walk_features(found.settings), "points": found.points}
-        row["increment"] = math.log(found.settings[part].get("increment", 1.0))
-        row["resolved"] = math.log(max(found.resolved[count], 1e-9)) if found.resolved.size else np.nan
-        for name in READ[kind]:
-            row[f"error_{name}"] = difference(reference, found, name)[count]
-        steps = found.data.step.size
-        row["count"] = 1 if found.resolved.size else steps
-        row["transforms"] = float(found.data.transforms[count]) if found.resolved.size else found.transforms
-        row["seconds"] = float(found.data.seconds[count]) if found.resolved.size else found.seconds
-        row["total"] = found.size
+    for count, numbers in enumerate(grid_features(setup.scene, solution.points)):
+        row = {"kind": family, "knob": knob, **numbers, **step_features(setup), "points": solution.points}
+        row["increment"] = math.log(setup.scene.path.increment or 1.0)
+        row["resolved"] = math.log(max(solution.resolved[count], 1e-9)) if loads else np.nan
+        for name in READ[family]:
+            row[f"error_{name}"] = relative_difference(reference, solution, name)[count]
+        row["count"] = 1 if loads else solution.data.step.size
+        row["transforms"] = float(solution.data.transforms[count]) if loads else solution.transforms
+        row["seconds"] = float(solution.data.seconds[count]) if loads else solution.seconds
+        row["total"] = solution.size
         rows.append(row)
     return rows
 
@@ -152,6 +172,6 @@ def measured(plan: dict) -> pd.DataFrame:
     kind, drawn = plan["kind"], plan["drawn"]
     tables = []
     for count in range(drawn["scenes"]):
-        tables.append(measure(draw(kind, drawn["ranges"], drawn["seed"], count).settings).assign(scene=count))
+        tables.append(measure(draw(kind, drawn["ranges"], drawn["seed"], count).setup).assign(scene=count))
         logger.info("scene %d of %d", count + 1, drawn["scenes"])
     return pd.concat(tables, ignore_index=True).assign(unit=transform_seconds())

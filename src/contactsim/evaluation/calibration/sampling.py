@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from contactsim.error_control.options import PRESSING
-from contactsim.error_control.scaling import KINDS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
+from contactsim.error_control.options import MIN_PRESSING_INCREMENT
+from contactsim.error_control.scaling import FAMILIES, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.errors import SceneError
 from contactsim.study.reading import Key, listed, mapping, pair, positive, read, size, text, tiered, whole
 from contactsim.study.study import Run, Study
@@ -21,7 +21,7 @@ KEYS = {
     "calibration": Key(mapping, "a mapping with `seed` and `scenes`"),
     "trial": Key(mapping, "a mapping with `seed` and `scenes`"),
     "errors": Key(listed(positive), "a list of relative errors that are asked for"),
-    "kinds": Key(mapping, f"a mapping from some of {', '.join(KINDS)} to ranges"),
+    "kinds": Key(mapping, f"a mapping from some of {', '.join(FAMILIES)} to ranges"),
 }
 RANGE = Key(pair, "a pair of numbers, the least and the largest")
 ROUGH = dict.fromkeys(("hurst", "wavelength_ratio"), RANGE)
@@ -56,14 +56,14 @@ def read_draws(folder: str | Path, over: dict, tier: str) -> dict | None:
         settings[part] = read(settings[part], DRAW_KEYS, file, part)
     for kind, section in settings["kinds"].items():
         if kind not in RANGES:
-            raise SceneError(f"kinds.{kind}", section, f"one of {', '.join(KINDS)}", file)
+            raise SceneError(f"kinds.{kind}", section, f"one of {', '.join(FAMILIES)}", file)
         settings["kinds"][kind] = read(section, RANGES[kind], file, f"kinds.{kind}")
     return settings
 
 
 def draw(kind: str, ranges: Mapping[str, list[float]], seed: int, count: int) -> Run:
     """The run of one scene of a kind: number `count` of those that a seed leads to."""
-    rng = np.random.default_rng(np.random.SeedSequence([seed, KINDS.index(kind), count]))
+    rng = np.random.default_rng(np.random.SeedSequence([seed, FAMILIES.index(kind), count]))
     section = {LINE: _wall, SURFACE: _wall, PATH: _asperity, ROUGH_PATH: _rough, SLIDE: _slide}[kind](kind, ranges, rng)
     name = f"{kind}_{count}"
     given = {"title": name, "points": FINE, "tolerance": 1e-3}
@@ -133,7 +133,7 @@ def _rough(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
 def _slide(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
     law, elastic = _law(ranges, rng, frictionless=0.0)
     radius = _within(rng, ranges["radius"])
-    path = {"approach": [-8.0, -4.0], "increment": PRESSING}
+    path = {"approach": [-8.0, -4.0], "increment": MIN_PRESSING_INCREMENT}
     return law | {
         "surface": {"kind": "cylinder", "radius": radius, "length": 0.4 * radius},
         "body": {"kind": "rigid"},

@@ -14,20 +14,29 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.error_control.control import Outcome, Reached, difference, outcome, reach
-from contactsim.error_control.forecast import forecast_to
-from contactsim.error_control.options import chosen, coarser, on_points, rescaled, size_of
-from contactsim.error_control.scaling import FILE, KINDS, LINE, MEASURES, SURFACE
+from contactsim.contact.scene import ProblemKind
+from contactsim.error_control.control import (
+    Controlled,
+    Solution,
+    relative_difference,
+    solve_setup,
+    solve_to_error,
+)
+from contactsim.error_control.forecast import forecast_to_error
+from contactsim.error_control.options import choose_options, coarsen, scale_increment, set_grid
+from contactsim.error_control.scaling import FAMILIES, FILE, LINE, QUANTITIES, SURFACE
 from contactsim.errors import SceneError
 from contactsim.evaluation.calibration.sampling import draw
+from contactsim.paths.options import Setup
 from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
-from contactsim.study.keys import is_smooth
-from contactsim.study.scenes import scene_of
 
 GRIDS = (1 / 8, 1 / 5.7, 1 / 4, 1 / 2.8, 1 / 2, 1 / 1.4, 1.0, 1.4, 2.0)
 """Grids of the ladder, over the final one's points."""
-PACES, TOLERANCES = (4.0, 2.0, 1.0), (10.0, 1.0)
+FACTORS = {
+    ProblemKind.HARD_WALL: ((1.0,), (10.0, 1.0)),
+    ProblemKind.COHESIVE: ((4.0, 2.0, 1.0), (1.0,)),
+}
 """Increments and tolerances of the ladder, over the final ones."""
 SYMBOLS = {"reduced_pressure": "p*", "contact_ratio": "c/R"}
 """Loads in words."""
@@ -62,31 +71,31 @@ def figure(settings: dict, tier: str) -> dict:
 
 def error_asked(settings: dict, kind: str, count: int) -> float:
     """The error asked of a scene: by turns those of the list, another at first for each kind."""
-    return settings["errors"][(count + sorted(KINDS).index(kind)) % len(settings["errors"])]
+    return settings["errors"][(count + sorted(FAMILIES).index(kind)) % len(settings["errors"])]
 
 
 def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     """One scene on trial: what is reproducible, and seconds predicted and spent."""
-    run = draw(kind, settings["kinds"][kind], settings["trial"]["seed"], count).settings
-    asked = error_asked(settings, kind, count)
-    expected = forecast_to(run, asked)
-    outcome(coarser(chosen(run, asked)), MEASURES[kind])  # loads what is compiled
-    found = reach(run, asked)
-    names = MEASURES[kind]
-    reference = outcome(_finer(found.last, kind), names)
-    tried = [(one, _error(one, reference)) for one in _ladder(found, names)]
-    met = [one for one, error in tried if error <= asked]
-    least = min(met, key=lambda one: one.transforms * one.size, default=None)
-    work = found.work * found.last.size
+    run = draw(kind, settings["kinds"][kind], settings["trial"]["seed"], count)
+    setup, wanted = run.setup, error_asked(settings, kind, count)
+    expected = forecast_to_error(setup, wanted)
+    solve_setup(coarsen(choose_options(setup, wanted)), QUANTITIES[kind])  # loads what is compiled
+    result = solve_to_error(setup, wanted)
+    names = QUANTITIES[kind]
+    reference = solve_setup(REFERENCES[setup.scene.kind](result.last.setup, kind), names)
+    tried = [(solution, _error(solution, reference)) for solution in _ladder(result, names)]
+    met = [solution for solution, error in tried if error <= wanted]
+    least = min(met, key=lambda solution: solution.transforms * solution.size, default=None)
+    work = result.work * result.last.size
     row = {
-        "requested_error": asked,
-        "true_error": _error(found.last, reference),
-        "predicted_error": max(float(values.max()) for values in found.errors.values()),
-        "solve_count": len(found.before) + 1,
-        "points": found.last.points,
+        "requested_error": wanted,
+        "true_error": _error(result.last, reference),
+        "predicted_error": max(float(values.max()) for values in result.errors.values()),
+        "solve_count": len(result.before) + 1,
+        "points": result.last.points,
         "predicted_points": expected.points,
         "work": work,
-        "predicted_work": expected.transforms * size_of(scene_of(run), expected.points),
+        "predicted_work": expected.transforms * setup.with_options(points=expected.points).size,
         "min_work": least.transforms * least.size if least else np.nan,
         "min_work_points": least.points if least else -1,
         "settings_tried": len(tried),
@@ -95,41 +104,45 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     coordinates = {"scene": [f"{kind} {count}"], "kind": ("scene", [kind])}
     data = xr.Dataset({name: ("scene", [value]) for name, value in row.items()}, coordinates)
     data = data.assign(description=("scene", [_words(run)]))
-    spent = {"predicted": expected.seconds, "seconds": found.seconds, "least": least.seconds if least else math.nan}
+    spent = {"predicted": expected.seconds, "seconds": result.seconds, "least": least.seconds if least else math.nan}
     return dataset.described(data), spent
 
 
-def _error(one: Outcome, reference: Outcome) -> float:
-    """The largest relative error of all quantities."""
-    return max(float(difference(reference, one, name).max()) for name in one.values)
+def _error(solution: Solution, reference: Solution) -> float:
+    """Return the largest relative error of all quantities."""
+    return max(float(relative_difference(reference, solution, name).max()) for name in solution.values)
 
 
-def _finer(last: Outcome, kind: str) -> dict:
-    """The settings of the reference."""
-    settings = last.settings
-    if not is_smooth(settings):
-        return on_points(settings | {"tolerance": settings["tolerance"] * TIGHTER}, last.points * FINER[kind])
-    settings = settings | {"tolerance": settings["tolerance"] * TIGHTER} | rescaled(settings, PACE)
-    return on_points(settings, last.points * PATH_FINER)
+def _load_reference(setup: Setup, kind: str) -> Setup:
+    """Return a finer grid and a tighter tolerance for loads at a hard wall."""
+    tight = setup.with_options(tolerance=setup.options.tolerance * TIGHTER)
+    return set_grid(tight, setup.points * FINER[kind])
 
 
-def _ladder(found: Reached, names: tuple[str, ...]) -> list[Outcome]:
-    """Every setting about the final one, solved on its own."""
-    settings = found.last.settings
-    paces = PACES if is_smooth(settings) else (1.0,)
-    tolerances = TOLERANCES if not is_smooth(settings) else (1.0,)
+def _path_reference(setup: Setup, kind: str) -> Setup:
+    """Return a finer grid, shorter increments and a tighter tolerance for a path of cohesive laws."""
+    tight = scale_increment(setup.with_options(tolerance=setup.options.tolerance * TIGHTER), PACE)
+    return set_grid(tight, setup.points * PATH_FINER)
+
+
+REFERENCES = {ProblemKind.HARD_WALL: _load_reference, ProblemKind.COHESIVE: _path_reference}
+
+
+def _ladder(result: Controlled, names: tuple[str, ...]) -> list[Solution]:
+    """Return every setting about the final one, solved on its own."""
+    last = result.last.setup
     tried = {}
-    for grid, pace, tolerance in itertools.product(GRIDS, paces, tolerances):
-        one = settings | {"tolerance": settings["tolerance"] * tolerance}
-        one = on_points(one | rescaled(settings, pace) if is_smooth(settings) else one, found.last.points * grid)
-        tried[one["points"], pace, tolerance] = one
-    return [one for one in (_solved(one, names) for one in tried.values()) if one]
+    for grid, pace, tolerance in itertools.product(GRIDS, *FACTORS[last.scene.kind]):
+        setup = last.with_options(tolerance=last.options.tolerance * tolerance)
+        setup = set_grid(scale_increment(setup, pace), last.points * grid)
+        tried[setup.points, pace, tolerance] = setup
+    return [solution for solution in (_solved(setup, names) for setup in tried.values()) if solution]
 
 
-def _solved(settings: dict, names: tuple[str, ...]) -> Outcome | None:
-    """A setting solved, or None where it cannot be posed, as on a grid that is too coarse for its path."""
+def _solved(setup: Setup, names: tuple[str, ...]) -> Solution | None:
+    """Return a setting solved; None where it cannot be posed, as on a grid that is too coarse for its path."""
     try:
-        return outcome(settings, names)
+        return solve_setup(setup, names)
     except SceneError:
         return None
 

@@ -12,14 +12,13 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.contact.scene import Scene
 from contactsim.errors import SceneError
+from contactsim.paths.driver import follow_path
 from contactsim.provenance import computing_digest, digest, source_digest
-from contactsim.solvers.registry import make_solver, solver_module
+from contactsim.solvers.registry import solver_module
 from contactsim.status import is_solved
-from contactsim.study.execute import asked_of, simulate
 from contactsim.study.reading import Key, mapping, overlaid, read, size, text, tiered, whole
-from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.scenes import build_setup
 from contactsim.study.study import Study
 
 KEYS = {
@@ -72,11 +71,11 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
     rows, spent = [], {}
     for variant in settings["variants"]:
         name = variant["name"]
-        scene, options = scene_of(variant["run"]), _options(variant["run"])
-        runs = [simulate(scene, **options) for _ in range(settings["repeats"])]
+        setup = build_setup(variant["run"])
+        runs = [follow_path(setup) for _ in range(settings["repeats"])]
         tracemalloc.start()
         try:
-            simulate(scene, **options)
+            follow_path(setup)
             peak = tracemalloc.get_traced_memory()[1] / 1e6
         finally:
             tracemalloc.stop()
@@ -84,8 +83,8 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
         rows.append(
             {
                 "variant": name,
-                "components": " ".join(scene.components),
-                "unknowns": _unknowns(scene, options["points"]),
+                "components": " ".join(setup.scene.components),
+                "unknowns": setup.points * len(setup.scene.exerted),
                 "transforms": float(data.transforms.sum()),
                 "unconverged": int((~is_solved(data.status)).sum()),
                 "steps": data.status.size,
@@ -95,14 +94,3 @@ def measure(settings: dict) -> tuple[xr.Dataset, dict]:
     columns = {name: ("variant", np.array([row[name] for row in rows])) for name in rows[0] if name != "variant"}
     data = xr.Dataset(columns, {"variant": [row["variant"] for row in rows]})
     return dataset.described(data), spent
-
-
-def _options(run: dict) -> dict:
-    """How a run is simulated."""
-    common = {"points": points_of(run, scene_of(run).upper.surface), "tolerance": run["tolerance"]}
-    return common | {"method": make_solver(**run["solver"])} | asked_of(run)
-
-
-def _unknowns(scene: Scene, points: int) -> int:
-    """Real unknowns of one step."""
-    return points * len(scene.exerted)

@@ -6,6 +6,7 @@ A map varies some settings of one scene, as they are or as ratios of settings. W
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -15,14 +16,16 @@ import yaml
 
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.error_control.effect_maps import change, product, value_at
+from contactsim.error_control.effect_maps import change_without
 from contactsim.error_control.scaling import FILE as RELATIONS
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
+from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
-from contactsim.study.keys import comparable, some_of
-from contactsim.study.reading import Key, listed, mapping, number, pair, read, size, text, tiered
+from contactsim.study.keys import some_of
+from contactsim.study.kinds import study_kind
+from contactsim.study.reading import Key, keys_of, listed, mapping, number, pair, read, size, text, tiered
 from contactsim.study.study import Study
 
 KEYS = {
@@ -80,7 +83,7 @@ def _map(name: str, section: object, file: str) -> dict:
         if head not in one["scene"] or (tail and not isinstance(one["scene"][head], dict)):
             raise SceneError(f"{prefix}.axes.{axis}.key", given["key"], "a key of the map's scene", file)
         for key in given["per"]:
-            if not is_number(value_at(one["scene"], key)):
+            if not is_number(_value_at(one["scene"], key)):
                 raise SceneError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
     first = {axis: given["values"][0] for axis, given in one["axes"].items()}
     for axis, given in one["axes"].items():
@@ -88,7 +91,7 @@ def _map(name: str, section: object, file: str) -> dict:
             runs = _study(one, first | {axis: value}, name, file).runs()
     if len(runs) != 1:
         raise SceneError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
-    known = comparable(runs[0].settings["effects"])
+    known = study_kind(runs[0].settings).comparable
     for quantity in one["of"]:
         if quantity not in known:
             raise SceneError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
@@ -142,8 +145,8 @@ def measure(name: str, settings: dict) -> xr.Dataset:
     errors = np.empty([len(axis["values"]) for axis in axes.values()])
     for place in np.ndindex(errors.shape):
         values = {axis: given["values"][k] for (axis, given), k in zip(axes.items(), place, strict=True)}
-        run = _study(settings, values, name, "effect_maps.yaml").runs()[0].settings
-        errors[place] = change(run, settings["leave_out"], settings["of"], known)
+        setup = _study(settings, values, name, "effect_maps.yaml").runs()[0].setup
+        errors[place] = change_without(setup, settings["leave_out"], settings["of"], known)
     return as_dataset(settings, errors)
 
 
@@ -158,8 +161,18 @@ def _study(settings: dict, values: Mapping[str, float], name: str, file: str) ->
     section = settings["scene"]
     for axis, value in values.items():
         given = settings["axes"][axis]
-        section = _with(section, given["key"], value * product(section, given["per"]))
+        section = _with(section, given["key"], value * math.prod(_value_at(section, key) for key in given["per"]))
     return Study.read(name, {"title": name} | section, file, 0)
+
+
+def _value_at(section: Mapping, key: str) -> object:
+    """Return the value of a dotted key of a study's section; a law's default where it is not given, else None."""
+    head, _, tail = key.partition(".")
+    value = section.get(head)
+    if not tail or not isinstance(value, Mapping):
+        return None if tail else value
+    keys = keys_of(EFFECTS[head]) if head in EFFECTS else {}
+    return value.get(tail, keys[tail].default if tail in keys else None)
 
 
 def _with(section: dict, key: str, value: float) -> dict:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -20,11 +21,12 @@ from contactsim.evaluation.robustness.judge_paths import judge_path
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import SLOWLY, PathCase
 from contactsim.evaluation.robustness.registry import HAZARDS, first_line
-from contactsim.provenance import computing_digest
+from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import SOLVERS, make_solver, solver_class, solver_module
-from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read, size, text
+from contactsim.study.plan import Plan
+from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read, size, text, tiered
 
 logger = logging.getLogger(__name__)
 
@@ -75,6 +77,37 @@ def read_settings(section: object, file: object) -> dict:
     if not settings["solvers"]:
         raise SceneError("solvers", {}, f"at least one of {', '.join(SOLVERS)}", file)
     return settings
+
+
+def read_stability(folder: str | Path, plan: Plan) -> dict | None:
+    """Return the settings of stability.yaml at the plan's tier; None without that file."""
+    section = tiered(Path(folder) / "stability.yaml", plan.overrides["stability"], plan.tier)
+    return None if section is None else read_settings(*section)
+
+
+def map_settings(settings: Mapping, plan: Plan) -> dict:
+    """Return what the map of all hazards depends on."""
+    hazards = settings["hazards"]
+    shown = {key: settings[key] for key in ("title", "severities", "solvers", "hazards")} | {"tier": plan.tier}
+    return {
+        "paths": [f"{plan.results}/stability/{hazard}.nc" for hazard in hazards],
+        "jobs": [job_settings(settings, hazard) for hazard in hazards],
+        "settings": shown,
+        "source": source_digest("contactsim.evaluation.robustness.survey"),
+    }
+
+
+def map_figure(settings: Mapping, plan: Plan) -> dict:
+    """Return what the figure of the map depends on, in the form of `Plan.figure_settings`."""
+    layout = {"panels": 2, "select": {}, "reference": {}, "law": None, "film": None}
+    module = "contactsim.figures.diagnostics.stability"
+    return {
+        "name": "stability",
+        "module": module,
+        "settings": {key: settings[key] for key in ("title", "caption", "size")} | layout,
+        "source": source_digest(module, "contactsim.figures.layout"),
+        "data": digest(map_settings(settings, plan)),
+    }
 
 
 def job_settings(settings: Mapping, hazard: str) -> dict:

@@ -11,9 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from contactsim.contact.cohesive import check_tolerance
-from contactsim.error_control.forecast import forecast
-from contactsim.error_control.options import size_of
+from contactsim.error_control.forecast import forecast_setup
 from contactsim.errors import SceneError
 from contactsim.evaluation.work_precision.cases import REFERENCE, Case, job_plan
 from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
@@ -21,9 +19,9 @@ from contactsim.provenance import digest, source_digest
 from contactsim.solvers.base import require
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.claim_plan import quantities
-from contactsim.study.plan import RESERVED, Plan
+from contactsim.study.kinds import study_kind
+from contactsim.study.plan import RESERVED_NAMES, Plan
 from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
-from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
@@ -83,7 +81,7 @@ def overview(settings: dict, cases: dict[str, Case], tier: str) -> dict:
 
 def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     target = f"accuracy_{name}"
-    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED, *plan.studies, *plan.figures):
+    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED_NAMES, *plan.studies, *plan.figures):
         allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
         raise SceneError(plan.tier, name, allowed, file)
     prefix = f"{plan.tier}.{name}"
@@ -114,11 +112,10 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
     """Build the scenes of a job at one setting, so that nothing impossible is found out by the job."""
     try:
         for run in case.study_at(setting, job).runs():
-            scene = scene_of(run.settings)
+            scene = run.setup.scene
             scene.upper.surface.check(setting.points)
             require(solver_class(case.solved_by(job))(), scene)
-            if Trait.SMOOTH in scene.traits:
-                check_tolerance(setting.tolerance)
+            study_kind(run.settings).check(run.setup)
     except SceneError as error:
         if error.key == "solver":
             raise SceneError(f"{prefix}.solvers", job, error.allowed, file) from error
@@ -179,7 +176,7 @@ def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
         "expected": [[f"{value:.6g}" for value in one] for one in expected(case)],
         "loads": case.kind.loads(case.study, case.settings["load"]),
         "units": case.kind.units(case.study),
-        "surface": Trait.SURFACE in scene_of(case.study.runs()[0].settings).traits,
+        "surface": Trait.SURFACE in case.study.runs()[0].setup.scene.traits,
         "source": source_digest("contactsim.figures.diagnostics.accuracy"),
         "study": digest(plan.study_settings(case.study.name)),
     }
@@ -193,11 +190,11 @@ def expected(case: Case) -> list[list[float]]:
     found = []
     for setting in case.turned(case.default):
         try:
-            settings = [run.settings for run in case.study_at(setting, case.default).runs()]
-            runs = [forecast(one) for one in settings]
+            setups = [run.setup for run in case.study_at(setting, case.default).runs()]
+            runs = [forecast_setup(setup) for setup in setups]
         except SceneError:
             found.append([float("nan")] * 2)
         else:
-            total = size_of(scene_of(settings[0]), setting.points)
+            total = setups[0].size
             found.append([sum(one.transforms for one in runs) * total, sum(one.units for one in runs)])
     return found

@@ -15,12 +15,12 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, kind_of, solutions
 from contactsim.observables.derived import combine_runs
+from contactsim.paths.driver import follow_path
 from contactsim.provenance import computing_digest, digest
-from contactsim.solvers.registry import is_installed, make_solver, package_version, solver_module
-from contactsim.study.execute import labelled, simulate
+from contactsim.solvers.registry import is_installed, package_version, solver_module
+from contactsim.study.execute import label_run
 from contactsim.study.keys import COMPANIONS
-from contactsim.study.scenes import scene_of
-from contactsim.study.study import Study
+from contactsim.study.study import Run, Study
 
 REFERENCE = "reference"
 LONG = 5.0
@@ -91,11 +91,11 @@ class Case:
         for setting in self.turned(job):
             runs, times = self.study_at(setting, job).runs(), []
             while len(times) < self.settings["repeats"] and not (times and times[-1] > LONG):
-                parts = [(simulated(run.settings), run) for run in runs]
+                parts = [(simulate_run(run), run) for run in runs]
                 times.append(float(sum(data.seconds.sum() for data, _ in parts)))
             data = combine_runs(
                 [
-                    (labelled(data, run.settings, [""] * data.step.size), run.coordinates | {"member": run.member})
+                    (label_run(data, run.settings, [""] * data.step.size), run.coordinates | {"member": run.member})
                     for data, run in parts
                 ]
             )
@@ -106,10 +106,9 @@ class Case:
         return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
 
 
-def simulated(settings: dict) -> xr.Dataset:
-    """The simulation of a run's settings."""
-    method = make_solver(**settings["solver"])
-    return simulate(scene_of(settings), points=settings["points"], tolerance=settings["tolerance"], method=method)
+def simulate_run(run: Run) -> xr.Dataset:
+    """Return the simulation of a run."""
+    return follow_path(run.setup)
 
 
 def job_plan(case: Case, job: str) -> dict:

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from contactsim.contact.scene import ProblemKind
 from contactsim.errors import SceneError
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
@@ -22,7 +23,7 @@ from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET
 from contactsim.status import is_solved
-from contactsim.study.keys import is_smooth
+from contactsim.study.kinds import problem_kind
 from contactsim.study.reading import Key, listed, positive, read, whole
 from contactsim.study.study import Study
 from contactsim.variables import VARIABLES
@@ -121,7 +122,7 @@ class WholePath:
 
     def takes(self, study: Study) -> bool:
         """Whether the study follows smooth laws."""
-        return is_smooth(study.settings)
+        return problem_kind(study.settings["effects"]) is ProblemKind.COHESIVE
 
     def loads(self, study: Study, loads: None) -> dict[str, list[float]]:
         """All of the path."""

@@ -1,0 +1,125 @@
+"""Follow the load path of a scene: the driver of each kind of problem, looked up once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import xarray as xr
+from threadpoolctl import threadpool_limits
+
+from contactsim.contact.scene import ProblemKind
+from contactsim.errors import SceneError
+from contactsim.observables.contact import KEPT
+from contactsim.paths.increments import Requested
+from contactsim.paths.options import Setup
+from contactsim.paths.pressures import Point, simulate_loads
+from contactsim.paths.record import simulate_path
+from contactsim.solvers.base import require
+from contactsim.solvers.registry import default_solver
+
+
+@dataclass(frozen=True)
+class Reuse:
+    """Earlier results that a simulation at a hard wall can use.
+
+    Parameters
+    ----------
+    points : mapping from int to Point
+        Load steps that need not be solved again, by their number.
+    coarse : xarray.Dataset, optional
+        The same scene on a coarser grid with its fields, from which a cascade of grids begins.
+    """
+
+    points: Mapping[int, Point] | None = None
+    coarse: xr.Dataset | None = None
+
+
+class PathDriver(Protocol):
+    """Way to follow the load path of one kind of problem.
+
+    words: its name in messages; options: run options that only it has; reuses_points: True where a load does not depend
+    on those before, so that it need not be solved again.
+    """
+
+    words: str
+    options: tuple[str, ...]
+    reuses_points: bool
+
+    def follow(self, setup: Setup, reuse: Reuse) -> xr.Dataset:
+        """Return a dataset with dimension `step`."""
+        ...
+
+
+class LoadDriver:
+    """Loads on their own at a hard wall."""
+
+    words = "a hard wall"
+    options = ("keep",)
+    reuses_points = True
+
+    def follow(self, setup: Setup, reuse: Reuse) -> xr.Dataset:
+        """Return one solution for each load."""
+        options = setup.options
+        return simulate_loads(
+            setup.scene,
+            options.solver,
+            points=setup.points,
+            tolerance=options.tolerance,
+            threads=options.threads,
+            keep=KEPT[:-1] if options.keep is None else options.keep,
+            known=reuse.points,
+            begun=reuse.coarse,
+        )
+
+
+class StateDriver:
+    """States of cohesive laws, each from the one before."""
+
+    words = "smooth laws"
+    options = ("increments", "snapshots", "keep_fields")
+    reuses_points = False
+
+    def follow(self, setup: Setup, reuse: Reuse) -> xr.Dataset:
+        """Return one state for each step; nothing can be reused, as each state depends on all before."""
+        options = setup.options
+        return simulate_path(
+            setup.scene,
+            options.solver,
+            points=setup.points,
+            tolerance=options.tolerance,
+            threads=options.threads,
+            increments=options.increments or Requested(),
+            snapshots=options.snapshots,
+            keep_fields=options.keep_fields is not False,
+        )
+
+
+DRIVERS: dict[ProblemKind, PathDriver] = {ProblemKind.HARD_WALL: LoadDriver(), ProblemKind.COHESIVE: StateDriver()}
+
+
+def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
+    """Follow the load path of a scene, as its options are.
+
+    Returns
+    -------
+    xarray.Dataset
+        One dataset with dimension `step`: numbers, and what is kept; `seconds` is the one variable that is not
+        reproducible.
+
+    Raises
+    ------
+    SceneError
+        For an option that such a scene has no use for, or a solver that does not accept it.
+    """
+    scene, options = setup.scene, setup.options
+    driver = DRIVERS[scene.kind]
+    for name in {name for other in DRIVERS.values() for name in other.options} - set(driver.options):
+        if getattr(options, name) is not None:
+            raise SceneError(name, getattr(options, name), f"none with {driver.words}")
+    solver = default_solver(scene) if options.solver is None else options.solver
+    require(solver, scene)
+    # more threads of dense algebra would only wait for each other, and change the last digits of a result
+    with threadpool_limits(options.threads, "blas"):
+        return driver.follow(replace(setup, options=replace(options, solver=solver)), reuse or Reuse())

@@ -1,0 +1,111 @@
+"""What a study says of each kind of problem: its keys, loads, quantities and options."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+from contactsim.contact.cohesive import check_tolerance
+from contactsim.contact.scene import ProblemKind
+from contactsim.interface.hard_wall import HardWall
+from contactsim.interface.registry import EFFECTS
+from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.hysteresis import CYCLE
+from contactsim.observables.linearity import AREA_LOAD
+from contactsim.observables.peeling import ONSET
+from contactsim.paths.increments import INCREMENTS, Requested
+from contactsim.paths.options import Setup
+
+
+class StudyKind(Protocol):
+    """Differences between studies of the two kinds of problem.
+
+    keys: what is asked for beside the scene, which studies of the other kind have no use for; sections: parts that
+    runs depend on; needs_path: True where single loads have no meaning; comparable: quantities whose change can say
+    whether an effect is negligible.
+    """
+
+    keys: tuple[str, ...]
+    sections: tuple[str, ...]
+    needs_path: bool
+    comparable: tuple[str, ...]
+
+    def run_settings(self, settings: Mapping, member: int) -> dict:
+        """Return what a run of that member keeps, as settings."""
+        ...
+
+    def options(self, settings: Mapping) -> dict[str, object]:
+        """Return the run options that only this kind has."""
+        ...
+
+    def check(self, setup: Setup) -> None:
+        """Raise InputError for options that cannot work."""
+        ...
+
+
+class HardWallStudy:
+    """Loads at a hard wall."""
+
+    keys = ("keep",)
+    sections = ()
+    needs_path = False
+    comparable = ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
+
+    def run_settings(self, settings: Mapping, member: int) -> dict:
+        """Return what is kept of each solution."""
+        return {"keep": settings["keep"]}
+
+    def options(self, settings: Mapping) -> dict[str, object]:
+        """Return what is kept of each solution."""
+        return {"keep": tuple(settings["keep"])}
+
+    def check(self, setup: Setup) -> None:
+        """Accept all options."""
+
+
+class CohesiveStudy:
+    """Paths of cohesive laws."""
+
+    keys = ("increments", "snapshots", "snapshot_members")
+    sections = ("increments",)
+    needs_path = True
+    comparable = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
+
+    def run_settings(self, settings: Mapping, member: int) -> dict:
+        """Return where snapshots are kept, and if they have fields."""
+        fields = member < (settings["snapshot_members"] or settings["members"])
+        return {"snapshots": settings["snapshots"], "keep_fields": fields}
+
+    def options(self, settings: Mapping) -> dict[str, object]:
+        """Return the increments and what is kept at snapshots."""
+        section = dict(settings["increments"])
+        return {
+            "increments": INCREMENTS[section.pop("kind")](**section),
+            "snapshots": tuple(settings["snapshots"] or ()),
+            "keep_fields": settings["keep_fields"],
+        }
+
+    def check(self, setup: Setup) -> None:
+        """Raise InputError for a tolerance, increments or snapshots that the path cannot have."""
+        scene, options = setup.scene, setup.options
+        check_tolerance(options.tolerance)
+        (options.increments or Requested()).check(setup.points, scene.path.steps, options.solver)
+        for value in options.snapshots or ():
+            scene.path.nearest(value)
+
+
+STUDY_KINDS: dict[ProblemKind, StudyKind] = {
+    ProblemKind.HARD_WALL: HardWallStudy(),
+    ProblemKind.COHESIVE: CohesiveStudy(),
+}
+
+
+def problem_kind(effects: Sequence[str]) -> ProblemKind:
+    """Return the kind of problem that effects pose, by their names in the config."""
+    smooth = any(EFFECTS[name] is not HardWall for name in effects)
+    return ProblemKind.COHESIVE if smooth else ProblemKind.HARD_WALL
+
+
+def study_kind(settings: Mapping) -> StudyKind:
+    """Return what is special about a study or run with these settings."""
+    return STUDY_KINDS[problem_kind(settings["effects"])]

@@ -1,0 +1,31 @@
+"""Modules that each stage of the workflow executes.
+
+A job carries a digest of the code that it executes, so that an edit reruns what it changes and nothing else. The
+modules named here are where that code begins; `contactsim.provenance` follows their imports.
+"""
+
+from __future__ import annotations
+
+from contactsim.provenance import computing_digest, source_digest
+
+STAGES: dict[str, tuple[str, ...]] = {
+    "run": ("contactsim.study.execute",),
+    "run_to_accuracy": ("contactsim.study.execute_to_accuracy",),
+    "run_neglecting": ("contactsim.study.execute_neglecting",),
+    "select_effects": ("contactsim.study.select_effects",),
+    "aggregate": ("contactsim.analysis.aggregate", "contactsim.analysis.costs"),
+    "figure": ("contactsim.figures.layout",),
+    "claims": ("contactsim.analysis.claims", "contactsim.figures.diagnostics.claims"),
+    "hazard": ("contactsim.evaluation.robustness.survey",),
+}
+"""Modules by stage."""
+
+
+def stage_digest(stage: str, *modules: str) -> str:
+    """Return a digest of the code of a stage and of further modules."""
+    return source_digest(*STAGES[stage], *modules)
+
+
+def computing_stage_digest(stage: str, *modules: str) -> str:
+    """Return the same for a stage that computes results, with the versions of the libraries."""
+    return computing_digest(*STAGES[stage], *modules)
