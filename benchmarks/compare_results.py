@@ -104,7 +104,9 @@ def _difference(one: xr.Variable, other: xr.Variable, renaming: Renaming) -> str
 def _compare_attributes(old: dict, new: dict, renaming: Renaming, found: Differences, name: str) -> None:
     for key in sorted(old.keys() | new.keys()):
         texts = [repr(np.asarray(attrs.get(key)).tolist()) for attrs in (old, new)]
-        if texts[0] != texts[1]:
+        if key not in old and key in renaming.added:
+            found.explained[f"{key} new: {renaming.added[key]}"] += 1
+        elif texts[0] != texts[1]:
             found.add(renaming, key, f"attribute of {name}: {texts[0]:.80} in place of {texts[1]:.80}")
 
 
@@ -214,10 +216,13 @@ def match_files(old: Path, new: Path, renaming: Renaming) -> tuple[list[tuple[st
     return pairs, missing, list(left)
 
 
-def compare_results(old: Path, new: Path, renaming: Renaming) -> tuple[Differences, list[str]]:
-    """Compare two folders of results; return the differences, and files that only the new one has."""
+def compare_results(old: Path, new: Path, renaming: Renaming, part: bool = False) -> tuple[Differences, list[str]]:
+    """Compare two folders of results; return the differences, and files that only the new one has.
+
+    part: True if the new folder holds only a part of the files.
+    """
     pairs, missing, added = match_files(old, new, renaming)
-    found = Differences(numbers=[f"{path}: missing" for path in missing])
+    found = Differences(numbers=[] if part else [f"{path}: missing" for path in missing])
     for one, other in pairs:
         found.merge(compare_files(old / one, new / other, renaming), other)
     return found, added
@@ -229,8 +234,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("old", type=Path)
     parser.add_argument("new", type=Path)
     parser.add_argument("--table", type=Path, default=TABLE, help="table of names, in place of renamed.yaml")
+    parser.add_argument("--part", action="store_true", help="the new folder is a part: let files be missing")
     options = parser.parse_args(arguments)
-    found, added = compare_results(options.old, options.new, Renaming.read(options.table))
+    found, added = compare_results(options.old, options.new, Renaming.read(options.table), options.part)
     for what, count in sorted(found.explained.items()):
         print(f"may differ: {what} ({count} times)")
     for path in added:

@@ -52,7 +52,7 @@ SETTINGS = {
     "tangential_length": ("nm", "tangential characteristic length"),
     "lattice_constant": ("nm", "lattice constant of the sites that springs join"),
     "tangential_cutoff": ("1", "tangential cutoff of the lattice, over the tangential characteristic length"),
-    "depth": ("1", "largest gap that springs bridge, over the normal characteristic length"),
+    "normal_cutoff": ("1", "largest gap that springs bridge, over the normal characteristic length"),
     "weight": ("1", "weight of a spring"),
     "approach": ("nm", "approach at which surfaces slide"),
     "mean_pressure": ("GPa", "mean pressure under which surfaces slide"),

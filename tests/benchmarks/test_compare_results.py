@@ -71,9 +71,9 @@ def folders(tmp_path):
     return tmp_path
 
 
-def compared(folder, capsys) -> tuple[int, str]:
+def compared(folder, capsys, *options: str) -> tuple[int, str]:
     code = compare_results.main(
-        [str(folder / "old"), str(folder / "new"), "--table", str(folder / "table.yaml")],
+        [str(folder / "old"), str(folder / "new"), "--table", str(folder / "table.yaml"), *options],
     )
     return code, capsys.readouterr().out
 
@@ -135,6 +135,12 @@ def test_cells_keys_and_files_that_differ_are_errors(folders, capsys):
     assert "DIFFERS: decisions/auto/aaaa/0.json: y: other values" in text
     assert "DIFFERS: datasets/ch3_old.nc: missing" in text
     assert "new file: figures/other.csv" in text
+
+
+def test_of_a_part_of_the_new_results_what_is_there_is_compared(folders, capsys):
+    (folders / "new/datasets/ch3_new.nc").unlink()
+    assert compared(folders, capsys)[0] == 1
+    assert compared(folders, capsys, "--part")[0] == 0
 
 
 def test_the_table_of_this_project_can_be_read():

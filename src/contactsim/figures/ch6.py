@@ -94,7 +94,7 @@ def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
             axes.errorbar(ratio, scale * one[name].values, error, fmt="o", ls=line, label=words, **look)
         shown = {name: scale * one[name].values for name in ("mean_friction", "average_friction")}
         rows.append(
-            pd.DataFrame({"modulus_over_strength": ratio} | shown | {"slips": one.slip_count.values}).assign(
+            pd.DataFrame({"modulus_over_strength": ratio} | shown | {"slip_count": one.slip_count.values}).assign(
                 thickness=thickness, critical=critical
             )
         )
