@@ -17,6 +17,7 @@ from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import summarised
 from contactsim.study import execute
+from contactsim.study.execute import RunFiles
 from contactsim.study.study import Study
 from support.smooth import LAYER, scene_of
 
@@ -110,7 +111,7 @@ def _aggregated(study, folder):
     listed = []
     for run in study.runs():
         path = folder / f"{run.variant}_{run.error}.nc"
-        execute.run(run.settings, run.source, path, path.with_suffix(".json"))
+        execute.run(run.settings, run.source, RunFiles(path, path.with_suffix(".json")))
         place = {"coordinates": run.coordinates, "member": run.member, "companion": run.companion, "error": run.error}
         listed.append({"path": path} | place)
     return aggregate(listed, study.settings | {"tier": "quick", "name": "asperity"}, "abc")

@@ -15,9 +15,10 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.explain import explain
+from contactsim.explain import Explanation, explain
 from contactsim.figures.sketch import save_sketch
 from contactsim.interface.hard_wall import HardWall
+from contactsim.paths.options import RunOptions, Setup
 from contactsim.simulation import simulate
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver
@@ -35,6 +36,10 @@ def scene(lower=None, upper=None, effects=WALL, path=None):
 def solved(subject, points=256, name="active_set"):
     problem, scale = pose_hard_wall(subject, subject.path.steps[0], subject.heights(points), 1e-6, 1)
     return solve(make_solver(name), problem, scale)
+
+
+def explained(subject: Scene, points: int = 256, name: str = "active_set") -> Explanation:
+    return explain(Setup(subject, RunOptions(points, solver=make_solver(name))))
 
 
 def test_a_wall_alone_has_one_component():
@@ -94,8 +99,8 @@ def test_peak_memory_is_the_few_fields_that_are_explained(name):
         press(heights, pressure, method)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-    told = 1e6 * explain(scene(path=loading.pressures([0.1])), points, name).megabytes
-    assert 0.9 * told < max(peaks) < told  # two more fields would be seen
+    expected = 1e6 * explained(scene(path=loading.pressures([0.1])), points, name).megabytes
+    assert 0.9 * expected < max(peaks) < expected  # two more fields would be seen
 
 
 PRESS_A_SURFACE = """
@@ -141,7 +146,7 @@ def test_an_iteration_takes_the_transforms_that_are_explained(name):
         method = make_solver(name, **{batch: iterations, "budget": 1}, **alone)
         problem, scale = pose_hard_wall(subject, subject.path.steps[0], rough(points), 1e-12, 1)
         counts.append(solve(method, problem, scale).record.transforms)
-    assert (counts[1] - counts[0]) / 5 == explain(subject, points, name).transforms
+    assert (counts[1] - counts[0]) / 5 == explained(subject, points, name).transforms
 
 
 def test_what_is_not_listed_is_not_stored():
@@ -151,17 +156,17 @@ def test_what_is_not_listed_is_not_stored():
 
 
 def test_an_explanation_says_what_is_on_what_is_not_and_who_may_solve_it():
-    told = explain(scene(), 256, "active_set")
-    assert told.fields == ("normal displacement", "normal traction")
-    assert told.left_out["tangential displacement and traction"] == "no effect reads or exerts them"
-    assert told.left_out["deformation of the upper body"].startswith("rigid")
-    assert told.unknowns == 256
-    assert {name: told.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
-    moved = explain(scene(path=loading.approaches([-0.5])), 256, "active_set")
+    explanation = explained(scene())
+    assert explanation.fields == ("normal displacement", "normal traction")
+    assert explanation.left_out["tangential displacement and traction"] == "no effect reads or exerts them"
+    assert explanation.left_out["deformation of the upper body"].startswith("rigid")
+    assert explanation.unknowns == 256
+    assert {name: explanation.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
+    moved = explained(scene(path=loading.approaches([-0.5])))
     assert "approach" in moved.solvers["verlet"]
     assert "verlet: does not take load step given by an approach" in moved.text
     both = scene(Body(Flat(64.0), HalfSpace(2.0)), Body(Sinusoid(64.0, 1.0), HalfSpace(2.0)))
-    assert "the second displacement field" in explain(both, 256, "active_set").left_out
+    assert "the second displacement field" in explained(both).left_out
 
 
 def test_a_smooth_scene_asks_for_no_random_numbers():
@@ -172,8 +177,8 @@ def test_a_smooth_scene_asks_for_no_random_numbers():
 def test_a_surface_is_explained_by_all_its_points_and_drawn_through_its_middle(tmp_path):
     ball = Sphere(64.0, 100.0)
     subject = Scene(Body(Flat.facing(ball), HalfSpace(1.0)), Body(ball), (HardWall(),), loading.pressures([1e-3]))
-    told = explain(subject, 32, "conjugate_gradients")
-    assert told.unknowns == 32 * 32
-    assert told.megabytes == pytest.approx(32 * 32 * 8 * make_solver("conjugate_gradients").fields / 1e6)
+    explanation = explained(subject, 32, "conjugate_gradients")
+    assert explanation.unknowns == 32 * 32
+    assert explanation.megabytes == pytest.approx(32 * 32 * 8 * make_solver("conjugate_gradients").fields / 1e6)
     save_sketch(subject, 32, tmp_path / "sketch.png")
     assert (tmp_path / "sketch.png").read_bytes().startswith(b"\x89PNG")

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from contactsim import dataset
-from contactsim.error_control.scaling import LINE, PATH, as_relations
+from contactsim.error_control.scaling import LINE, PATH, build_relations
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
 from contactsim.evaluation.calibration.sampling import read_draws
 from contactsim.evaluation.effects import effect_cost, survey
@@ -85,12 +85,12 @@ def test_relations_measured_anew_have_the_form_of_the_packages():
     """Two scenes of each of two kinds: enough for the form, not for the values."""
     plan = {"kind": LINE, "drawn": {"ranges": SETTINGS["kinds"][LINE], "seed": 5, "scenes": 2}}
     table = measurement.measured(plan)
-    assert set(table.knob) == {"points", "tolerance", "begun"}
-    found = as_relations(fit.fit(table))
-    law = found.kinds[LINE].errors["points"]["relative_contact_area_subgrid"]
+    assert set(table.knob) == {"points", "tolerance", "warm_start"}
+    found = build_relations(fit.fit(table))
+    law = found.families[LINE].errors["points"]["relative_contact_area_subgrid"]
     assert law.coefficients["grid"] == 2.0
-    assert 0 < found.kinds[LINE].begun < 1.2
-    assert "kinds:" in fit.as_text(table)
+    assert 0 < found.families[LINE].warm_start < 1.2
+    assert "families:" in fit.as_text(table)
 
 
 def test_a_straight_line_through_logarithms_is_found_again():

@@ -13,7 +13,6 @@ from contactsim.simulation import simulate
 from contactsim.solvers import registry as solver_registry
 from contactsim.status import Status
 from contactsim.study.plan import Plan
-from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study
 from support.places import ROOT
 
@@ -223,7 +222,7 @@ def test_a_path_is_measured_whole(followed):
     assert len(seconds) == 5
     last = one.turned("newton")[-1]
     (run,) = one.study_at(last, "newton").runs()
-    alone = simulate(scene_of(run.settings), points=64, tolerance=1e-4, method="newton")
+    alone = simulate(run.setup.scene, points=64, tolerance=1e-4, solver="newton")
     assert alone.step.size == 45  # 4 nm there and 5 nm back, in increments of 0.2
     assert data.increment.values[-1] == 0.2
     assert data.transforms.values[-1, 0] == alone.transforms.sum()
@@ -250,11 +249,11 @@ def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_t
 @pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])
 def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, monkeypatch, place, share):
     one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
-    data = cases.simulated(one.study_at(one.turned("newton")[0], "newton").runs()[0].settings)
+    data = cases.simulate_run(one.study_at(one.turned("newton")[0], "newton").runs()[0])
     if place is not None:
         data["status"][place] = Status.MAX_ITERATIONS.value[0]
         data["status"][place:][1:] = Status.SKIPPED.value[0]
-    monkeypatch.setattr(cases, "simulated", lambda settings: data)
+    monkeypatch.setattr(cases, "simulate_run", lambda run: data)
     found, _ = one.measure("newton")
     assert float(error_cost._unconverged(found)) == share
     assert found.status.item() == (0 if place is None else Status.MAX_ITERATIONS.value[0])
@@ -271,13 +270,13 @@ def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
 @pytest.mark.parametrize(("spent", "best"), [([3.0, 1.0, 2.0], 1.0), ([1.0, 2.0, 3.0], 1.0), ([9.0, 1.0, 1.0], 9.0)])
 def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path, monkeypatch, spent, best):
     one = case(tmp_path, repeats=3, solvers={"active_set": {"points": [256]}})
-    settings = one.study_at(one.turned("active_set")[0], "active_set").runs()[0].settings
-    solved, left = cases.simulated(settings), [*spent]
+    run = one.study_at(one.turned("active_set")[0], "active_set").runs()[0]
+    solved, left = cases.simulate_run(run), [*spent]
 
-    def timed(settings):
+    def timed(run):
         return solved.assign(seconds=solved.seconds * 0 + left.pop(0) / solved.seconds.size)
 
-    monkeypatch.setattr(cases, "simulated", timed)
+    monkeypatch.setattr(cases, "simulate_run", timed)
     assert one.measure("active_set")[1] == pytest.approx([best])
     assert len(left) == (2 if best > cases.LONG else 0)
 

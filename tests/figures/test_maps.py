@@ -14,7 +14,6 @@ from contactsim.errors import SceneError
 from contactsim.figures import ch3, maps
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
-from contactsim.study.scenes import scene_of
 from contactsim.study.study import Study
 
 NY, NX, SPACING = 24, 48, (3.0, 2.0)
@@ -199,7 +198,7 @@ SECTION = {
 
 
 def simulated(**options):
-    scene = scene_of(Study.read("waves", SECTION, "ch9.yaml", 1).runs()[0].settings)
+    scene = Study.read("waves", SECTION, "ch9.yaml", 1).runs()[0].setup.scene
     return simulate(scene, points=16, **{"keep": ["fields"]} | options)
 
 

@@ -18,6 +18,7 @@ from contactsim.paths.increments import Nested
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
 from contactsim.study import execute
+from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
 from contactsim.surfaces.self_affine import SelfAffine, generator
 from contactsim.surfaces.shapes import Flat
@@ -156,8 +157,8 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
     settings = run.settings | {"points": 2048, "snapshots": [8.0]}
     settings["load"] = settings["load"] | {"through": [-7.0, 8.0]}
     settings["increments"] = settings["increments"] | {"settled": [-4.0, 2.0, 8.0]}
-    whole, again = (tmp_path / name for name in ("whole.nc", "again.nc"))
-    execute.run(settings, run.source, whole, tmp_path / "whole.json")
+    whole, again = (RunFiles(tmp_path / f"{name}.nc", tmp_path / f"{name}.json") for name in ("whole", "again"))
+    execute.run(settings, run.source, whole)
     advance, steps = Walk.advance, []
 
     def killed(self: Walk, step: LoadStep) -> PathState:
@@ -170,7 +171,7 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
     with monkeypatch.context() as patch:
         patch.setattr(Walk, "advance", killed)
         with pytest.raises(KeyboardInterrupt):
-            execute.run(settings, run.source, again, tmp_path / "again.json")
+            execute.run(settings, run.source, again)
     assert not list(tmp_path.glob("*again*"))
-    execute.run(settings, run.source, again, tmp_path / "again.json")
+    execute.run(settings, run.source, again)
     assert again.read_bytes() == whole.read_bytes()

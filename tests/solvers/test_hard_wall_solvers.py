@@ -17,6 +17,7 @@ from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.interface.hard_wall import HardWall
+from contactsim.paths.options import RunOptions, Setup
 from contactsim.solvers.base import require, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
@@ -344,7 +345,7 @@ def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypa
     with pytest.raises(SceneError, match="pip install tamaas"):
         make_solver("tamaas")
     scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.pressures([1.0]))
-    assert "tamaas: is not installed" in explain(scene, 64, "active_set").text
+    assert "tamaas: is not installed" in explain(Setup(scene, RunOptions(64))).text
 
 
 def test_one_solver_serves_several_threads_at_once():

@@ -12,7 +12,8 @@ from contactsim.errors import SceneError
 from contactsim.provenance import canonical
 from contactsim.solvers.hard_wall.active_set import NestedActiveSet
 from contactsim.study import execute
-from contactsim.study.scenes import points_of, scene_of
+from contactsim.study.execute import RunFiles
+from contactsim.study.scenes import build_scene
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
@@ -73,8 +74,7 @@ def refusal(changes):
 
 
 def profile(run):
-    surface = scene_of(run.settings).upper.surface
-    return surface.heights(points_of(run.settings, surface))
+    return run.setup.scene.upper.surface.heights(run.setup.points)
 
 
 BAD = {
@@ -293,7 +293,7 @@ def test_what_may_be_varied_can_also_be_aggregated(vary, tmp_path):
     read, runs = study(section), []
     for number, run in enumerate(read.runs()):
         path, costs = tmp_path / f"{number}.nc", tmp_path / f"{number}.json"
-        execute.run(run.settings, "source", path, costs)
+        execute.run(run.settings, "source", RunFiles(path, costs))
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     data = aggregate.aggregate(runs, read.settings, "source")
     ((name, values),) = vary.items()
@@ -494,7 +494,7 @@ def test_the_same_seed_study_hurst_and_member_give_the_same_profile_whatever_els
 
 def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
     def phases(run):
-        return np.angle(scene_of(run.settings).upper.surface.coefficients[1:])
+        return np.angle(run.setup.scene.upper.surface.coefficients[1:])
 
     low, high = (study({"vary": {"surface.hurst": [hurst]}, "companion": GONE}) for hurst in (0.2, 0.8))
     renamed = Study.read("other", changed({"vary": {"surface.hurst": [0.2]}}), "ch9.yaml", 1)
@@ -515,7 +515,7 @@ def test_a_companion_samples_the_same_surface():
 
 
 def pressures(run):
-    return np.array([step.value for step in scene_of(run.settings).path.steps])
+    return np.array([step.value for step in run.setup.scene.path.steps])
 
 
 def test_reduced_pressures_are_times_modulus_and_the_gradient_asked_for():
@@ -528,7 +528,7 @@ def test_reduced_pressures_of_prescribed_heights_use_each_members_own_gradient_w
     runs = study({"surface/rms_gradient": GONE, "surface/rms_height": 3.0}).runs()
     places = {}
     for run in runs:
-        surface = scene_of(run.settings).upper.surface
+        surface = run.setup.scene.upper.surface
         np.testing.assert_allclose(pressures(run), np.array([0.01, 0.1]) * 2.0 * surface.gradient, rtol=1e-15)
         places.setdefault((*run.coordinates.values(), run.member), []).append(pressures(run).tolist())
     assert all(loads == [loads[0]] * len(loads) for loads in places.values())  # of a run and its companion
@@ -540,7 +540,7 @@ def test_a_varied_height_has_a_dimension_beside_the_height_found():
     varied = study(height | {"surface/rms_height": 10.0})
     assert varied.dimensions == ["surface_rms_height", "member", "reduced_pressure"]
     first, *_, last = varied.runs()
-    ten, thirty = (scene_of(run.settings | {"member": 0}).heights(128) for run in (first, last))
+    ten, thirty = (build_scene(run.settings | {"member": 0}).heights(128) for run in (first, last))
     assert np.allclose(thirty, 3 * ten, rtol=1e-12)  # the same profile, so that its contact is an identity
 
 
@@ -642,7 +642,7 @@ def test_grids_are_aggregated_along_points_with_their_limit(tmp_path):
     read, runs = study(FINER), []
     for number, run in enumerate(read.runs()):
         path = tmp_path / f"{number}.nc"
-        execute.run(run.settings, "source", path, tmp_path / f"{number}.json")
+        execute.run(run.settings, "source", RunFiles(path, tmp_path / f"{number}.json"))
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     data = aggregate.aggregate(runs, read.settings, "source")
     assert data.points.values.tolist() == [64, 128, 256]
@@ -666,7 +666,7 @@ def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tm
     read, runs = study(section), []
     for number, run in enumerate(read.runs()):
         path = tmp_path / f"{number}.nc"
-        execute.run(run.settings, "source", path, tmp_path / f"{number}.json")
+        execute.run(run.settings, "source", RunFiles(path, tmp_path / f"{number}.json"))
         runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
     assert ["normal_gap" in dataset.read(run["path"]) for run in runs[:2]] == [True, False]
     data = aggregate.aggregate(runs, read.settings, "source")

@@ -23,6 +23,7 @@ from contactsim import dataset
 from contactsim.errors import SceneError
 from contactsim.status import Status
 from contactsim.study import execute
+from contactsim.study.execute import RunFiles
 from contactsim.study.reading import keys_of, read
 from contactsim.study.study import Study
 from contactsim.surfaces import profile
@@ -807,7 +808,7 @@ def test_a_measured_surface_whose_file_changes_makes_another_run(tmp_path: Path)
 def test_a_measured_surface_is_pressed_on_its_own_grid(tmp_path: Path) -> None:
     heights = np.random.default_rng(0).standard_normal((24, 16))
     (run,) = area(npy_file(tmp_path, heights)).runs()
-    execute.run(run.settings, run.source, tmp_path / "run.nc", tmp_path / "run.json")
+    execute.run(run.settings, run.source, RunFiles(tmp_path / "run.nc", tmp_path / "run.json"))
     data = dataset.read(tmp_path / "run.nc")
     assert data.status == Status.CONVERGED.value[0]
     assert (int(data.points), int(data.points_y), float(data.length), float(data.length_y)) == (30, 46, 15.0, 115.0)

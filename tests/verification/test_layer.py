@@ -20,15 +20,16 @@ from contactsim.errors import SceneError
 from contactsim.evaluation.robustness.cases import Case, layer_response
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.survey import judge
-from contactsim.explain import explain
+from contactsim.explain import Explanation, explain
 from contactsim.figures.sketch import sketch
 from contactsim.interface.hard_wall import HardWall
+from contactsim.paths.options import RunOptions, Setup
 from contactsim.solvers.base import require, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
 from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.status import Status
-from contactsim.study.scenes import scene_of
+from contactsim.study.scenes import build_scene
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from contactsim.traits import Trait
 from support.cases import ALL, press, rough, wave
@@ -274,8 +275,8 @@ def test_peak_memory_on_a_layer_is_within_what_is_explained():
         pressed(rough(points), ratio=0.5, thickness=thickness, mean_pressure=0.3, tolerance=1e-3)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-    told = 1e6 * explain(scene(Layer(1.0, 0.5, 1.0)), points, "active_set").megabytes
-    assert 0.6 * told < max(peaks) < told
+    expected = 1e6 * explained(scene(Layer(1.0, 0.5, 1.0)), points).megabytes
+    assert 0.6 * expected < max(peaks) < expected
 
 
 @pytest.mark.parametrize("contacts", [[3], [0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 5], [1, 6]])
@@ -311,20 +312,24 @@ def test_the_preconditioners_stiffness_is_close_to_that_of_the_layer(ratio, thic
 # ---- what is said about it
 
 
+def explained(subject: Scene, points: int = 256) -> Explanation:
+    return explain(Setup(subject, RunOptions(points, solver=make_solver("active_set"))))
+
+
 def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
-    told = explain(scene(Layer(1.0, 0.3, 100.0)), 256, "active_set")
-    assert told.bodies[1] == "Flat, Layer with E* = 1 GPa, Poisson's ratio 0.3, thickness 100 nm"
-    assert "mean displacement" not in told.left_out
-    assert {name: told.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
+    explanation = explained(scene(Layer(1.0, 0.3, 100.0)))
+    assert explanation.bodies[1] == "Flat, Layer with E* = 1 GPa, Poisson's ratio 0.3, thickness 100 nm"
+    assert "mean displacement" not in explanation.left_out
+    assert {name: explanation.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
     for ratio, named in ((None, ""), (0.3, ", Poisson's ratio 0.3")):
-        bodies = explain(scene(HalfSpace(1.0, ratio)), 256, "active_set").bodies
+        bodies = explained(scene(HalfSpace(1.0, ratio))).bodies
         assert bodies[1] == f"Flat, HalfSpace with E* = 1 GPa{named}"
-    fixed = explain(scene(Layer(1.0, 0.5, 100.0)), 256, "active_set")
-    assert fixed.left_out["mean displacement"] == "zero: an incompressible layer keeps its volume"
-    free = explain(scene(Layer(1.0, 0.5, 100.0), HalfSpace(1.0)), 256, "active_set")
+    incompressible = explained(scene(Layer(1.0, 0.5, 100.0)))
+    assert incompressible.left_out["mean displacement"] == "zero: an incompressible layer keeps its volume"
+    free = explained(scene(Layer(1.0, 0.5, 100.0), HalfSpace(1.0)))
     assert free.left_out["mean displacement"].startswith("free on a half-space")
-    yields = explain(scene(Layer(1.0, 0.3, 100.0), HalfSpace(1.0)), 256, "active_set")
-    assert "mean displacement" not in yields.left_out
+    compressible = explained(scene(Layer(1.0, 0.3, 100.0), HalfSpace(1.0)))
+    assert "mean displacement" not in compressible.left_out
 
 
 @pytest.mark.parametrize(("thickness", "drawn"), [(2.5, 2.5), (0.01, 0.8), (1e6, 3.2)])
@@ -355,9 +360,9 @@ def test_a_study_may_have_a_layer_but_not_ask_it_for_the_load_of_a_half_space():
         "effects": ["hard_wall"],
         "load": {"name": "mean_pressure", "values": [0.01]},
     }
-    assert scene_of(section).elasticities == (Layer(1.0, 0.4, 50.0),)
+    assert build_scene(section).elasticities == (Layer(1.0, 0.4, 50.0),)
     with pytest.raises(SceneError, match=r"Eq. 3.5 holds on a half-space"):
-        scene_of(section | {"load": {"name": "contact_ratio", "values": [0.1]}})
+        build_scene(section | {"load": {"name": "contact_ratio", "values": [0.1]}})
 
 
 def test_an_area_at_equal_reduced_pressure_depends_on_thickness_and_ratio():
