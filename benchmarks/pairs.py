@@ -63,7 +63,7 @@ def turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int)
         (pressure, transforms), seconds = timed(lambda: solved(posing, name, settings))
         spent.append((unit, own_seconds, seconds))
     units, ours, theirs = np.array(spent).T
-    certificate, gap = problem.certify(problem.admissible(pressure))
+    certificate, gap = problem.certify(problem.project(pressure))
     own_certificate, own_gap = problem.certify(own.pressure / scale.pressure)
     both = ((own.pressure / scale.pressure, own_gap), (pressure, gap))
     return {

@@ -92,5 +92,5 @@ def seconds(problem: HardWallProblem, settings: Settings) -> float:
     begin = time.process_time()
     pressure, _ = pressed(problem, settings)
     spent = time.process_time() - begin
-    certificate, _ = problem.certify(problem.admissible(pressure))
+    certificate, _ = problem.certify(problem.project(pressure))
     return spent if certificate.met(problem.tolerance) else float("inf")

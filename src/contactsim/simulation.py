@@ -21,7 +21,7 @@ from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments
 from contactsim.paths.options import Accuracy, RunOptions, Setup
-from contactsim.solvers.base import HardWallSolver, Result, require, solve
+from contactsim.solvers.base import HardWallSolver, Result, check_solver, solve
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import default_solver, make_solver
 from contactsim.surfaces.measured import Sampled
@@ -81,7 +81,7 @@ def press(
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), path)
     method = _solver(solver) or default_solver(scene)
-    require(method, scene)
+    check_solver(method, scene)
     return solve(method, *pose_hard_wall(scene, path.steps[0], profile.heights, tolerance, threads))
 
 

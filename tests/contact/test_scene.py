@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.contact.hard_wall import SAMPLE, grid_step
+from contactsim.contact.hard_wall import SAMPLE_SIZE, grid_step
 
 
 def texture(points, period, along_both):
@@ -24,6 +24,6 @@ def test_where_a_periodic_texture_begins_does_not_change_the_grid_step(points, p
 
 
 def test_of_a_small_surface_all_points_count():
-    heights = np.zeros((16, 2 * SAMPLE // 16 - 1))
+    heights = np.zeros((16, 2 * SAMPLE_SIZE // 16 - 1))
     heights[3, 5] = 1.0  # one pit of 2^19 points, which a sample would most likely miss
     assert grid_step(heights) == pytest.approx(np.sqrt(4 / (2 * heights.size)), rel=1e-12)

@@ -13,7 +13,7 @@ from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.paths.increments import Adaptive
-from contactsim.solvers.cohesive.base import APART
+from contactsim.solvers.cohesive.base import SEPARATION
 from contactsim.solvers.cohesive.newton_krylov import NewtonKrylov
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -149,7 +149,7 @@ def test_a_load_beyond_pull_off_is_told_and_the_path_breaks_off(kind):
     found = walk(scene_of(LAWS["uncoupled"], LoadPath(tuple(loads))), method=kind)
     assert [state.status for state in found.states] == [Status.CONVERGED, Status.NO_EQUILIBRIUM, Status.SKIPPED]
     here = found.problem.at(loads[1])
-    assert here.gap(found.states[1].displacement)[0].min() > APART * here.interaction_range
+    assert here.gap(found.states[1].displacement)[0].min() > SEPARATION * here.interaction_range
 
 
 # ---- hard scenes and honest ends
@@ -215,11 +215,11 @@ class Refusing(NewtonKrylov):
 
     refused = (-4.75, -4.5)
 
-    def near(self, problem, guess, memory, within=np.inf):
-        return self._spoiled(problem, super().near(problem, guess, memory, within))
+    def solve_near(self, problem, guess, memory, within=np.inf):
+        return self._spoiled(problem, super().solve_near(problem, guess, memory, within))
 
-    def flow(self, problem, start):
-        return self._spoiled(problem, super().flow(problem, start))
+    def flow_from(self, problem, start):
+        return self._spoiled(problem, super().flow_from(problem, start))
 
     def _spoiled(self, problem, found):
         return replace(found, status=Status.MAX_ITERATIONS) if problem.approach in self.refused else found
@@ -242,7 +242,7 @@ def test_dynamics_that_diverge_are_told():
 def test_work_is_counted_in_transforms():
     scene = scene_of(LAWS["frictional"])
     problem = pose_cohesive(scene, scene.heights(64), 1e-30).at(LoadStep(Trait.APPROACH, -8.0))
-    found = make_solver("damped_verlet", batch=10, budget=3).flow(problem, np.zeros(problem.unknowns, complex))
+    found = make_solver("damped_verlet", batch=10, budget=3).flow_from(problem, np.zeros(problem.unknowns, complex))
     assert found.iterations == 30
     # four for each of 30 steps, for each of 4 checks and their 2, and 2 for how far it moved
     assert problem.tally.transforms == 4 * 30 + 4 * (4 + 2) + 2

@@ -14,7 +14,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.hard_wall import HardWall
-from contactsim.solvers.base import require, solve
+from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -43,7 +43,7 @@ def press(
     path = loading.pressures([pressure]) if approach is None else loading.approaches([approach])
     scene = Scene(Body(Flat.facing(surface), body or HalfSpace(1.0)), Body(surface), (HardWall(),), path)
     method = make_solver("conjugate_gradients", **options)
-    require(method, scene)
+    check_solver(method, scene)
     return solve(method, *pose_hard_wall(scene, path.steps[0], scene.heights(surface.points), tolerance, threads))
 
 

@@ -18,9 +18,9 @@ from contactsim.errors import SceneError
 from contactsim.explain import explain
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
-from contactsim.solvers.base import require, solve
+from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
-from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, GapExtension
 from contactsim.solvers.registry import SOLVERS, make_solver
 from contactsim.status import Status
 from contactsim.surfaces.profile import Profile, prepare
@@ -179,10 +179,10 @@ def test_each_solver_accepts_every_trait_it_claims_and_refuses_the_rest(name):
         scene = Scene(Body(Flat(8.0), HalfSpace(1.0)), Body(Flat(8.0)), (HardWall(),), path)
         assert scene.traits == {Trait.LINE, Trait.WALL, Trait.HALF_SPACE, trait}
         if trait in method.accepts:
-            require(method, scene)
+            check_solver(method, scene)
         else:
             with pytest.raises(SceneError, match=trait.name):
-                require(method, scene)
+                check_solver(method, scene)
 
 
 @pytest.mark.parametrize("thickness", [None, 3.0])
@@ -250,7 +250,7 @@ def test_the_stiffness_is_an_m_matrix_on_every_grid(points):
 def test_continuation_is_linear_between_contacts_and_restriction_its_adjoint(contacts):
     where = np.zeros(8, bool)
     where[contacts] = True
-    both = Continuation(where)
+    both = GapExtension(where)
     rng = np.random.default_rng(0)
     values, field = rng.normal(size=len(contacts)), rng.normal(size=8)
     extended = np.empty(8)

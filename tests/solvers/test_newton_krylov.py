@@ -8,7 +8,7 @@ import pytest
 from contactsim.contact.cohesive import Tangent, pose_cohesive
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
-from contactsim.solvers.base import require
+from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.gmres import gmres
 from contactsim.solvers.cohesive.zone_preconditioner import RATIO, ZonePreconditioner
 from contactsim.solvers.registry import make_solver, solver_class
@@ -109,12 +109,12 @@ def test_a_law_without_potential_is_refused_by_the_minimiser_alone(kind, trait):
         error = refusal("solver", None, lambda: _require(kind, scene))
         assert "NON_CONSERVATIVE" in error.allowed
     else:
-        require(make_solver(kind), scene)
+        check_solver(make_solver(kind), scene)
 
 
 def _require(kind, scene):
     try:
-        require(make_solver(kind), scene)
+        check_solver(make_solver(kind), scene)
     except ValueError as error:
         raise error.within("None") from None
 
@@ -123,7 +123,7 @@ def _require(kind, scene):
     ("kind", "name"),
     [
         ("newton", "flow_step"),
-        ("newton", "trusted"),
+        ("newton", "trust_radius"),
         ("damped_verlet", "time_step"),
         ("damped_verlet", "damping"),
         ("mass_weighted_verlet", "damping"),
@@ -140,7 +140,7 @@ def test_a_time_step_beyond_the_limit_of_stability_is_refused():
     scene = scene_of(LAWS["uncoupled"])
     problem = pose_cohesive(scene, scene.heights(64), 1e-7)
     with pytest.raises(ValueError, match=r"^time_step: got 9.0; allowed: below .* limit of stability"):
-        make_solver("damped_verlet", time_step=9.0).flow(problem, np.zeros(problem.unknowns, complex))
+        make_solver("damped_verlet", time_step=9.0).flow_from(problem, np.zeros(problem.unknowns, complex))
     with pytest.raises(ValueError, match=r"^time_step: got 1.0; allowed: "):
         make_solver("mass_weighted_verlet", time_step=1.0)
 

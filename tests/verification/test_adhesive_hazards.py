@@ -34,6 +34,7 @@ HONEST = {
     ("energy_minimisation", "past_pull_off"): "number of iterations",
     ("energy_minimisation", "soft_wall"): "number of iterations",
     ("energy_minimisation", "steep_ridges"): "number of iterations",
+    ("energy_minimisation", "jagged_line"): "number of iterations",
     ("mass_weighted_verlet", "frictionless_flow"): "number of iterations",
 }
 """Which solver may fail where, and what it says."""

@@ -24,9 +24,9 @@ from contactsim.explain import Explanation, explain
 from contactsim.figures.sketch import sketch
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
-from contactsim.solvers.base import require, solve
+from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
-from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, Continuation
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, GapExtension
 from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.status import Status
 from contactsim.study.scenes import build_scene
@@ -241,7 +241,7 @@ def test_a_layer_in_two_is_not_two_layers_but_equal_ones_are_one_of_half_the_mod
 @pytest.mark.parametrize("name", ALL)
 def test_a_layer_is_taken_by_each_solver_of_ours(name):
     assert scene(Layer(1.0, 0.3, 1.0)).traits == {Trait.LINE, Trait.WALL, Trait.LAYER, Trait.MEAN_PRESSURE}
-    require(make_solver(name), scene(Layer(1.0, 0.3, 1.0)))
+    check_solver(make_solver(name), scene(Layer(1.0, 0.3, 1.0)))
 
 
 def test_a_solver_that_knows_half_spaces_alone_refuses_a_layer():
@@ -251,7 +251,7 @@ def test_a_solver_that_knows_half_spaces_alone_refuses_a_layer():
         accepts = ActiveSet.accepts - {Trait.LAYER}
 
     with pytest.raises(SceneError, match=r"accepts LAYER \(layer on a rigid base"):
-        require(Elder(), scene(Layer(1.0, 0.3, 1.0)))
+        check_solver(Elder(), scene(Layer(1.0, 0.3, 1.0)))
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.45])
@@ -284,7 +284,7 @@ def test_peak_memory_on_a_layer_is_within_what_is_explained():
 def test_a_decaying_continuation_has_its_adjoint_and_leaves_the_contact_as_it_is(contacts, decay):
     where = np.zeros(8, bool)
     where[contacts] = True
-    both = Continuation(where, decay)
+    both = GapExtension(where, decay)
     rng = np.random.default_rng(0)
     values, field = rng.normal(size=len(contacts)), rng.normal(size=8)
     extended = np.empty(8)

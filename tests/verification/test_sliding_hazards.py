@@ -58,8 +58,8 @@ def test_a_state_a_cell_further_on_is_found():
     last = states[-1]
     moved = last.displacement.copy()
     moved[1, 0] += LATTICE
-    found = make_solver("newton").flow(problem.at(last.step), moved)
-    assert found.settled
+    found = make_solver("newton").flow_from(problem.at(last.step), moved)
+    assert found.is_stable
     wrong = [*states[:-1], replace(last, displacement=found.displacement, found=found)]
     assert "smaller increments" in path_faults(case, problem, wrong)
 

@@ -92,7 +92,7 @@ class Adaptive:
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """SceneError for a solver that makes no predictions, and where a pressure's increments have no bounds."""
-        if not solver.predicts:
+        if not solver.uses_guess:
             raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
         given = {"least": self.least, "most": self.most}
         if None in given.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
@@ -146,7 +146,7 @@ class Adaptive:
             found, flowed = walk.near(step), False
             iterations += found.iterations
             order = walk.history.order
-            wrong = found.moved if found.settled and walk.history.places else np.inf
+            wrong = found.largest_change if found.is_stable and walk.history.places else np.inf
             if not wrong <= REFUSED * error and increment > least and place is not None:
                 increment = max(increment * SHRINK, least)
                 continue
@@ -157,7 +157,7 @@ class Adaptive:
                 goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
                 found, leaps, spent = self._flowed(walk, replace(first, value=goal))
                 flowed, iterations = True, iterations + spent
-            if not found.settled:
+            if not found.is_stable:
                 return iterations, stretches, found.status
             if leaps:
                 stretches.append(Stretch(leaps))
@@ -172,7 +172,7 @@ class Adaptive:
         if walk.slips:
             return walk.reach(step)
         found = walk.flow(step)
-        leap = walk.accept(step, found, True) if found.settled else None
+        leap = walk.accept(step, found, True) if found.is_stable else None
         return found, (leap,) if leap else (), found.iterations
 
     def _state(
@@ -196,7 +196,7 @@ class Adaptive:
         found = stretch.near(problem, stretch.places[-1] if beyond else step.value)
         if found.residual > problem.tolerance + self._allowed(problem) * problem.law_stiffness / problem.strength:
             before = problem.tally.transforms
-            found = walk.solver.near(problem, found.displacement, walk.solver.new_memory())
+            found = walk.solver.solve_near(problem, found.displacement, walk.solver.new_memory())
             spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before
         earlier = [other.value for other in leg if sign * (step.value - other.value) > 0]
         since = [

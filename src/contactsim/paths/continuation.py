@@ -15,7 +15,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import History
-from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, moved
+from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -85,7 +85,7 @@ class Walk:
 
     def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver, divides: bool = True) -> None:
         self.problem, self.solver = problem, solver
-        self._divides = divides and solver.predicts
+        self._divides = divides and solver.uses_guess
         self.history = History()
         self.last = np.zeros(problem.unknowns, complex)
         self._failed = 0
@@ -127,7 +127,7 @@ class Walk:
     def guess(self, step: LoadStep) -> Array:
         """Where the state is expected."""
         place = self.place(step)
-        if place is None or not self.solver.predicts:
+        if place is None or not self.solver.uses_guess:
             return self.start(step)
         if self.history.holds(step.value) and abs(step.value - place) > self.near_by:
             return self.start(step)
@@ -148,14 +148,14 @@ class Walk:
     @property
     def near_by(self) -> float:
         """How far (nm) a state may lie from where it is expected, to be believed on the same branch."""
-        return self.solver.trusted * self.problem.interaction_range
+        return self.solver.trust_radius * self.problem.interaction_range
 
     def believed(self, found: Equilibrium) -> bool:
         """Whether a state by continuation is on the branch: where it is expected and, over a lattice, not a cell on.
 
         States a cell apart are alike, and a guess that is wrong by one finds the wrong one at once.
         """
-        if not (found.settled and found.moved <= self.near_by):
+        if not (found.is_stable and found.largest_change <= self.near_by):
             return False
         if self.stands is None or not self.slips:
             return True
@@ -165,11 +165,11 @@ class Walk:
 
     def near(self, step: LoadStep) -> Equilibrium:
         """The state by continuation alone."""
-        return self.solver.near(self.at(step), self.guess(step), self._memory, self.near_by)
+        return self.solver.solve_near(self.at(step), self.guess(step), self._memory, self.near_by)
 
     def flow(self, step: LoadStep) -> Equilibrium:
         """The state by flow from the last stable one."""
-        return self.solver.flow(self.at(step), self.start(step))
+        return self.solver.flow_from(self.at(step), self.start(step))
 
     def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> Leap | None:
         """Move on to a state; the jump to it, if it is one."""
@@ -182,9 +182,13 @@ class Walk:
         )
         if step.held is not None and before is not None:  # a slip of a cell is one, however long the step
             expected = min(expected, self.problem.lattice_constant / 2)
-        jump = Leap(*self.stands, step, found, found.moved) if flowed and found.moved > expected else None
+        jump = (
+            Leap(*self.stands, step, found, found.largest_change)
+            if flowed and found.largest_change > expected
+            else None
+        )
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < taken < np.inf:
-            self._pace = moved(self.problem, found.displacement - self.last) / taken
+            self._pace = largest_change(self.problem, found.displacement - self.last) / taken
         if jump:
             self.history.restart(step.value, found.displacement)
         else:
@@ -200,7 +204,7 @@ class Walk:
         before = tally.transforms
         found, leaps, spent = self.reach(step)
         lost = found.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)  # nothing comes after that
-        self._failed = 0 if found.settled else PATIENCE if lost else self._failed + 1
+        self._failed = 0 if found.is_stable else PATIENCE if lost else self._failed + 1
         cost = tally.transforms - before
         numbers = found.status, found.residual, sum(leap.moved for leap in leaps), spent, cost
         return PathState(step, here, found.displacement, *numbers, found, leaps)
@@ -210,7 +214,7 @@ class Walk:
         goals, divides, leaps, spent = [step.value], self._divides, [], 0
         while True:
             goal = replace(step, value=goals[-1])
-            found, flowed = self.near(goal) if self.solver.predicts else None, False
+            found, flowed = self.near(goal) if self.solver.uses_guess else None, False
             spent += found.iterations if found else 0
             if found is None or not self.believed(found):
                 place = self.place(step)
@@ -220,7 +224,7 @@ class Walk:
                     continue
                 found, flowed = self.flow(goal), True
                 spent += found.iterations
-            if found.settled:
+            if found.is_stable:
                 leaps += [leap for leap in [self.accept(goal, found, flowed)] if leap]
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False

@@ -105,12 +105,14 @@ class Level:
         """
         here, count = self._problem.at(coarse.step), coarse.iterations
         found = (
-            None if self._strays else self._solver.near(here, start, self._solver.new_memory(), here.interaction_range)
+            None
+            if self._strays
+            else self._solver.solve_near(here, start, self._solver.new_memory(), here.interaction_range)
         )
-        if found is None or not (found.settled and found.moved <= here.interaction_range):
+        if found is None or not (found.is_stable and found.largest_change <= here.interaction_range):
             count += found.iterations if found else 0
-            found = self._solver.flow(here, start)
-            self._strays = found.moved > STRAYING * here.interaction_range
+            found = self._solver.flow_from(here, start)
+            self._strays = found.largest_change > STRAYING * here.interaction_range
         count += found.iterations
         rest = found.status, found.residual, coarse.jump, count, 0.0, found, coarse.leaps
         return PathState(coarse.step, here, found.displacement, *rest)

@@ -67,7 +67,7 @@ def simulate_loads(
         problem, scale = pose_hard_wall(scene, step, heights, tolerance, threads)
         if begun is not None:
             coarse = begun.isel(step=scene.path.steps.index(step))
-            problem.begun = WarmStart(coarse.pressure.values / scale.pressure, coarse.gap.values / scale.step)
+            problem.warm_start = WarmStart(coarse.pressure.values / scale.pressure, coarse.gap.values / scale.step)
         return _point(solve(method, problem, scale), heights, scene.lengths, keep)
 
     return _collected(scene, heights, _loads(scene.path.steps, known or {}, solved), keep)

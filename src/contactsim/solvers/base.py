@@ -1,15 +1,16 @@
-"""One loop for all solvers, and what comes out of it.
+"""The outer loop of all hard-wall solvers, and the result of a load step.
 
-A solver takes a problem and a state and returns a better state; the loop repeats that, stops on a budget or on a value
-that is not finite, and calls a state converged only after the certificate has been recomputed from the pressure alone.
-Inner iterations and coarser grids are the solver's own affair; their work is counted through the operators.
+A solver takes a problem and a state and returns a better state. The loop repeats that. It calls a state converged only
+after the certificate has been recomputed from the pressure alone; it stops after the largest number of steps or at a
+value that is not finite. Inner iterations and coarser grids are the solver's own affair; their work is counted by the
+operators.
 """
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -21,43 +22,55 @@ from contactsim.status import Status
 from contactsim.traits import Trait
 
 
+class Solver(Protocol):
+    """What is common to solvers of both kinds of problem."""
+
+    @property
+    def accepts(self) -> frozenset[Trait]:
+        """Traits of the scenes that it can solve."""
+
+    @property
+    def fields(self) -> int:
+        """Memory at its peak, with that of the problem: doubles at each point and for each component."""
+
+    def transforms(self, points: int) -> float:
+        """Return the real transforms of one iteration, for each unknown component, on a grid of that many points."""
+
+
 @dataclass(frozen=True)
 class State:
-    """Where a solver is: its pressure (n,) or (ny, nx), without units, and whether it believes to be done."""
+    """Pressure (n,) or (ny, nx), without units, and whether the solver believes that it has converged."""
 
     pressure: Array
     done: bool
 
 
-class HardWallSolver(Protocol):
-    """A method for some kinds of scene.
+class HardWallSolver(Solver, Protocol):
+    """A method for problems with a hard wall."""
 
-    accepts: the traits it can take; budget: most outer steps; fields: doubles a point and component that it holds at
-    its peak, with the problem's own.
-    """
+    @property
+    def budget(self) -> int:
+        """Largest number of outer steps."""
 
-    accepts: frozenset[Trait]
-    budget: int
-    fields: int
+    def start(self, problem: HardWallProblem, guess: Array | None = None) -> Any:
+        """Return the first state, from a guess of the pressure if there is one."""
 
-    def transforms(self, points: int) -> float:
-        """Real transforms of an iteration on a grid of that size."""
-        ...
-
-    def start(self, problem: HardWallProblem, guess: Array | None = None) -> State:
-        """The first state, from a guess of the pressure where there is one."""
-        ...
-
-    def step(self, problem: HardWallProblem, state: State) -> State:
-        """A better state."""
-        ...
+    def step(self, problem: HardWallProblem, state: Any) -> Any:
+        """Return a better state."""
 
 
 @dataclass(frozen=True)
 class Record:
-    """What a solution cost and how good it is: reproducible bit for bit at one number of threads.
+    """Cost and quality of a solution; reproducible bit for bit at one number of threads.
 
-    iterations: outer steps; transforms: in equivalents of one on the finest grid; certificate: in grid steps.
+    Parameters
+    ----------
+    iterations
+        Outer steps.
+    transforms
+        Real transforms, in equivalents of one on the finest grid.
+    certificate
+        Errors of the solution, lengths in grid steps.
     """
 
     iterations: int
@@ -69,9 +82,20 @@ class Record:
 class Result:
     """One solved load step.
 
-    pressure (n,) or (ny, nx), GPa, never negative; gap likewise, nm; approach, nm (see
-    `contactsim.contact.loading`); mean_pressure, GPa; seconds: of CPU, apart from the record because it is not
-    reproducible.
+    Parameters
+    ----------
+    pressure
+        Pressure (n,) or (ny, nx), GPa; never negative.
+    gap
+        Gap of the same shape, nm.
+    approach
+        Approach, nm; see `contactsim.contact.loading`.
+    status
+        How the solution ended.
+    record
+        Cost and quality.
+    seconds
+        CPU time; apart from the record because it is not reproducible.
     """
 
     pressure: Array = field(repr=False)
@@ -93,16 +117,16 @@ class Result:
 
     @property
     def mean_pressure(self) -> float:
-        """Mean over the period (GPa)."""
+        """Mean pressure over the period, GPa."""
         return float(self.pressure.mean())
 
 
-def require(solver: HardWallSolver, scene: Scene) -> None:
-    """Refuse what is no solver, and a scene with a trait that the solver does not accept."""
-    if isinstance(solver, type) or not hasattr(solver, "accepts"):
+def check_solver(solver: Solver, scene: Scene) -> None:
+    """Raise a `SceneError` if an object is no solver, or if a scene has a trait that the solver does not accept."""
+    if isinstance(solver, type) or not hasattr(solver, "accepts"):  # a user's argument may be anything
         raise SceneError("solver", solver, "the name of a solver, or a solver made with its options")
     for trait in sorted(scene.traits - solver.accepts, key=lambda trait: trait.name):
-        accepted = ", ".join(sorted(known.name for known in solver.accepts))
+        accepted = ", ".join(sorted(accepted.name for accepted in solver.accepts))
         raise SceneError(
             "solver",
             type(solver).__name__,
@@ -110,8 +134,16 @@ def require(solver: HardWallSolver, scene: Scene) -> None:
         )
 
 
+def coarser_level(problem: HardWallProblem, coarsest: int, tolerance: float) -> HardWallProblem | None:
+    """Return the next level of a cascade of grids; None if it has too few points a side, or no contact."""
+    if min(problem.heights.shape) // 2 < coarsest:
+        return None
+    coarse = problem.coarser(tolerance)
+    return None if coarse.is_separated else coarse
+
+
 def check_cascade(coarsest: int, coarse_tolerance: float) -> None:
-    """Refuse options of a cascade of coarser grids that make none."""
+    """Raise a `SceneError` for options of a cascade of grids that are out of range."""
     if not coarse_tolerance > 0:
         raise SceneError("coarse_tolerance", coarse_tolerance, "a positive number of grid steps")
     if coarsest < 2:
@@ -119,9 +151,12 @@ def check_cascade(coarsest: int, coarse_tolerance: float) -> None:
 
 
 def iterate(solver: HardWallSolver, problem: HardWallProblem, state: State, budget: int) -> tuple[State, int, bool]:
-    """Step until the solver believes to be done, the budget is spent, or a value is not finite.
+    """Step until the solver believes that it has converged, at most `budget` times, or to a value that is not finite.
 
-    Returns the last state with finite values, the number of steps, and whether all values were finite.
+    Returns
+    -------
+    state, steps, finite
+        The last state with finite values, the number of steps, and whether all values were finite.
     """
     for count in range(1, budget + 1):
         following = solver.step(problem, state)
@@ -134,35 +169,51 @@ def iterate(solver: HardWallSolver, problem: HardWallProblem, state: State, budg
 
 
 def solve(solver: HardWallSolver, problem: HardWallProblem, scale: Scale) -> Result:
-    """Solve one load step and certify it; in physical units."""
+    """Solve one load step and certify the solution.
+
+    Parameters
+    ----------
+    solver
+        The method.
+    problem, scale
+        Problem without units, and its units; see `contactsim.contact.hard_wall.pose_hard_wall`.
+
+    Returns
+    -------
+    Result
+        In physical units. A status other than `CONVERGED` is no exception.
+    """
     begin = time.process_time()
-    status, spent = Status.CONVERGED, 0
-    if problem.untouched:
-        pressure = np.zeros_like(problem.heights)
+    if problem.is_separated:
+        pressure, spent, status = np.zeros_like(problem.heights), 0, Status.CONVERGED
         certificate, gap = problem.certify(pressure)
     else:
-        state = solver.start(problem)
-        status = Status.MAX_ITERATIONS
-        while status is Status.MAX_ITERATIONS:
-            pressure = gap = None  # no memory is held beside the solver's
-            state, count, finite = iterate(solver, problem, state, solver.budget - spent)
-            spent += count
-            pressure = problem.admissible(state.pressure)
-            certificate, gap = problem.certify(pressure)
-            if not finite:
-                status = Status.NON_FINITE
-            elif certificate.met(problem.tolerance):
-                status = Status.CONVERGED
-            elif spent >= solver.budget:
-                break
+        pressure, gap, certificate, spent, status = _solve_contact(solver, problem)
     record = Record(spent, problem.tally.transforms, certificate)
     pressure *= scale.pressure
     gap *= scale.step
     return Result(
         pressure=pressure,
         gap=gap,
-        approach=certificate.approach * scale.step - scale.highest + scale.sunk,
+        approach=certificate.approach * scale.step - scale.highest + scale.mean_displacement,
         status=status,
         record=record,
         seconds=time.process_time() - begin,
     )
+
+
+def _solve_contact(solver: HardWallSolver, problem: HardWallProblem) -> tuple[Array, Array, Certificate, int, Status]:
+    """Return pressure, gap, their certificate, the outer steps and the status; without units."""
+    state, spent = solver.start(problem), 0
+    while True:
+        pressure = gap = None  # frees memory before the solver needs it
+        state, count, finite = iterate(solver, problem, state, solver.budget - spent)
+        spent += count
+        pressure = problem.project(state.pressure)
+        certificate, gap = problem.certify(pressure)
+        if not finite:
+            return pressure, gap, certificate, spent, Status.NON_FINITE
+        if certificate.met(problem.tolerance):
+            return pressure, gap, certificate, spent, Status.CONVERGED
+        if spent >= solver.budget:
+            return pressure, gap, certificate, spent, Status.MAX_ITERATIONS

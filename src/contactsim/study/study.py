@@ -21,7 +21,7 @@ from contactsim.errors import SceneError
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
-from contactsim.solvers.base import require
+from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import solver_module
 from contactsim.study.keys import (
     BODIES,
@@ -308,7 +308,7 @@ class Study:
         """Build the run's scene, so that nothing impossible is found out by a job."""
         try:
             scene = run.setup.scene
-            require(run.setup.options.solver, scene)
+            check_solver(run.setup.options.solver, scene)
             scene.upper.surface.check(run.setup.points)
             study_kind(run.settings).check(run.setup)
         except SceneError as error:

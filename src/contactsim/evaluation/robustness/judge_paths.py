@@ -20,7 +20,7 @@ from contactsim.grid import Array
 from contactsim.interface.cohesive_zone import MAX_OVERLAP
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.continuation import PathState
-from contactsim.solvers.base import require
+from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -35,7 +35,7 @@ where the stiffness all but vanishes."""
 def judge_path(case: PathCase, method: str | CohesiveSolver) -> Verdict:
     """Follow a case's path with a solver, and check every state that it calls converged."""
     method = make_solver(method) if isinstance(method, str) else method
-    require(method, case.scene)
+    check_solver(method, case.scene)
     problem, states = case.follow(method)
     spent = problem.tally.transforms
     fit = list(takewhile(lambda state: state.status is Status.CONVERGED, states))

@@ -16,7 +16,7 @@ from contactsim.errors import SceneError
 from contactsim.evaluation.work_precision.cases import REFERENCE, Case, job_plan
 from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
-from contactsim.solvers.base import require
+from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.claim_plan import quantities
 from contactsim.study.kinds import study_kind
@@ -114,7 +114,7 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
         for run in case.study_at(setting, job).runs():
             scene = run.setup.scene
             scene.upper.surface.check(setting.points)
-            require(solver_class(case.solved_by(job))(), scene)
+            check_solver(solver_class(case.solved_by(job))(), scene)
             study_kind(run.settings).check(run.setup)
     except SceneError as error:
         if error.key == "solver":

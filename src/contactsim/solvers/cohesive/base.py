@@ -1,31 +1,45 @@
-"""What solvers of smooth laws share: the state they look for, and what a path asks of them."""
+"""What solvers of cohesive problems share: the protocol, the equilibrium that they return, and how it is judged."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
+from contactsim.solvers.base import Solver
 from contactsim.status import Status
 from contactsim.traits import Trait
 
 CONTROLS = {Trait.APPROACH, Trait.MEAN_PRESSURE, Trait.SLIDE}
 SMOOTH_PATHS = frozenset({Trait.LINE, Trait.SMOOTH, Trait.HALF_SPACE, Trait.LAYER, *CONTROLS})
-"""What every one of these solvers takes; laws without a potential are for those that minimise nothing."""
-APART = 40.0
-"""Smallest gap, in the laws' length, from which on a load has pulled the bodies apart."""
+"""Traits that each of these solvers accepts. One that minimises no energy also accepts laws without a potential."""
+SEPARATION = 40.0
+"""Smallest gap, over the interaction range of the laws, beyond which a load has pulled the bodies apart."""
 
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A state of the interface: its displacement (exerted, m), coefficients, and how good it is.
+    """A state of the interface, and how good it is.
 
-    gap (read, n), nm; traction (exerted, n), GPa; residual: largest at any point, over the laws'
-    strength; moved: largest change (nm) from where it was looked for; iterations: steps of the method; unstable:
-    whether it was found to be no minimum, as the balance on a knife's edge is.
+    Parameters
+    ----------
+    displacement
+        Coefficients (exerted, m), nm.
+    gap, traction
+        Gap (read, n), nm, and traction (exerted, n), GPa.
+    status
+        How the solution ended.
+    residual
+        Largest residual at any point, over the strength of the laws.
+    largest_change
+        Largest change of the displacement from the guess, nm.
+    iterations
+        Iterations of the method.
+    unstable
+        Whether a small disturbance would grow, as on the balance on a knife's edge.
     """
 
     displacement: Array = field(repr=False)
@@ -33,59 +47,71 @@ class Equilibrium:
     traction: Array = field(repr=False)
     status: Status
     residual: float
-    moved: float
+    largest_change: float
     iterations: int
     unstable: bool = False
 
     @property
-    def settled(self) -> bool:
-        """Whether it is a solution that the least disturbance would not lead away from, as far as was looked."""
+    def is_stable(self) -> bool:
+        """Whether it has converged to a state that no small disturbance leaves, as far as the solver has looked."""
         return self.status is Status.CONVERGED and not self.unstable
 
 
-class CohesiveSolver(Protocol):
-    """A method that follows smooth laws.
+class CohesiveSolver(Solver, Protocol):
+    """A method that finds equilibria of cohesive problems along a load path."""
 
-    accepts: the traits it can take; predicts: whether it starts from a guess beyond the last state, or else flows from
-    that one always; trusted: how far (in the laws' length) a state may lie from its guess to be believed on the same
-    branch; fields: doubles a point and component at its peak.
-    """
+    @property
+    def uses_guess(self) -> bool:
+        """Whether `solve_near` profits from a guess beyond the last state; if not, it follows the flow from there."""
 
-    accepts: frozenset[Trait]
-    predicts: bool
-    trusted: float
-    fields: int
+    @property
+    def trust_radius(self) -> float:
+        """Largest change from a guess to a state on the same branch, over the interaction range of the laws."""
 
-    def transforms(self, points: int) -> float:
-        """Real transforms of an iteration, for each unknown component."""
-        ...
+    def new_memory(self) -> Any:
+        """Return what `solve_near` keeps from state to state of one path; empty at first."""
 
-    def new_memory(self) -> object:
-        """What `near` keeps between the states of one walk."""
-        ...
+    def solve_near(
+        self,
+        problem: CohesiveProblem,
+        guess: Array,
+        memory: Any,
+        within: float = np.inf,
+    ) -> Equilibrium:
+        """Return the equilibrium near a guess.
 
-    def near(self, problem: CohesiveProblem, guess: Array, memory: object, within: float = np.inf) -> Equilibrium:
-        """The equilibrium near a guess; one farther than `within` (nm) is of no use, and may be given up."""
-        ...
+        Parameters
+        ----------
+        problem
+            The problem at the load step.
+        guess
+            Coefficients of a displacement (exerted, m), nm.
+        memory
+            Of `new_memory`.
+        within
+            Largest change of the displacement, nm, that is of use to the caller; the search may end beyond it.
+        """
 
-    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """The equilibrium that the overdamped flow reaches from a state."""
-        ...
+    def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+        """Return the equilibrium that the overdamped flow reaches from a displacement (exerted, m), nm."""
 
 
-def judged(residual: float, problem: CohesiveProblem) -> Status:
-    """What a residual, over the laws' strength, makes of a state."""
+def status_of(residual: float, problem: CohesiveProblem) -> Status:
+    """Return the status of a state with a residual, over the strength of the laws."""
     if not np.isfinite(residual):
         return Status.NON_FINITE
     return Status.CONVERGED if residual <= problem.tolerance else Status.MAX_ITERATIONS
 
 
-def apart(problem: CohesiveProblem, gap: Array) -> bool:
-    """Whether a load has pulled the bodies apart; gap: (components, n), nm."""
-    return problem.load is not None and bool(gap[0].min() > APART * problem.interaction_range)
+def are_pulled_apart(problem: CohesiveProblem, gap: Array) -> bool:
+    """Return whether a load has pulled the bodies apart; gap: (read, n), nm."""
+    return problem.load is not None and bool(gap[0].min() > SEPARATION * problem.interaction_range)
 
 
-def moved(problem: CohesiveProblem, change: Array, enough: float = 0.0) -> float:
-    """Largest change of the displacement anywhere, nm; only a bound on it where that is at most `enough`."""
+def largest_change(problem: CohesiveProblem, change: Array, enough: float = 0.0) -> float:
+    """Return the largest value anywhere of a change of the displacement (exerted, m), nm.
+
+    If an upper bound, the sum of all coefficients, is at most `enough` (nm), the bound is returned.
+    """
     bound = 2 * float(np.abs(change).sum(axis=1).max())
     return bound if bound <= enough else float(np.abs(problem.field(change)[: len(change)]).max())

@@ -21,7 +21,7 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
+from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -37,8 +37,8 @@ class _Dynamics:
     """What both have in common: from rest at the last state, whatever lies ahead."""
 
     fields = 30
-    predicts = False
-    trusted = 0.0
+    uses_guess = False
+    trust_radius = 0.0
     accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE}
 
     def transforms(self, points: int) -> float:
@@ -48,9 +48,9 @@ class _Dynamics:
     def new_memory(self) -> None:
         """Nothing is kept."""
 
-    def near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
+    def solve_near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """The equilibrium reached from a guess."""
-        return self.flow(problem, guess)
+        return self.flow_from(problem, guess)
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class DampedVerlet(_Dynamics):
     def __post_init__(self) -> None:
         _check(self, "time_step", "damping")
 
-    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+    def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
         square = self.time_step**2
         highest = float(problem.stiffness.diagonal.max()) + problem.law_stiffness
@@ -102,7 +102,7 @@ class MassWeightedVerlet(_Dynamics):
         if not self.time_step < 1:
             raise SceneError("time_step", self.time_step, "above 0 and below 1, the limit of stability")
 
-    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+    def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The equilibrium reached from a state at rest."""
         square = 4 * self.time_step**2
         rows = problem.unknowns[0]
@@ -137,10 +137,10 @@ def _settle(
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             worst = problem.norm(problem.residual(displacement, traction))
-            if apart(problem, gap):
+            if are_pulled_apart(problem, gap):
                 status = Status.NO_EQUILIBRIUM
                 break
-            status = judged(worst, problem)
+            status = status_of(worst, problem)
             if status is not Status.MAX_ITERATIONS or count == budget:
                 break
             move, stiffest = mobility(tangent), max(problem.law_stiffness, np.abs(tangent.values).max())
@@ -155,7 +155,7 @@ def _settle(
                 before = gap
                 change = (1 - friction) * change - move(problem.residual(displacement, traction))
                 displacement = displacement + change
-        distance = moved(problem, displacement - start)
+        distance = largest_change(problem, displacement - start)
     return Equilibrium(displacement, gap, traction, status, worst, distance, count * batch)
 
 

@@ -16,7 +16,7 @@ from scipy.optimize import minimize
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
+from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.status import Status
 
 
@@ -32,8 +32,8 @@ class EnergyMinimisation:
     budget: int = 5000
     restarts: int = 5
     fields = 80
-    predicts = False
-    trusted = 0.0
+    uses_guess = False
+    trust_radius = 0.0
     accepts = SMOOTH_PATHS
 
     def transforms(self, points: int) -> float:
@@ -43,11 +43,11 @@ class EnergyMinimisation:
     def new_memory(self) -> None:
         """Nothing is kept."""
 
-    def near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
+    def solve_near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """The minimum below a guess."""
-        return self.flow(problem, guess)
+        return self.flow_from(problem, guess)
 
-    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+    def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The minimum below a state."""
         descent = _Descent(problem)
         place, count = descent.variables(start), 0
@@ -62,10 +62,10 @@ class EnergyMinimisation:
                 gap = problem.gap(displacement)
                 traction = problem.traction(gap)
                 worst = problem.norm(problem.residual(displacement, traction))
-                status = Status.NO_EQUILIBRIUM if apart(problem, gap) else judged(worst, problem)
+                status = Status.NO_EQUILIBRIUM if are_pulled_apart(problem, gap) else status_of(worst, problem)
                 if status is not Status.MAX_ITERATIONS or count >= self.budget or not found.nit:
                     break
-            distance = moved(problem, displacement - start)
+            distance = largest_change(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
 
@@ -103,5 +103,5 @@ class _Descent:
         problem = self._problem
         mean_square = float((np.abs(self._residual) ** 2 * problem.mode_weights).sum())  # at most the largest square
         near = np.sqrt(mean_square) <= problem.tolerance * problem.strength
-        if (near and problem.norm(self._residual) <= problem.tolerance) or apart(problem, self._gap):
+        if (near and problem.norm(self._residual) <= problem.tolerance) or are_pulled_apart(problem, self._gap):
             raise StopIteration

@@ -25,7 +25,7 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, apart, judged, moved
+from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.solvers.cohesive.gmres import gmres
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
@@ -84,24 +84,33 @@ class Memory:
 
 @dataclass(frozen=True)
 class NewtonKrylov:
-    """Newton–Krylov with flow at instabilities.
+    """Newton–Krylov method, with the overdamped flow at instabilities.
 
-    newton_budget: most Newton steps from a guess; krylov_budget: most Krylov iterations of one; flow_budget: most steps
-    of a flow; flow_step: largest move of a step of the flow and `trusted`: largest move of Newton from its guess that
-    is believed to stay on the branch, both in the laws' shortest length.
+    Parameters
+    ----------
+    newton_budget
+        Largest number of Newton steps from a guess.
+    krylov_budget
+        Largest number of Krylov iterations in a Newton step.
+    flow_budget
+        Largest number of steps of a flow.
+    flow_step
+        Largest change of the displacement in a step of the flow, over the interaction range of the laws.
+    trust_radius
+        Largest change from a guess to a state on the same branch, in the same unit.
     """
 
     newton_budget: int = 8
     krylov_budget: int = 60
     flow_budget: int = 4000
     flow_step: float = 0.3
-    trusted: float = 0.1
+    trust_radius: float = 0.1
     fields = 40
-    predicts = True
+    uses_guess = True
     accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE}
 
     def __post_init__(self) -> None:
-        for name in ("flow_step", "trusted"):
+        for name in ("flow_step", "trust_radius"):
             if not getattr(self, name) > 0:
                 raise SceneError(name, getattr(self, name), "a positive number of the laws' length")
 
@@ -113,7 +122,7 @@ class NewtonKrylov:
         """What is kept between the states of one walk."""
         return Memory()
 
-    def near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
+    def solve_near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
         """Newton's method from a guess."""
         displacement, far, strayed = guess, STRAYED * within, 0.0
         for count in range(self.newton_budget + 1):
@@ -122,7 +131,7 @@ class NewtonKrylov:
             residual = problem.residual(displacement, traction)
             worst = problem.norm(residual)
             if count:
-                strayed = moved(problem, displacement - guess, self.trusted * problem.interaction_range)
+                strayed = largest_change(problem, displacement - guess, self.trust_radius * problem.interaction_range)
             if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
                 break
             forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, LOOSEST)
@@ -130,14 +139,14 @@ class NewtonKrylov:
             change, iterations = self._solve(problem, tangent, precondition, residual, 0.0, forcing)
             memory.learn(iterations)
             displacement = displacement + change
-        status = judged(worst, problem)
+        status = status_of(worst, problem)
         unstable = False
         if status is Status.CONVERGED:
             fresh = memory.renew(problem, tangent)
             unstable = memory.doubts() and self._growing(problem, tangent, fresh) is not None
         return Equilibrium(displacement, gap, traction, status, worst, strayed, count, unstable)
 
-    def flow(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+    def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """The overdamped flow from a state."""
         displacement, shift, most = start, FIRST * problem.law_stiffness, self.flow_step * problem.interaction_range
         status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
@@ -150,7 +159,7 @@ class NewtonKrylov:
             if not np.isfinite(worst):
                 status = Status.NON_FINITE
                 break
-            if apart(problem, gap):
+            if are_pulled_apart(problem, gap):
                 status = Status.NO_EQUILIBRIUM
                 break
             precondition = ZonePreconditioner(problem, tangent, shift)
@@ -174,7 +183,7 @@ class NewtonKrylov:
             displacement = displacement + change
             shift /= 3 if move < 0.3 * most else 1.5 if move < most else 1
             shift = shift if shift > DROP * problem.law_stiffness else 0.0
-        distance = moved(problem, displacement - start)
+        distance = largest_change(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
     def _growing(self, problem: CohesiveProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:

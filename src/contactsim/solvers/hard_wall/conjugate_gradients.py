@@ -1,20 +1,20 @@
 """Conjugate gradients on the contact of a surface, preconditioned without a transform: the default in two dimensions.
 
-Minimise ½ p·Sp - p·h over p ≥ 0 at a given load. An iteration moves the pressure along a conjugate direction (Polak
-and Ribière's), cuts it at zero, shifts it so that the load stays, and takes the exact step along the change that is
-left, as far as no pressure turns negative. Points that carry nothing and gape are dropped at once, points that
-overlap are added. The gap is updated with the same transform that gives the step: one application of S an iteration.
+Minimise ½ p·Sp - p·h over p ≥ 0 at a given load. An iteration moves the pressure along a conjugate direction (Polak and
+Ribière's), cuts it at zero, shifts it so that the load stays, and takes the exact step along the resulting change, but
+no further than to a pressure of zero. Points that carry nothing and have a gap are removed at once, points that overlap
+are added. The gap is updated with the same transform that gives the step: one application of S an iteration.
 
 The residual is preconditioned on the contact alone (`contactsim.solvers.hard_wall.contact_preconditioner`).
 
-Inside, everything but the pressure is in single precision, on a gap counted from the contact's level: each step of the
-outer loop begins with a gap in double precision, which is computed anew before the rounding of what is added to it
-matters. The start is the solution on half as many points, and so on: pressure where there is contact and, with a
-negative sign, gap where there is none are continued as one field, which puts the edge of the contact in its place.
+All fields but the pressure are in single precision, and the gap is counted from its level on the contact. Each outer
+step begins with a gap in double precision, which is computed anew before the rounding of later additions matters. The
+start is the solution on half of the points a side, and so on: pressure in contact and, with a negative sign, gap
+elsewhere are interpolated as one field, which puts the edge of the contact in its place.
 
-What a run holds at its peak, in bytes a point, 60 in all. Before an iteration a run needs at most 48, after it 50.
+Memory at the peak, in bytes a point, 60 in all. Before an iteration a run needs at most 48, after it 50.
 
-    8  heights of the scene, nm                   8  pressure at which the outer step began
+    8  heights of the scene, nm                   8  pressure at the beginning of the outer step
     8  heights of the problem, in grid steps      8  pressure
     4  symbol of the compliance                   4  the same in single precision 2, contact 1, its code 1
     8  gap, direction                             4  change of the gap
@@ -31,27 +31,34 @@ import numpy as np
 from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Operator
-from contactsim.solvers.base import State, check_cascade
+from contactsim.solvers.base import State, check_cascade, coarser_level
 from contactsim.solvers.hard_wall import kernels, prolongation
-from contactsim.solvers.hard_wall.contact_preconditioner import CELL, Preconditioner
+from contactsim.solvers.hard_wall.contact_preconditioner import CELL, LastStep, Preconditioner
 from contactsim.traits import Trait
 
-ROUNDING = 5e-7
+MAX_RESIDUAL_FALL = 5e-7
 """Fall of the residual after which rounding in single precision begins to show, and the gap is computed anew."""
-LONGEST = 3.0
-"""Most by which a step may be longer than was tried, and the next trial than this one."""
+MAX_STEP_RATIO = 3.0
+"""Largest ratio of a step to its trial length, and of the next trial length to this one."""
 EPSILON = float(np.finfo(float).eps)
-SHARE, CORRECTIONS = 1e-12, 30
-"""Part of the load by which the shift of a step may miss it, and most corrections of the shift."""
-OPENING = 0.75
-"""Pressure over gap, in E* a spacing, when both are continued as one field."""
+LOAD_ERROR, MAX_CORRECTIONS = 1e-12, 30
+"""Relative error of the load to which the shift of a step is corrected, and the largest number of corrections."""
+GAP_WEIGHT = 0.75
+"""Pressure that stands for a gap, in E* a spacing, when both are interpolated as one field."""
 
 
 @dataclass(frozen=True)
 class ConjugateGradients:
-    """One outer step iterates until the residual is small enough.
+    """Conjugate gradients; one outer step iterates until the residual is small enough.
 
-    inner_budget: most iterations of an outer step; wavelength: see `Preconditioner`.
+    Parameters
+    ----------
+    inner_budget
+        Largest number of iterations in an outer step.
+    wavelength
+        In points; see `Preconditioner`.
+    budget
+        Largest number of outer steps.
     """
 
     inner_budget: int = 200
@@ -65,93 +72,171 @@ class ConjugateGradients:
             raise SceneError("wavelength", self.wavelength, "a positive number of points")
 
     def transforms(self, points: int) -> float:
-        """Real transforms of an iteration: two, and two on the cells."""
+        """Return the real transforms of an iteration: two, and two on the cells."""
         return 2 + 2 / CELL**2
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> State:
-        """From a guess; else from uniform pressure, or with an approach from the overlap of the bodies."""
+        """Return the first state: a guess, uniform pressure, or at an approach no pressure."""
         if guess is not None:
-            return State(problem.admissible(guess), False)
+            return State(problem.project(guess), False)
         pressure = np.zeros_like(problem.heights)
         if problem.load is not None:
             pressure += problem.load
         return State(pressure, False)
 
     def step(self, problem: HardWallProblem, state: State) -> State:
-        """Iterate from the state's pressure, whose gap is computed anew."""
-        pressure, gap = problem.admissible(state.pressure), np.empty(problem.heights.shape, np.float32)
+        """Iterate from the pressure of a state, the gap of which is computed anew."""
+        pressure, gap = problem.project(state.pressure), np.empty(problem.heights.shape, np.float32)
         return State(pressure, self.relax(problem, pressure, gap)[0])
 
     def relax(self, problem: HardWallProblem, pressure: Array, gap: Array) -> tuple[bool, float]:
-        """Iterate in place, gap (ny, nx) being written; whether it is done, and the gap's level on the contact."""
-        shape, free = problem.heights.shape, problem.load is not None
-        rows = kernels.Rows(shape, problem.compliance.grid.threads)
-        condition = Preconditioner(problem.compliance, self.wavelength)
-        spread = _Spread(problem.compliance)
-        spread.anew(problem, pressure, pressure > 0, gap)
-        direction = np.zeros(shape, np.float32)
-        where = kernels.contact_of((pressure > 0) | (gap < -problem.tolerance / 2))
-        load = problem.load * problem.heights.size if free else 0.0
-        overlap, none = np.float32(problem.tolerance / 2), np.float32(0)
-        moving = (*where, pressure, spread.change, gap, spread.out)
-        total, points, added, along, deepest, widest = rows(kernels.advance, *moving, none, none, overlap, direction)
-        level = total / points if free and points else 0.0
-        first = worst = max(deepest, widest) + abs(level)
-        length, past, energy = 1.0, (spread.out, none, np.float32(level)), 0.0
+        """Iterate in place.
+
+        Parameters
+        ----------
+        problem
+            The problem of a surface.
+        pressure
+            Pressure (ny, nx), changed.
+        gap
+            Memory (ny, nx) in single precision, into which the gap is written.
+
+        Returns
+        -------
+        converged, level
+            Whether the residual is within the tolerance, and the level of the gap on the contact.
+        """
+        iterate = _Iterate(problem, pressure, gap, self.wavelength)
         for _ in range(self.inner_budget):
-            if not points:  # an approach that leaves no contact is answered: the certificate judges
-                return not free, level
-            if worst <= 0.9 * problem.tolerance and not added:
-                return True, level
-            if worst < ROUNDING * first:
-                past = (*past[:2], past[2] - np.float32(level))
-                spread.anew(problem, pressure, where[0][:, : shape[1]].view(bool), gap)
-                level, first = 0.0, worst
-            here = np.float32(level)
-            now, then, sums, *_ = condition(rows, gap, here, past, where, spread.scratch, spread.change)
-            beta = max(0.0, (now - then) / energy) if energy > 0 else 0.0
-            energy = now
-            shift = length * (sums + beta * along) / points if free else 0.0
-            along_it = (*where, pressure, direction, length)
-            product, taken = _tried(rows, along_it, shift, (gap, here, spread.change), beta, load if free else None)
-            spread.apply()
-            stiffness, risen, *_ = rows(kernels.work, *where, spread.change, spread.out)
-            if not stiffness > 0:
+            if not iterate.points:  # an approach that leaves no contact is solved: the certificate decides
+                return problem.load is None, iterate.level
+            if iterate.residual <= 0.9 * problem.tolerance and not iterate.added:
+                return True, iterate.level
+            if iterate.residual < MAX_RESIDUAL_FALL * iterate.first_residual:
+                iterate.recompute_gap()
+            beta = iterate.precondition()
+            trial = iterate.try_step(beta)
+            rise = iterate.apply_compliance()
+            if not rise.product > 0:
                 break
-            exact = product / stiffness
-            if not exact > 0:  # rounding has moved the load, and the change does nothing but bring it back: let it
-                exact, energy = 1.0, 0.0
-            theta = np.float32(min(exact, LONGEST, 1 / taken if taken > 0 else LONGEST))
-            length *= min(max(exact, 1 / LONGEST), LONGEST)
-            past = (spread.out, theta, here)
-            level = level + theta * risen / points if free else 0.0
-            total, points, added, along, deepest, widest = rows(
-                kernels.advance, *moving, theta, np.float32(level), overlap, direction
-            )
-            worst = max(deepest, widest)
-            level = total / points if free and points else 0.0
-        return False, level
+            iterate.take_step(trial, rise)
+        return False, iterate.level
 
 
-def _tried(rows: kernels.Rows, before: tuple, shift: float, after: tuple, beta: float, load: float | None) -> tuple:
-    """Try a step along the turned direction, the shift being corrected until it keeps the load, if one is given.
+class _Iterate:
+    """Pressure, gap and direction of an outer step, and the numbers that steer the iteration.
 
-    before, after: what `kernels.trial` takes around the shift. The change times residual; the largest part taken away.
+    level: gap on the contact; residual: largest deviation of the gap from it, in contact or overlap; points: in
+    contact; added: of these, by the last step; length: of a trial step; last: the last step, by which the gap changed.
     """
-    turn = np.float32(1), np.float32(beta)
-    for _ in range(1 + CORRECTIONS):  # Newton's, which from the left do not overshoot
-        carried, carriers, product, _, taken, _ = rows(kernels.trial, *before, shift, *after, *turn)
-        if load is None or abs(carried - load) <= max(SHARE * load, EPSILON * carriers * abs(shift)):
-            break
-        shift += (carried - load) / carriers if carriers else -abs(shift) - load
-        turn = np.float32(0), np.float32(1)
-    return product, taken
+
+    def __init__(self, problem: HardWallProblem, pressure: Array, gap: Array, wavelength: float) -> None:
+        shape = problem.heights.shape
+        self.problem, self.pressure, self.gap = problem, pressure, gap
+        self._rows = kernels.Rows(shape, problem.compliance.grid.threads)
+        self._preconditioner = Preconditioner(problem.compliance, wavelength)
+        self._spread = _Spread(problem.compliance)
+        self._spread.compute_gap(problem, pressure, pressure > 0, gap)
+        self._direction = np.zeros(shape, np.float32)
+        self._contact = kernels.contact_of((pressure > 0) | (gap < -problem.tolerance / 2))
+        self._load = None if problem.load is None else problem.load * problem.heights.size
+        self._overlap = np.float32(problem.tolerance / 2)
+        zero = np.float32(0)
+        moved = self._advance(zero, zero)
+        self.level = moved.gap / moved.points if self._load is not None and moved.points else 0.0
+        self.residual = max(moved.overlap, moved.opening) + abs(self.level)
+        self.first_residual = self.residual
+        self._length, self._energy = 1.0, 0.0
+        self._last = LastStep(self._spread.out, zero, np.float32(self.level))
+
+    def _advance(self, theta: np.float32, level: np.float32) -> kernels.Advance:
+        """Move along the change by a part theta, and update the contact."""
+        moved = kernels.advance_step(
+            self._rows,
+            contact=self._contact,
+            pressure=self.pressure,
+            change=self._spread.change,
+            gap=self.gap,
+            spread=self._spread.out,
+            theta=theta,
+            level=level,
+            overlap=self._overlap,
+            direction=self._direction,
+        )
+        self.points, self.added, self._along = moved.points, moved.added, moved.direction
+        return moved
+
+    def recompute_gap(self) -> None:
+        """Compute the gap anew in double precision, counted from its level."""
+        spread, theta, before = self._last
+        self._last = LastStep(spread, theta, before - np.float32(self.level))
+        contact = self._contact.points[:, : self.gap.shape[1]].view(bool)
+        self._spread.compute_gap(self.problem, self.pressure, contact, self.gap)
+        self.level, self.first_residual = 0.0, self.residual
+
+    def precondition(self) -> float:
+        """Precondition the residual, in place of the change, and return Polak and Ribière's factor of the direction."""
+        now, then, self._sum = self._preconditioner(
+            self._rows,
+            gap=self.gap,
+            level=np.float32(self.level),
+            last=self._last,
+            contact=self._contact,
+            scratch=self._spread.scratch,
+            out=self._spread.change,
+        )
+        beta = max(0.0, (now - then) / self._energy) if self._energy > 0 else 0.0
+        self._energy = now
+        return beta
+
+    def try_step(self, beta: float) -> kernels.Trial:
+        """Turn the direction and try a step, with a shift that is corrected until it keeps a prescribed load."""
+        load, fresh, factor = self._load, np.float32(1), np.float32(beta)
+        shift = self._length * (self._sum + beta * self._along) / self.points if load is not None else 0.0
+        for _ in range(1 + MAX_CORRECTIONS):  # Newton's method, which from the left does not overshoot
+            trial = kernels.try_step(
+                self._rows,
+                contact=self._contact,
+                pressure=self.pressure,
+                direction=self._direction,
+                length=self._length,
+                shift=shift,
+                gap=self.gap,
+                level=np.float32(self.level),
+                change=self._spread.change,
+                fresh=fresh,
+                beta=factor,
+            )
+            if load is None or abs(trial.load - load) <= max(LOAD_ERROR * load, EPSILON * trial.points * abs(shift)):
+                break
+            shift += (trial.load - load) / trial.points if trial.points else -abs(shift) - load
+            fresh, factor = np.float32(0), np.float32(1)  # the direction is turned already
+        return trial
+
+    def apply_compliance(self) -> kernels.Rise:
+        """Compute the change of the gap that belongs to the change of the pressure."""
+        self._spread.apply()
+        return kernels.work_of(self._rows, contact=self._contact, change=self._spread.change, spread=self._spread.out)
+
+    def take_step(self, trial: kernels.Trial, rise: kernels.Rise) -> None:
+        """Take the exact step along the change, as far as no pressure turns negative."""
+        exact = trial.product / rise.product
+        if not exact > 0:  # rounding has moved the load, and the change only brings it back: take it
+            exact, self._energy = 1.0, 0.0
+        largest = 1 / trial.removed if trial.removed > 0 else MAX_STEP_RATIO
+        theta = np.float32(min(exact, MAX_STEP_RATIO, largest))
+        self._length *= min(max(exact, 1 / MAX_STEP_RATIO), MAX_STEP_RATIO)
+        self._last = LastStep(self._spread.out, theta, np.float32(self.level))
+        level = self.level + theta * rise.gap / self.points if self._load is not None else 0.0
+        moved = self._advance(theta, np.float32(level))
+        self.residual = max(moved.overlap, moved.opening)
+        self.level = moved.gap / moved.points if self._load is not None and moved.points else 0.0
 
 
 class _Spread:
-    """The compliance in single precision, from `change` to `out`; `scratch` is lent. All are (ny, nx and padding).
+    """Compliance in single precision, from `change` to `out`; `scratch` may be used by others; (ny, nx and padding).
 
-    What is computed in double precision takes the place of change and scratch.
+    A gap in double precision is computed in the memory of change and scratch.
     """
 
     def __init__(self, compliance: Operator) -> None:
@@ -164,7 +249,7 @@ class _Spread:
         self.out = np.zeros(shape, np.float32)
 
     def apply(self) -> None:
-        """Out = S change; the change stays."""
+        """Compute out = S change; the change stays."""
         self._grid.forward(self.change[:, : self._columns], out=self._half)
         self._half *= self._symbol
         ducc0.fft.c2r(
@@ -177,8 +262,8 @@ class _Spread:
         )
         self._tally.add(2, self._grid.size)
 
-    def anew(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
-        """`out` = the gap computed in double precision, from its level on the contact (bool); change turns zero."""
+    def compute_gap(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
+        """Write the gap, computed in double precision, less its level on the contact (bool); the change turns zero."""
         gap = problem.compliance(pressure, out=self._double)
         gap -= problem.heights
         if problem.approach is not None:
@@ -192,10 +277,16 @@ class _Spread:
 
 @dataclass(frozen=True)
 class NestedConjugateGradients(ConjugateGradients):
-    """Conjugate gradients started from a cascade of coarser grids of the same surface.
+    """Conjugate gradients that start from a cascade of coarser grids of the same surface.
 
-    coarsest: fewest points along a side of a level; coarse_tolerance: in grid steps of the level's own; coarse_budget:
-    most iterations on a coarse level.
+    Parameters
+    ----------
+    coarsest
+        Smallest number of points along a side of a level.
+    coarse_tolerance
+        Tolerance of a coarse level, in its own grid steps.
+    coarse_budget
+        Largest number of iterations on a coarse level.
     """
 
     coarsest: int = 64
@@ -207,26 +298,26 @@ class NestedConjugateGradients(ConjugateGradients):
         check_cascade(self.coarsest, self.coarse_tolerance)
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> State:
-        """From a guess, or from the solution on half as many points a side, and so on down to the coarsest level."""
-        signed = None
-        if guess is None and problem.can_start_warm:
-            signed = _one_field(problem.begun.pressure, problem.begun.gap)
-        elif guess is None and min(problem.heights.shape) // 2 >= self.coarsest:
-            coarse = problem.coarser(self.coarse_tolerance)
-            signed = None if coarse.untouched else self._signed(coarse)
+        """Return the first state: a guess, or the solution on half of the points a side, down to the coarsest level."""
+        signed = self._coarse_field(problem) if guess is None else None
         if signed is not None:
             guess = np.empty_like(problem.heights)
             kernels.Rows(guess.shape, problem.compliance.grid.threads)(prolongation.refine, signed, guess)
         return super().start(problem, guess)
 
-    def _signed(self, problem: HardWallProblem) -> Array:
-        """A coarse level's solution: pressure where there is contact and, with a negative sign, gap elsewhere."""
-        pressure, gap = self.start(problem).pressure, np.empty(problem.heights.shape, np.float32)
-        level = ConjugateGradients(self.coarse_budget, self.wavelength).relax(problem, pressure, gap)[1]
+    def _coarse_field(self, problem: HardWallProblem) -> Array | None:
+        """Return the signed field of a warm start or of the coarser level (my, mx); None without both."""
+        if problem.usable_start is not None:
+            return _signed_field(problem.usable_start.pressure, problem.usable_start.gap)
+        coarse = coarser_level(problem, self.coarsest, self.coarse_tolerance)
+        if coarse is None:
+            return None
+        pressure, gap = self.start(coarse).pressure, np.empty(coarse.heights.shape, np.float32)
+        level = ConjugateGradients(self.coarse_budget, self.wavelength).relax(coarse, pressure, gap)[1]
         gap -= np.float32(level)
-        return _one_field(pressure, gap)
+        return _signed_field(pressure, gap)
 
 
-def _one_field(pressure: Array, gap: Array) -> Array:
-    """Pressure where there is contact and, with a negative sign, the gap elsewhere; (ny, nx)."""
-    return np.where(pressure > 0, pressure, -OPENING * np.maximum(gap, 0))
+def _signed_field(pressure: Array, gap: Array) -> Array:
+    """Return the pressure in contact and, with a negative sign, the gap elsewhere; (ny, nx)."""
+    return np.where(pressure > 0, pressure, -GAP_WEIGHT * np.maximum(gap, 0))

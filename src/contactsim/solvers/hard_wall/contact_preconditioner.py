@@ -11,10 +11,12 @@ column `code` of `table` (5, 16) the weights of the point itself and of these fo
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from contactsim.grid import Array, Operator
-from contactsim.solvers.hard_wall.kernels import WORD, Rows, compiled, run
+from contactsim.solvers.hard_wall.kernels import WORD, Contact, Rows, compiled, run
 
 CELL = 4
 """Points along a side of a cell on which long waves are corrected: a block of rows, and a word, are whole cells."""
@@ -24,20 +26,20 @@ NEIGHBOURS = ((0, -1), (-1, -1), (-1, 0), (-1, 1))
 
 @compiled
 def bits_of(west, north_west, north, north_east):
-    """Which neighbours are in contact, in one number."""
+    """Return the neighbours in contact as the bits of one number."""
     return west | north_west << 1 | north << 2 | north_east << 3
 
 
 @compiled
 def weighted(table, bits, here, west, north_west, north, north_east):
-    """A row of G times residuals."""
+    """Return a row of G times residuals."""
     near = table[0, bits] * here + table[1, bits] * west + table[2, bits] * north_west
     return near + table[3, bits] * north + table[4, bits] * north_east
 
 
 @compiled
 def factor_at(i, up, west, j, east, gap, level, contact, table, code, out):
-    """`out` = G r and its code at a point, wherever its neighbours are."""
+    """Write G r and the code at a point, given the indices of its neighbours."""
     bits = bits_of(contact[i, west], contact[up, west], contact[up, j], contact[up, east])
     r, of_up = level - gap[i, j], level - gap[up, j]
     value = weighted(table, bits, r, level - gap[i, west], level - gap[up, west], of_up, level - gap[up, east])
@@ -47,7 +49,7 @@ def factor_at(i, up, west, j, east, gap, level, contact, table, code, out):
 
 @compiled
 def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, sums):
-    """`out` = G r; cells: sums of out over each cell; code: which neighbours are in contact."""
+    """Write out = G r, its sums over each cell, and the code of neighbours in contact."""
     ny = contact.shape[0]
     for i in range(low, high):
         up = i - 1 if i > 0 else ny - 1
@@ -76,7 +78,7 @@ def factor(low, high, nx, gap, level, contact, words, table, code, out, cells, s
 
 @compiled
 def less_smooth(i, nx, contact, words, field, smooth, out):
-    """`out` = field - smooth along row i, zero without contact."""
+    """Write out = field - smooth along row i; zero without contact."""
     out[:] = 0
     first, last = run(words, i, 0)
     while first < last:
@@ -88,7 +90,7 @@ def less_smooth(i, nx, contact, words, field, smooth, out):
 
 @compiled
 def adjoint_at(i, down, west, j, east, table, code, here, below):
-    """Gᵀ at a point, wherever its neighbours are, of the rows `here` and `below`."""
+    """Return Gᵀ of the rows `here` and `below` at a point, given the indices of its neighbours."""
     value = table[0, code[i, j]] * here[j] + table[1, code[i, east]] * here[east]
     value += table[2, code[down, east]] * below[east] + table[3, code[down, j]] * below[j]
     return value + table[4, code[down, west]] * below[west]
@@ -96,7 +98,7 @@ def adjoint_at(i, down, west, j, east, table, code, here, below):
 
 @compiled
 def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, table, code, field, smooth, out, sums):
-    """`out` = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
+    """Write out = Gᵀ(field - smooth); sums: out·r, out·(r before the last step), out."""
     ny = contact.shape[0]
     none = np.float32(0)
     now = 0.0
@@ -136,11 +138,26 @@ def adjoint(low, high, nx, gap, level, spread, theta, before, contact, words, ta
     sums[2] = total
 
 
+class LastStep(NamedTuple):
+    """The last step: change of the gap (ny, nx or more), part of it that was taken, and level of the gap before."""
+
+    spread: Array
+    theta: np.float32
+    level: np.float32
+
+
 class Preconditioner:
-    """Gᵀ(1 - B)G on a contact set that changes; arrays of shape (ny, nx or more) are lent by the caller."""
+    """Gᵀ(1 - B)G on a contact set that changes.
+
+    Parameters
+    ----------
+    compliance
+        Compliance of the surface.
+    wavelength
+        Wavelength above which G alone would be too soft, in points.
+    """
 
     def __init__(self, compliance: Operator, wavelength: float) -> None:
-        """wavelength: in points, above which G alone would be too soft."""
         grid = compliance.grid
         self.tally = compliance.tally
         self.table = stencil(compliance)
@@ -153,21 +170,49 @@ class Preconditioner:
         self._grid = coarse
         self._code = np.zeros(grid.shape, np.uint8)
 
-    def __call__(self, rows: Rows, gap: Array, level: float, past: tuple, where: tuple, *lent: Array) -> Array:
-        """The preconditioned residual into the second array lent; its products with residuals, now and before; its sum.
+    def __call__(
+        self,
+        rows: Rows,
+        *,
+        gap: Array,
+        level: np.float32,
+        last: LastStep,
+        contact: Contact,
+        scratch: Array,
+        out: Array,
+    ) -> tuple[float, float, float]:
+        """Precondition the residual level - gap.
 
-        past: change of the gap in the last step, its length and the level before; where: contact and its words.
+        Parameters
+        ----------
+        rows
+            Calls of kernels.
+        gap, level
+            Gap (ny, nx) and its level on the contact.
+        last
+            The last step.
+        contact
+            Contact set.
+        scratch
+            Memory (ny, nx or more) that is overwritten.
+        out
+            Preconditioned residual (ny, nx or more), written.
+
+        Returns
+        -------
+        now, then, total
+            Products of the preconditioned residual with the residual and with that before the last step, and its sum.
         """
-        work, out = lent
         self.cells[:] = 0
-        rows(factor, gap, level, *where, self.table, self._code, work, self.cells)
+        rows(factor, gap, level, *contact, self.table, self._code, scratch, self.cells)
         smooth = self._grid.backward(self._grid.forward(self.cells) * self._excess)
         self.tally.add(2, self.cells.size)
-        return rows(adjoint, gap, level, *past, *where, self.table, self._code, work, smooth, out)
+        now, then, total, *_ = rows(adjoint, gap, level, *last, *contact, self.table, self._code, scratch, smooth, out)
+        return now, then, total
 
 
 def stencil(compliance: Operator, most: int = 64) -> Array:
-    """Rows of G, shape (5, 16): weights of a point and its four neighbours, by the bits of those in contact."""
+    """Return the rows of G (5, 16): weights of a point and its four neighbours, by the bits of those in contact."""
     grid = compliance.grid
     steps = [max(size // most, 1) for size in grid.shape]
     sizes = [min(size, most) for size in grid.shape]

@@ -1,21 +1,23 @@
 """Loops over a surface in single precision, compiled: steps of conjugate gradients, and how all such loops run.
 
-Every kernel works on the rows from `low` to `high` of arrays of shape (ny, nx or more), periodic in both directions,
-and writes its results into `sums`, first what adds up, then largest values. `Rows` calls it block by block, on several
-threads if asked to; the blocks depend on the grid alone and their sums are added in order, so that what kernels give
-does not depend on the number of threads. Transforms of surfaces, between them, differ in their last digits.
+Every kernel works on the rows from `low` to `high` of arrays of shape (ny, nx or more), periodic in both directions. It
+writes its results into `sums`: first numbers that add up, then largest values. `Rows` calls it block by block, on
+several threads if asked to. The blocks depend on the grid alone and their sums are added in order, so that results of
+kernels do not depend on the number of threads; those of transforms between them differ in their last digits.
 
 contact is 1 where a point may carry pressure; the residual there is level - gap. It is padded with zeros to WORD
-columns a word, and `words` is the same memory as whole words. Loops go over runs of words that are not zero, without
-a branch at single points, which edges of the contact would make expensive, so that they are done several at a time: a
-point without contact has neither pressure nor change nor direction. Largest values are therefore kept column by column,
-and a loop writes one array or two: for more, compilers do not look into whether they overlap, and do without.
+columns a word, and `words` is the same memory as whole words. Loops go over runs of words that are not zero. They have
+no branch at single points, which would be expensive at edges of the contact, so that several points are computed at a
+time: a point without contact has neither pressure nor change nor direction. For the same reason largest values are
+collected column by column, and a loop writes one array or two: with more, compilers do not check for overlap and do not
+vectorise.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -25,24 +27,31 @@ from contactsim.grid import Array
 BLOCK = 128
 """Rows of a block."""
 WORD = 8
-"""Points whose contact is looked at in one go."""
-SUMS, MOST = 4, 2
+"""Points whose contact is read at a time."""
+SUMS, MAXIMA = 4, 2
 """Numbers of a kernel's results: sums over all points, then largest values."""
 
 compiled = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "arcp", "nsz", "reassoc"})
 
 
-def contact_of(where: Array) -> tuple[Array, Array]:
-    """A contact set, bool (ny, nx), as bytes (ny, nx and padding) and as the words (ny, …) that share their memory."""
+class Contact(NamedTuple):
+    """A contact set as bytes (ny, nx and padding), and as the words (ny, …) that share their memory."""
+
+    points: Array
+    words: Array
+
+
+def contact_of(where: Array) -> Contact:
+    """Return a contact set, bool (ny, nx), in the form that kernels read."""
     ny, nx = where.shape
     words = np.zeros((ny, -(-nx // WORD)), np.uint64)
     contact = words.view(np.uint8)
     contact[:, :nx] = where
-    return contact, words
+    return Contact(contact, words)
 
 
 class Rows:
-    """Calls kernels over all rows."""
+    """Calls of kernels over all rows of a grid (ny, nx)."""
 
     def __init__(self, shape: tuple[int, int], threads: int) -> None:
         self.width = shape[1]
@@ -50,20 +59,20 @@ class Rows:
         self._pool = ThreadPoolExecutor(threads) if threads > 1 and len(self.bounds) > 1 else None
 
     def __call__(self, kernel: Callable, *arguments: object) -> Array:
-        """Sums over all rows, then largest values, shape (SUMS + MOST,)."""
-        sums = np.zeros((len(self.bounds), SUMS + MOST))
+        """Return the sums over all rows, then the largest values, shape (SUMS + MAXIMA,)."""
+        sums = np.zeros((len(self.bounds), SUMS + MAXIMA))
 
         def block(place: int) -> None:
-            """One block of rows, and its sums."""
+            """Run the kernel over one block of rows."""
             kernel(*self.bounds[place], self.width, *arguments, sums[place])
 
-        list((self._pool.map if self._pool else map)(block, range(len(self.bounds))))
+        list(self._pool.map(block, range(len(self.bounds))) if self._pool else map(block, range(len(self.bounds))))
         return np.concatenate((sums[:, :SUMS].sum(axis=0), sums[:, SUMS:].max(axis=0)))
 
 
 @compiled
 def run(words, row, word):
-    """The next run of words that are not zero: the first and the one after its last, both their number if none."""
+    """Return the first word, and the one after the last, of the next run that is not zero; both are the end if none."""
     count = words.shape[1]
     while word < count and words[row, word] == 0:
         word += 1
@@ -77,7 +86,7 @@ def run(words, row, word):
 def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap, level, change, fresh, beta, sums):
     """`direction` = fresh × change + beta × direction; change = max(p + length × direction - shift, 0) - p.
 
-    sums: load of p + change, the number of points that carry it, change·r; largest part of a pressure taken away.
+    sums: load of p + change, number of points that carry it, change·r; then the largest part of a pressure removed.
     """
     load = 0.0
     count = 0
@@ -109,7 +118,7 @@ def trial(low, high, nx, contact, words, pressure, direction, length, shift, gap
 
 @compiled
 def work(low, high, nx, contact, words, change, spread, sums):
-    """sums: change·spread, and spread, on the contact."""
+    """Sum change·spread, and spread, over the contact."""
     product = 0.0
     total = 0.0
     for i in range(low, high):
@@ -127,10 +136,11 @@ def work(low, high, nx, contact, words, change, spread, sums):
 
 @compiled
 def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta, level, overlap, direction, sums):
-    """Step: p += theta × change, gap += theta × spread; drop points that carry nothing, add those that overlap.
+    """P += theta × change, gap += theta × spread; remove points that carry nothing, add points that overlap.
 
-    level: the gap on the contact after the step; overlap: how far below it a point is added. sums: gap on the new
-    contact, its points, points added, direction on the new contact; largest overlap, largest gap where pressure is.
+    level: gap on the contact after the step; overlap: distance below it at which a point is added. sums: gap on the new
+    contact, its points, points added, direction on the new contact; then the largest overlap, and the largest gap under
+    pressure.
     """
     total = 0.0
     count = 0
@@ -191,3 +201,76 @@ def advance(low, high, nx, contact, words, pressure, change, gap, spread, theta,
     sums[3] = along
     sums[4] = deepest.max()
     sums[5] = widest.max()
+
+
+class Trial(NamedTuple):
+    """A trial step: its load, points that carry it, change·residual, and the largest part of a pressure removed."""
+
+    load: float
+    points: float
+    product: float
+    removed: float
+
+
+class Rise(NamedTuple):
+    """A change of the gap: its product with that of the pressure, and its sum over the contact."""
+
+    product: float
+    gap: float
+
+
+class Advance(NamedTuple):
+    """A step taken: sum of the gap, points, points added and sum of the direction, on the new contact; two largest.
+
+    overlap, opening: largest overlap, and largest gap where there is pressure.
+    """
+
+    gap: float
+    points: float
+    added: float
+    direction: float
+    overlap: float
+    opening: float
+
+
+def try_step(
+    rows: Rows,
+    *,
+    contact: Contact,
+    pressure: Array,
+    direction: Array,
+    length: float,
+    shift: float,
+    gap: Array,
+    level: np.float32,
+    change: Array,
+    fresh: np.float32,
+    beta: np.float32,
+) -> Trial:
+    """Turn the direction and write the change of the pressure along it; see `trial`."""
+    load, points, product, _, removed, _ = rows(
+        trial, *contact, pressure, direction, length, shift, gap, level, change, fresh, beta
+    )
+    return Trial(load, points, product, removed)
+
+
+def work_of(rows: Rows, *, contact: Contact, change: Array, spread: Array) -> Rise:
+    """Return the work of a change of the pressure along that of the gap; see `work`."""
+    return Rise(*rows(work, *contact, change, spread)[:2])
+
+
+def advance_step(
+    rows: Rows,
+    *,
+    contact: Contact,
+    pressure: Array,
+    change: Array,
+    gap: Array,
+    spread: Array,
+    theta: np.float32,
+    level: np.float32,
+    overlap: np.float32,
+    direction: Array,
+) -> Advance:
+    """Take a step and update the contact; see `advance`."""
+    return Advance(*rows(advance, *contact, pressure, change, gap, spread, theta, level, overlap, direction))

@@ -41,7 +41,7 @@ class PolonskyKeer:
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> PolonskyKeerState:
         """From a guess or uniform pressure."""
-        pressure = np.full_like(problem.heights, problem.load) if guess is None else problem.admissible(guess)
+        pressure = np.full_like(problem.heights, problem.load) if guess is None else problem.project(guess)
         return PolonskyKeerState(pressure, False, np.zeros_like(pressure), 1.0, True)
 
     def step(self, problem: HardWallProblem, state: PolonskyKeerState) -> PolonskyKeerState:
@@ -75,4 +75,4 @@ class PolonskyKeer:
         overlapping = (pressure == 0) & (gap < 0)
         pressure[overlapping] -= length * gap[overlapping]
         grown = settled or bool(overlapping.any())
-        return PolonskyKeerState(problem.admissible(pressure), False, direction, square, grown)
+        return PolonskyKeerState(problem.project(pressure), False, direction, square, grown)

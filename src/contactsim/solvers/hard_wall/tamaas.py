@@ -73,7 +73,7 @@ class Tamaas:
         model = tamaas.ModelFactory.createModel(kind, periods, list(shape))
         model.E, model.nu = 1.0, 0.0
         if guess is not None:
-            model.traction[...] = problem.admissible(guess)
+            model.traction[...] = problem.project(guess)
         method, counter = tamaas.PolonskyKeerRey(model, problem.heights, self.first_error), Counter()
         method.addFunctionalTerm(counter)
         method.max_iter, method.dump_freq = self.iterations, 10**9
