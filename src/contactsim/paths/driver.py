@@ -16,7 +16,7 @@ from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
 from contactsim.paths.pressures import Point, simulate_loads
 from contactsim.paths.record import simulate_path
-from contactsim.solvers.base import require
+from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import default_solver
 
 
@@ -119,7 +119,7 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
         if getattr(options, name) is not None:
             raise SceneError(name, getattr(options, name), f"none with {driver.words}")
     solver = default_solver(scene) if options.solver is None else options.solver
-    require(solver, scene)
+    check_solver(solver, scene)
     # more threads of dense algebra would only wait for each other, and change the last digits of a result
     with threadpool_limits(options.threads, "blas"):
         return driver.follow(replace(setup, options=replace(options, solver=solver)), reuse or Reuse())
