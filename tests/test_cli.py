@@ -160,7 +160,10 @@ def test_a_study_is_explained_by_its_name(monkeypatch, capsys):
         (("points: 256", "points: 256\nmembers: 3"), ["one run"]),
         (("points: 256", "points: 256\nseed: -1"), ["seed", "-1"]),
         (("points: 256", "pints: 256"), ["pints", "no such key"]),
-        (("points: 256", "points: 256\ntight: {tolerance: 1.0e-6, members: 1}"), ["tight", "one run"]),
+        (
+            ("points: 256", "points: 256\ntight_tolerance: {tolerance: 1.0e-6, members: 1}"),
+            ["tight_tolerance", "one run"],
+        ),
         (("points: 256", "points: 256\nvary: {surface.amplitude: [5.0]}"), ["vary", "one run"]),
     ],
 )

@@ -1,9 +1,8 @@
 """`contactsim explain | run | cost | compare`: one scene from the shell; two tiers side by side.
 
-A scene file has the keys of a study (config/README.md) without `vary`, `members`, `companion`, `tight`, `whole` and
-`fit_limits`, and may give `seed`. In place of a file, `explain` and `cost` take the name of a study in ./config;
-without either, `cost` is of every figure there.
-`compare` reads the CSVs of the figures in ./config as they lie in its results folder.
+A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
+`full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `cost` take the name of a study in
+./config; without either, `cost` estimates every figure there. `compare` reads the CSV files of figures in the results.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ from contactsim.paths.options import Accuracy, Setup
 from contactsim.status import Status, is_solved
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
-from contactsim.study.keys import COMPANIONS
+from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.plan import Plan
 from contactsim.study.reading import load_yaml, whole
 from contactsim.study.scenes import build_setup, updated_settings
@@ -49,7 +48,7 @@ def read_scene(path: str, accuracy: float | None = None) -> Study:
     section = load_yaml(path)
     if accuracy is not None and not {"accuracy", "tolerance"} & set(section):
         section["accuracy"] = accuracy
-    for key in ("vary", "members", *COMPANIONS, "fit_limits", "surfaces_of", "snapshot_members"):
+    for key in ("vary", "members", *ERROR_RUNS, "fit_limits", "same_surfaces_as", "snapshot_members"):
         if key in section:
             raise SceneError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
     seed = section.pop("seed", 0)
@@ -105,7 +104,7 @@ def explain_scene(options: argparse.Namespace) -> None:
     study = named(options.scene, options.tier)
     setup, runs = study.runs()[0].setup, len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
-    sys.stdout.write(explain(setup, study.settings["leave_out"]).text + "\n")
+    sys.stdout.write(explain(setup, study.settings["neglect"]).text + "\n")
     if options.draw:
         from contactsim.figures.sketch import save_sketch
 
@@ -170,7 +169,7 @@ def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     if "auto" in settings:
         decision = select_effects(settings)
         sys.stdout.write(f"{decision.words}\n")
-        setup, settings = neglect_effects(setup, decision.left_out), settings | {"leave_out": decision.left_out}
+        setup, settings = neglect_effects(setup, decision.left_out), settings | {"neglect": decision.left_out}
     accuracy = setup.options.accuracy
     if accuracy is None:
         return follow_path(setup), settings
@@ -186,7 +185,7 @@ def cost_scene(options: argparse.Namespace) -> None:
         sys.stdout.write(budget.table("config", Plan.read("config", options.tier)))
         return
     study = named(options.scene, options.tier, options.accuracy)
-    runs = [run for run in study.runs() if not run.companion]
+    runs = [run for run in study.runs() if not run.measures_error]
     setups = [run.setup for run in runs]
     try:
         if options.accuracy is not None:

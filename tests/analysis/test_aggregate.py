@@ -62,7 +62,12 @@ def runs(tmp_path):
                     )
                     path = tmp_path / f"{hurst}_{member}_{companion}.nc"
                     dataset.write(dataset.stamped(dataset.described(data), "run", {}, "source"), path)
-                    place = {"path": path, "coordinates": {"hurst": hurst}, "member": member, "companion": companion}
+                    place = {
+                        "path": path,
+                        "coordinates": {"hurst": hurst},
+                        "member": member,
+                        "measures_error": companion,
+                    }
                     listed.append(place)
         return listed
 
@@ -496,8 +501,8 @@ def test_a_load_is_named_by_the_dimension_that_it_is():
 
 def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_from_the_grid_error(runs):
     listed = runs(companions=2)
-    tight = [run | {"error": "tolerance"} for run in listed if run["companion"]]
-    data = made([run for run in listed if not run["companion"]] + tight)
+    tight = [run | {"error": "tolerance"} for run in listed if run["measures_error"]]
+    data = made([run for run in listed if not run["measures_error"]] + tight)
     assert "mean_gap_grid_error" not in data
     both = made(listed)
     assert np.array_equal(data.mean_gap_tolerance_error, both.mean_gap_grid_error)

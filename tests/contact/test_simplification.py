@@ -32,8 +32,8 @@ ASPERITY = {
     "path": {"approach": [-8.0, 0.0], "increment": 0.5},
     "points": 128,
     "tolerance": 1.0e-7,
-    "leave_out": ["coupling"],
-    "whole": {"members": 1},
+    "neglect": ["coupling"],
+    "full_model": {"members": 1},
 }
 
 
@@ -63,16 +63,16 @@ def test_all_of_them_together_in_any_order_leave_a_normal_scene():
 
 def test_an_effect_that_no_variant_has_is_refused_and_one_that_some_have_is_not():
     for names in (["friction", "coupling"], ["coupling", "friction"]):
-        assert Study.read("asperity", ASPERITY | {"leave_out": names}, "ch9.yaml", 1).runs()
-    deep = {"body": {"kind": "half_space", "youngs_modulus": 70.0, "poisson_ratio": 0.1}, "leave_out": ["height"]}
-    with pytest.raises(SceneError, match=r"leave_out: got 'height'; allowed: effects that the study has"):
+        assert Study.read("asperity", ASPERITY | {"neglect": names}, "ch9.yaml", 1).runs()
+    deep = {"body": {"kind": "half_space", "youngs_modulus": 70.0, "poisson_ratio": 0.1}, "neglect": ["height"]}
+    with pytest.raises(SceneError, match=r"neglect: got 'height'; allowed: effects that the study has"):
         Study.read("asperity", ASPERITY | deep, "ch9.yaml", 1)
 
 
 def test_what_is_left_out_is_explained(tmp_path, capsys):
     file = tmp_path / "scene.yaml"
-    section = {name: value for name, value in ASPERITY.items() if name not in ("whole", "title", "vary")}
-    file.write_text(yaml.safe_dump(section | {"leave_out": ["height"]}), encoding="utf-8")
+    section = {name: value for name, value in ASPERITY.items() if name not in ("full_model", "title", "vary")}
+    file.write_text(yaml.safe_dump(section | {"neglect": ["height"]}), encoding="utf-8")
     cli.main(["explain", str(file)])
     told = capsys.readouterr().out
     assert "height: as the study asks" in told
@@ -80,7 +80,7 @@ def test_what_is_left_out_is_explained(tmp_path, capsys):
 
 
 def test_a_wall_on_a_path_has_the_error_of_what_is_left_out(tmp_path):
-    wall = {"effects": ["hard_wall"], "path": {"approach": [0.0, 3.0], "increment": 1.0}, "leave_out": ["height"]}
+    wall = {"effects": ["hard_wall"], "path": {"approach": [0.0, 3.0], "increment": 1.0}, "neglect": ["height"]}
     given = {name: value for name, value in ASPERITY.items() if name not in ("cohesive_zone", "vary")}
     study = Study.read("asperity", given | wall | {"tolerance": 1e-3}, "ch9.yaml", 1)
     data = _aggregated(study, tmp_path)
@@ -90,19 +90,19 @@ def test_a_wall_on_a_path_has_the_error_of_what_is_left_out(tmp_path):
 def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path):
     study = Study.read("asperity", ASPERITY, "ch9.yaml", 1)
     assert [run.error for run in study.runs()] == ["", "", "left_out", "left_out"]
-    assert ["leave_out" in run.settings for run in study.runs()] == [True, True, False, False]
+    assert ["neglect" in run.settings for run in study.runs()] == [True, True, False, False]
     data = _aggregated(study, tmp_path)
     assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
     error = data.pull_off_load_loading_left_out_error
-    files = [tmp_path / f"{run.variant}_left_out.nc" for run in study.runs() if run.companion]
+    files = [tmp_path / f"{run.variant}_left_out.nc" for run in study.runs() if run.measures_error]
     whole = [summarised(dataset.read(file)).pull_off_load_loading for file in files]
     assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
     assert (error > 5).all()
 
 
 def test_runs_with_nothing_left_out_measure_nothing_where_nothing_is():
-    section = {name: value for name, value in ASPERITY.items() if name != "leave_out"}
-    with pytest.raises(SceneError, match=r"whole: got .*; allowed: none, for the study has no leave_out"):
+    section = {name: value for name, value in ASPERITY.items() if name != "neglect"}
+    with pytest.raises(SceneError, match=r"full_model: got .*; allowed: none, for the study has no neglect"):
         Study.read("asperity", section, "ch9.yaml", 1)
 
 
@@ -112,7 +112,12 @@ def _aggregated(study, folder):
     for run in study.runs():
         path = folder / f"{run.variant}_{run.error}.nc"
         execute.run(run.settings, run.source, RunFiles(path, path.with_suffix(".json")))
-        place = {"coordinates": run.coordinates, "member": run.member, "companion": run.companion, "error": run.error}
+        place = {
+            "coordinates": run.coordinates,
+            "member": run.member,
+            "measures_error": run.measures_error,
+            "error": run.error,
+        }
         listed.append({"path": path} | place)
     return aggregate(listed, study.settings | {"tier": "quick", "name": "asperity"}, "abc")
 
@@ -120,9 +125,9 @@ def _aggregated(study, folder):
 @pytest.mark.parametrize(
     ("changes", "key"),
     [
-        ({"leave_out": ["height", "rain"]}, "leave_out"),
-        ({"whole": {"members": 2}}, "whole.members"),
-        ({"leave_out": ["coupling", "coupling"]}, "leave_out"),
+        ({"neglect": ["height", "rain"]}, "neglect"),
+        ({"full_model": {"members": 2}}, "full_model.members"),
+        ({"neglect": ["coupling", "coupling"]}, "neglect"),
     ],
 )
 def test_what_cannot_be_left_out_is_refused_with_its_key(changes, key):

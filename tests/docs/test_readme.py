@@ -24,7 +24,7 @@ from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
 from contactsim.study.claim_plan import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS
-from contactsim.study.keys import ACCURACY_KEYS, AUTO_KEYS, COMPANIONS, KINDS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
+from contactsim.study.keys import ACCURACY_KEYS, AUTO_KEYS, ERROR_RUNS, KINDS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
 from contactsim.study.law_table import LAW_KEYS
 from contactsim.study.plan import CONFIG_KEYS, TIER_KEYS, Plan
 from contactsim.study.reading import REQUIRED, keys_of
@@ -195,7 +195,7 @@ def test_every_link_leads_somewhere():
             TIER_KEYS,
             STUDY_KEYS,
             FIGURE_KEYS,
-            *(keys for _, _, keys in COMPANIONS.values()),
+            *(keys for _, _, keys in ERROR_RUNS.values()),
             STABILITY_KEYS,
             dict.fromkeys(LOADS),
         ),
@@ -241,7 +241,7 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
-    known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *COMPANIONS["companion"][2], *STABILITY_KEYS, *LOADS}
+    known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *ERROR_RUNS["coarse_grid"][2], *STABILITY_KEYS, *LOADS}
     known |= {
         *SLIDE_KEYS,
         *CLAIM_KEYS,

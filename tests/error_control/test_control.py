@@ -160,8 +160,8 @@ def test_what_was_not_measured_is_refused():
     [
         ("points", 256),
         ("tolerance", 1e-3),
-        ("companion", {"points": 64, "members": 1}),
-        ("tight", {"tolerance": 1e-9, "members": 1}),
+        ("coarse_grid", {"points": 64, "members": 1}),
+        ("tight_tolerance", {"tolerance": 1e-9, "members": 1}),
         ("increments", {"kind": "adaptive"}),
         ("vary", {"points": [64, 128]}),
         ("path", {"approach": [-6.0, 5.0], "increment": 0.1}),

@@ -87,7 +87,7 @@ def test_a_map_is_the_change_that_two_solutions_show():
     large, small = data.change_without.values.ravel()
     assert large > 0.1 > 10 * small
     told = as_text({"coupling": data}, {"maps": {"coupling": settings}})
-    assert "leave_out: [coupling]" in told
+    assert "neglect: [coupling]" in told
 
 
 def test_the_frozen_maps_are_those_of_the_config():
@@ -102,7 +102,7 @@ def test_the_frozen_maps_are_those_of_the_config():
 @pytest.mark.parametrize(
     ("over", "key", "allowed"),
     [
-        ({"maps": {"coupling": {"leave_out": ["gravity"]}}}, "leave_out", "coupling"),
+        ({"maps": {"coupling": {"neglect": ["gravity"]}}}, "neglect", "coupling"),
         ({"maps": {"coupling": {"axes": {"spacing": {"values": "all"}}}}}, "values", "a list"),
         ({"maps": {"coupling": None, "new": []}}, "maps.new", "a mapping"),
         ({"maps": {"coupling": {"of": ["colour"]}}}, "coupling.of", "pull_off_load_loading"),
@@ -221,7 +221,7 @@ def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_ta
 
 def test_chapter_5_leaves_the_coupling_out_where_it_is_negligible_and_simulates_such_variants_once():
     plan = Plan.read(ROOT / "config", "standard")
-    runs = [run for run in plan.studies["rough_adhesive_auto"].runs() if not run.companion]
+    runs = [run for run in plan.studies["rough_adhesive_auto"].runs() if not run.measures_error]
     for run in runs:
         place = run.coordinates["poisson_ratio"], run.coordinates["work_ratio"]
         if place[0] == 0.45:
@@ -241,7 +241,7 @@ def test_chapter_5_leaves_the_coupling_out_where_it_is_negligible_and_simulates_
             "effects.sample",
             "at most 1",
         ),
-        ({"leave_out": ["friction"]}, "leave_out", "left out anyway"),
+        ({"neglect": ["friction"]}, "neglect", "left out anyway"),
     ],
 )
 def test_what_cannot_be_left_out_by_itself_is_refused(section, key, allowed):

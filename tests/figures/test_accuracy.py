@@ -93,9 +93,9 @@ def render(folder, plan=PLAN, jobs=JOBS, members=3):
         dataset.write(data, folder / f"{name}.nc")
         (folder / f"{name}.json").write_text(json.dumps(SECONDS[name]))
     dataset.write(study(members), folder / "study.nc")
-    alone = {"companion": False, "member": range(members), "reduced_pressure": 0.1, "seconds": 0.5}
+    alone = {"measures_error": False, "member": range(members), "reduced_pressure": 0.1, "seconds": 0.5}
     elsewhere = alone | {"reduced_pressure": 0.5, "seconds": 1e3}
-    coarse = alone | {"companion": True, "seconds": 1e4}
+    coarse = alone | {"measures_error": True, "seconds": 1e4}
     rows = pd.concat(map(pd.DataFrame, (alone, elsewhere, coarse)))
     rows.to_csv(folder / "costs.csv", index=False)
     files = {

@@ -40,7 +40,7 @@ def results(tmp_path_factory):
             for one in study.runs():
                 path, cost = (str(folder / f"runs/{one.stem}.{ending}") for ending in ("nc", "json"))
                 run(one.settings, one.source, path, cost)
-                place = {"coordinates": one.coordinates, "member": one.member, "companion": False, "error": "grid"}
+                place = {"coordinates": one.coordinates, "member": one.member, "measures_error": False, "error": "grid"}
                 listed.append({"path": path, "costs": cost} | place)
             made = aggregate.aggregate(listed, study.settings | {"name": name, "tier": "small"}, "abc")
             dataset.write(made, folder / f"datasets/{chapter}_{name}.nc")

@@ -332,7 +332,7 @@ def test_damaged_costs_do_not_stop_a_run(place, content):
 def test_the_table_of_costs_has_a_row_for_each_solved_load(place):
     files = place(settings_of())
     run = {"path": str(files.data), "costs": str(files.costs), "coordinates": {"hurst": 0.8}}
-    table = costs.table([run | {"member": 0, "companion": False}])
+    table = costs.table([run | {"member": 0, "measures_error": False}])
     data = dataset.read(files.data)
     assert table.reduced_pressure.tolist() == LOADS
     assert table.transforms.tolist() == data.transforms.values.tolist()

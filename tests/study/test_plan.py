@@ -116,8 +116,8 @@ def test_quick_keeps_every_figure_every_varied_value_and_at_least_three_members_
         least = 2 if study.settings["surface"].get("dimensions") == 2 or asked["path"] is not None else 3
         least = 1 if study.settings["vary"].get("points") else least  # it is grids that it compares
         assert study.settings["members"] >= min(least, asked["members"])
-        dropped = study.settings["companion"] is None  # of a path, which costs as much on any grid, it may be
-        assert dropped == (asked["companion"] is None) or (dropped and few)
+        dropped = study.settings["coarse_grid"] is None  # of a path, which costs as much on any grid, it may be
+        assert dropped == (asked["coarse_grid"] is None) or (dropped and few)
         assert study.settings["fit_limits"] == asked["fit_limits"]
 
 
@@ -339,23 +339,23 @@ BAD = {
         "a list of columns",
     ),
     "surfaces of no study": (
-        {"ch3.yaml": {"studies/rough/surfaces_of": "rogh"}},
+        {"ch3.yaml": {"studies/rough/same_surfaces_as": "rogh"}},
         "ch3.yaml",
-        "studies.rough.surfaces_of",
+        "studies.rough.same_surfaces_as",
         "rogh",
         "one of smooth",
     ),
     "surfaces of itself": (
-        {"ch3.yaml": {"studies/rough/surfaces_of": "rough"}},
+        {"ch3.yaml": {"studies/rough/same_surfaces_as": "rough"}},
         "ch3.yaml",
-        "studies.rough.surfaces_of",
+        "studies.rough.same_surfaces_as",
         "rough",
         "one of smooth",
     ),
     "surfaces of another kind": (
-        {"ch3.yaml": {"studies/rough/surfaces_of": "smooth"}},
+        {"ch3.yaml": {"studies/rough/same_surfaces_as": "smooth"}},
         "ch3.yaml",
-        "studies.rough.surfaces_of",
+        "studies.rough.same_surfaces_as",
         "smooth",
         "the same `surface`, self_affine",
     ),
@@ -502,7 +502,7 @@ def test_a_study_lists_each_run_with_its_files_and_digest(folder):
             "costs": f"made/plain/costs/runs/{run.stem}.json",
             "coordinates": run.coordinates,
             "member": run.member,
-            "companion": run.companion,
+            "measures_error": run.measures_error,
             "error": run.error,
             "digest": run.digest,
         }

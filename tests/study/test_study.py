@@ -33,7 +33,7 @@ ROUGH = {
     "vary": {"surface.hurst": [0.2, 0.8], "surface.rolloff_wavelength": [16.0, 24.0, 32.0]},
     "points": 128,
     "members": 2,
-    "companion": {"points": 64, "members": 1},
+    "coarse_grid": {"points": 64, "members": 1},
     "tolerance": 1e-3,
 }
 SURFACES = {
@@ -64,7 +64,7 @@ def study(changes=None, seed=1):
 
 
 def smooth(kind, load, **changes):
-    return study({"surface": SURFACES[kind], "load": load, "vary": {}, "members": 1, "companion": GONE} | changes)
+    return study({"surface": SURFACES[kind], "load": load, "vary": {}, "members": 1, "coarse_grid": GONE} | changes)
 
 
 def refusal(changes):
@@ -126,18 +126,18 @@ BAD = {
     "hurst above one": ({"surface/hurst": 1.2, "vary": {}}, "surface.hurst", 1.2, "from 0 to 1"),
     "varied hurst below nought": ({"vary": {"surface.hurst": [0.5, -0.1]}}, "surface.hurst", -0.1, "from 0 to 1"),
     "unknown amplitudes": ({"surface/amplitudes": "equal"}, "surface.amplitudes", "equal", "gaussian"),
-    "points too few": ({"points": 30, "companion": GONE}, "points", 30, "more than 30: two points per shortest"),
-    "companion points too few": ({"companion/points": 30}, "points", 30, "more than 30: two points per shortest"),
-    "no points": ({"points": GONE, "companion": GONE}, "points", None, "only a measured surface"),
+    "points too few": ({"points": 30, "coarse_grid": GONE}, "points", 30, "more than 30: two points per shortest"),
+    "coarse grid points too few": ({"coarse_grid/points": 30}, "points", 30, "more than 30: two points per shortest"),
+    "no points": ({"points": GONE, "coarse_grid": GONE}, "points", None, "only a measured surface"),
     "one point": ({"points": 1}, "points", 1, "2 or more"),
     "half a point": ({"points": 128.5}, "points", 128.5, "whole number"),
     "no member": ({"members": 0}, "members", 0, "1 or more"),
-    "companion with more members": ({"companion/members": 3}, "companion.members", 3, "at most 2"),
-    "companion with more points": ({"companion/points": 256}, "companion.points", 256, "below"),
-    "companion with as many points": ({"companion/points": 128}, "companion.points", 128, "below"),
-    "companion with one point": ({"companion/points": 1}, "companion.points", 1, "whole number"),
-    "companion without members": ({"companion/members": GONE}, "companion.members", "nothing", "at most"),
-    "companion with another key": ({"companion/tolerance": 1.0}, "companion.tolerance", 1.0, "points, members"),
+    "coarse grid with more members": ({"coarse_grid/members": 3}, "coarse_grid.members", 3, "at most 2"),
+    "coarse grid with more points": ({"coarse_grid/points": 256}, "coarse_grid.points", 256, "below"),
+    "coarse grid with as many points": ({"coarse_grid/points": 128}, "coarse_grid.points", 128, "below"),
+    "coarse grid with one point": ({"coarse_grid/points": 1}, "coarse_grid.points", 1, "whole number"),
+    "coarse grid without members": ({"coarse_grid/members": GONE}, "coarse_grid.members", "nothing", "at most"),
+    "coarse grid with another key": ({"coarse_grid/tolerance": 1.0}, "coarse_grid.tolerance", 1.0, "points, members"),
     "vary on an unknown section": ({"vary": {"mood.swing": [1.0]}}, "vary", "mood.swing", "surface.hurst"),
     "vary on an unknown key": ({"vary": {"surface.radius": [1.0]}}, "vary", "surface.radius", "surface.hurst"),
     "vary on a key of no section": ({"vary": {"members": [1, 2]}}, "vary", "members", "points, "),
@@ -289,12 +289,14 @@ def test_a_fit_limit_below_two_of_the_loads_is_refused():
     ids=lambda vary: next(iter(vary)),
 )
 def test_what_may_be_varied_can_also_be_aggregated(vary, tmp_path):
-    section = {"vary": vary, "members": 1, "companion": GONE, "load": {"reduced_pressure": [0.1]}}
+    section = {"vary": vary, "members": 1, "coarse_grid": GONE, "load": {"reduced_pressure": [0.1]}}
     read, runs = study(section), []
     for number, run in enumerate(read.runs()):
         path, costs = tmp_path / f"{number}.nc", tmp_path / f"{number}.json"
         execute.run(run.settings, "source", RunFiles(path, costs))
-        runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
+        runs.append(
+            {"path": path, "coordinates": run.coordinates, "member": run.member, "measures_error": run.measures_error}
+        )
     data = aggregate.aggregate(runs, read.settings, "source")
     ((name, values),) = vary.items()
     assert sorted(data.indexes[dataset.dimension(name)]) == sorted(values)
@@ -308,7 +310,7 @@ def test_the_kinds_of_two_sections_are_varied_along_two_dimensions():
 
 def measured_section(file, **more):
     return {"surface": {"kind": "measured", "file": str(file), "spacing": 1.0, **more}, "vary": {}, "points": GONE} | {
-        "companion": GONE,
+        "coarse_grid": GONE,
         "load": {"mean_pressure": [1e-3]},
         "members": 1,
     }
@@ -361,8 +363,8 @@ def test_a_measured_surface_refuses_another_number_of_points(scan):
 
 
 def test_a_measured_surface_has_no_companion(scan):
-    error = refusal(measured_section(scan, unit="nm") | {"companion": {"points": 19, "members": 1}})
-    assert error.key == "studies.rough.companion.points"
+    error = refusal(measured_section(scan, unit="nm") | {"coarse_grid": {"points": 19, "members": 1}})
+    assert error.key == "studies.rough.coarse_grid.points"
 
 
 # --- runs ---------------------------------------------------------------------------------------------------------
@@ -370,7 +372,7 @@ def test_a_measured_surface_has_no_companion(scan):
 
 def test_there_is_one_run_per_variant_and_member_and_companions_come_last():
     runs = study().runs()
-    assert [run.companion for run in runs] == [False] * 12 + [True] * 6
+    assert [run.measures_error for run in runs] == [False] * 12 + [True] * 6
     places = [(run.coordinates["hurst"], run.coordinates["rolloff_wavelength"], run.member) for run in runs]
     values = [0.2, 0.8], [16.0, 24.0, 32.0]
     assert places[:12] == list(itertools.product(*values, [0, 1]))
@@ -417,7 +419,7 @@ def test_without_anything_varied_there_is_one_variant():
 
 
 def by_place(runs):
-    return {(*sorted(run.coordinates.items()), run.member, run.companion): run for run in runs}
+    return {(*sorted(run.coordinates.items()), run.member, run.measures_error): run for run in runs}
 
 
 def test_the_order_of_varied_keys_and_values_changes_no_run():
@@ -483,7 +485,7 @@ def test_a_run_has_another_digest_for_another_seed():
 def test_the_same_seed_study_hurst_and_member_give_the_same_profile_whatever_else_changes():
     one = study().runs()[0]
     others = [
-        study({"members": 7, "companion": GONE}).runs()[0],
+        study({"members": 7, "coarse_grid": GONE}).runs()[0],
         study({"load": {"mean_pressure": [0.5]}, "body/contact_modulus": 3.0, "tolerance": 1e-5}).runs()[0],
         study({"solver": {"kind": "verlet"}, "title": "other"}).runs()[0],
         study({"vary": {"surface.hurst": [0.2]}, "surface/rolloff_wavelength": 16.0}).runs()[0],
@@ -496,7 +498,7 @@ def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
     def phases(run):
         return np.angle(run.setup.scene.upper.surface.coefficients[1:])
 
-    low, high = (study({"vary": {"surface.hurst": [hurst]}, "companion": GONE}) for hurst in (0.2, 0.8))
+    low, high = (study({"vary": {"surface.hurst": [hurst]}, "coarse_grid": GONE}) for hurst in (0.2, 0.8))
     renamed = Study.read("other", changed({"vary": {"surface.hurst": [0.2]}}), "ch9.yaml", 1)
     seeded = study({"vary": {"surface.hurst": [0.2]}}, seed=2)
     runs = [*low.runs(), *high.runs(), renamed.runs()[0], seeded.runs()[0]]
@@ -536,7 +538,7 @@ def test_reduced_pressures_of_prescribed_heights_use_each_members_own_gradient_w
 
 
 def test_a_varied_height_has_a_dimension_beside_the_height_found():
-    height = {"surface/rms_gradient": GONE, "vary": {"surface.rms_height": [10.0, 30.0]}, "companion": GONE}
+    height = {"surface/rms_gradient": GONE, "vary": {"surface.rms_height": [10.0, 30.0]}, "coarse_grid": GONE}
     varied = study(height | {"surface/rms_height": 10.0})
     assert varied.dimensions == ["surface_rms_height", "member", "reduced_pressure"]
     first, *_, last = varied.runs()
@@ -563,15 +565,15 @@ def test_contact_ratios_are_turned_into_hertzian_loads():
 
 
 def test_tight_runs_come_after_all_others_and_differ_in_the_tolerance_alone():
-    runs = study({"tight": {"tolerance": 1e-9, "members": 1}}).runs()
+    runs = study({"tight_tolerance": {"tolerance": 1e-9, "members": 1}}).runs()
     tight = [run for run in runs if run.error == "tolerance"]
     assert runs[-len(tight) :] == tight
-    assert all(run.companion for run in tight)
+    assert all(run.measures_error for run in tight)
     for run in tight:
         (same,) = (
             other
             for other in runs
-            if not other.companion and (other.coordinates, other.member) == (run.coordinates, run.member)
+            if not other.measures_error and (other.coordinates, other.member) == (run.coordinates, run.member)
         )
         assert run.settings == same.settings | {"tolerance": 1e-9}
         assert run.variant != same.variant
@@ -588,15 +590,15 @@ def test_tight_runs_come_after_all_others_and_differ_in_the_tolerance_alone():
 )
 def test_a_bad_tight_companion_is_refused(tight, key, allowed):
     with pytest.raises(SceneError) as caught:
-        study({"tight": tight})
-    assert caught.value.key == f"studies.rough.tight.{key}"
+        study({"tight_tolerance": tight})
+    assert caught.value.key == f"studies.rough.tight_tolerance.{key}"
     assert allowed in caught.value.allowed
 
 
 # --- grids and surfaces in common ---------------------------------------------------------------------------------
 
 
-FINER = {"points": GONE, "companion": GONE, "vary": {"points": [64, 128, 256], "surface.hurst": [0.2]}}
+FINER = {"points": GONE, "coarse_grid": GONE, "vary": {"points": [64, 128, 256], "surface.hurst": [0.2]}}
 
 
 def test_varied_points_are_a_dimension_and_sample_the_same_surface():
@@ -604,13 +606,13 @@ def test_varied_points_are_a_dimension_and_sample_the_same_surface():
     assert one.dimensions == ["points", "hurst", "member", "reduced_pressure"]
     runs = [run for run in one.runs() if run.member == 1]
     assert [run.coordinates["points"] for run in runs] == [run.settings["points"] for run in runs] == [64, 128, 256]
-    assert not any(run.companion for run in runs)
+    assert not any(run.measures_error for run in runs)
     coarse, *_, fine = (profile(run) for run in runs)
     assert np.allclose(fine[::4], coarse, rtol=0, atol=1e-14 * np.abs(fine).max() * np.log2(fine.size))
 
 
 def test_a_run_on_a_varied_grid_is_that_of_a_study_with_this_grid():
-    alone = study({"points": 64, "companion": GONE, "vary": {"surface.hurst": [0.2]}}).runs()[0]
+    alone = study({"points": 64, "coarse_grid": GONE, "vary": {"surface.hurst": [0.2]}}).runs()[0]
     assert canonical(study(FINER).runs()[0].settings) == canonical(alone.settings)
 
 
@@ -618,7 +620,7 @@ def test_a_run_on_a_varied_grid_is_that_of_a_study_with_this_grid():
     ("changes", "key", "allowed"),
     [
         ({"points": 128}, "points", "left out, for points are varied"),
-        ({"companion": {"points": 32, "members": 1}}, "companion", "left out, for points are varied"),
+        ({"coarse_grid": {"points": 32, "members": 1}}, "coarse_grid", "left out, for points are varied"),
         ({"vary": {"points": [64, 1]}}, "vary.points", "2 or more"),
         ({"vary": {"points": [64.5]}}, "vary.points", "a whole number"),
         ({"vary": {"points": [16]}}, "points", "two points per shortest wavelength"),
@@ -632,7 +634,7 @@ def test_grids_that_cannot_be_varied_are_refused(changes, key, allowed):
 
 
 def test_a_study_may_press_the_surfaces_of_another():
-    own, same = study().runs(), Study.read("other", changed({"surfaces_of": "rough"}), "ch9.yaml", 1).runs()
+    own, same = study().runs(), Study.read("other", changed({"same_surfaces_as": "rough"}), "ch9.yaml", 1).runs()
     for one, other in zip(own, same, strict=True):
         assert one.stem != other.stem
         assert np.array_equal(profile(one), profile(other))
@@ -643,7 +645,9 @@ def test_grids_are_aggregated_along_points_with_their_limit(tmp_path):
     for number, run in enumerate(read.runs()):
         path = tmp_path / f"{number}.nc"
         execute.run(run.settings, "source", RunFiles(path, tmp_path / f"{number}.json"))
-        runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
+        runs.append(
+            {"path": path, "coordinates": run.coordinates, "member": run.member, "measures_error": run.measures_error}
+        )
     data = aggregate.aggregate(runs, read.settings, "source")
     assert data.points.values.tolist() == [64, 128, 256]
     assert data.kappa_mean.dims == ("points", "hurst", "reduced_pressure")
@@ -658,7 +662,7 @@ def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tm
         "vary": GONE,
         "members": 2,
         "points": 256,
-        "companion": {"points": 128, "members": 1},
+        "coarse_grid": {"points": 128, "members": 1},
         "snapshots": [-4.0],
         "snapshot_members": 1,
         "tolerance": 1e-6,
@@ -667,7 +671,9 @@ def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tm
     for number, run in enumerate(read.runs()):
         path = tmp_path / f"{number}.nc"
         execute.run(run.settings, "source", RunFiles(path, tmp_path / f"{number}.json"))
-        runs.append({"path": path, "coordinates": run.coordinates, "member": run.member, "companion": run.companion})
+        runs.append(
+            {"path": path, "coordinates": run.coordinates, "member": run.member, "measures_error": run.measures_error}
+        )
     assert ["normal_gap" in dataset.read(run["path"]) for run in runs[:2]] == [True, False]
     data = aggregate.aggregate(runs, read.settings, "source")
     one, two = data.mean_pressure.transpose("member", "step").values

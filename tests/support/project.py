@@ -50,7 +50,7 @@ ROUGH = {
     "load": {"reduced_pressure": [0.01, 0.1, 0.5]},
     "points": 2048,
     "members": 2,
-    "companion": {"points": 1024, "members": 1},
+    "coarse_grid": {"points": 1024, "members": 1},
     "tolerance": 1.0e-3,
 }
 

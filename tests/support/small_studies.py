@@ -40,12 +40,12 @@ def small_section(chapter, name):
     section = yaml.safe_load((ROOT / f"config/{chapter}.yaml").read_text(encoding="utf-8"))["studies"][name]
     for key, value in SMALL[chapter][name].items():
         section[key] = section[key] | value if key in ("surface", "path", "increments") else value
-    return section | {"companion": {"points": section["points"] // 2, "members": 1}}
+    return section | {"coarse_grid": {"points": section["points"] // 2, "members": 1}}
 
 
 def small(chapter, name):
     """The same, without other runs to measure errors by."""
     section = small_section(chapter, name)
-    for key in ("companion", "tight", "thesis_points", "fit_limits"):
+    for key in ("coarse_grid", "tight_tolerance", "thesis_points", "fit_limits"):
         section.pop(key, None)
     return Study.read(name, section, f"config/{chapter}.yaml", 1)

@@ -96,7 +96,7 @@ class Workshop:
         """Return what each job is given, by the job: runs, datasets and figures."""
         plan = self.plan()
         jobs = {
-            f"run {study.name} {run.stem} {run.companion}": canonical([run.settings, run.source])
+            f"run {study.name} {run.stem} {run.measures_error}": canonical([run.settings, run.source])
             for study in plan.studies.values()
             for run in study.runs()
         }

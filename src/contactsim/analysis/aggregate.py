@@ -33,13 +33,13 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     Parameters
     ----------
     runs
-        Of each run `path`, `coordinates`, `member`, `companion` and `error`.
+        Of each run `path`, `coordinates`, `member`, `measures_error` and `error`.
     settings
         Settings of the study.
     source
         Digest of the code that made the runs.
     """
-    combined = _read_runs([run for run in runs if not run["companion"]])
+    combined = _read_runs([run for run in runs if not run["measures_error"]])
     form = form_of(combined)
     data = form.derive(combined)
     data = _aggregate_paths(data, form, runs) if form.is_path else _aggregate_loads(data, form, runs, settings)
@@ -85,7 +85,7 @@ def _read_runs(runs: list[dict]) -> xr.Dataset:
 def _error_runs(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield the suffix and the combined runs of each kind of error that is measured."""
     for error in ERRORS:
-        others = [run for run in runs if run["companion"] and run.get("error", "grid") == error]
+        others = [run for run in runs if run["measures_error"] and run.get("error", "grid") == error]
         if others:
             yield f"_{error}_error", _read_runs(others)
 

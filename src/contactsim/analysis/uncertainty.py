@@ -85,7 +85,7 @@ def _number(claim: Mapping, data: Sequence[xr.Dataset]) -> float:
 def _ensemble_groups(data: Sequence[xr.Dataset]) -> list[tuple[int, ...]]:
     """Return the indices of the datasets in groups whose members have the same random waves."""
     settings = [dataset.settings_of(study) for study in data]
-    waves = [(own.get("surfaces_of") or own.get("name", index)) for index, own in enumerate(settings)]
+    waves = [(own.get("same_surfaces_as") or own.get("name", index)) for index, own in enumerate(settings)]
     shared = len(set(waves)) == 1 and len({study.member.size for study in data}) == 1
     indices = range(len(data))
     return [tuple(indices)] if shared else [(index,) for index in indices]

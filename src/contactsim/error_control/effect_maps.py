@@ -82,7 +82,7 @@ def effect_maps() -> dict[str, dict]:
 
 def expected_change(scene: Scene, effect: str) -> float | None:
     """Return the largest relative change that the maps expect without an effect; None where none knows it."""
-    maps = [section for section in effect_maps().values() if section["leave_out"] == [effect]]
+    maps = [section for section in effect_maps().values() if section["neglect"] == [effect]]
     changes = [_read_map(scene, section) for section in maps if _applies(scene, section)]
     return max((change for change in changes if change is not None), default=None)
 

@@ -14,7 +14,7 @@ from contactsim.observables.forms import AVERAGED
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ALONG, ONSET, THRESHOLD
-from contactsim.study.keys import COMPANIONS
+from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kinds import problem_kind
 from contactsim.study.reading import Key, choice, mapping, number, positive, read, text
 from contactsim.study.study import Study
@@ -183,5 +183,5 @@ def _path_quantities(study: Study) -> list[str]:
 
 def _error_names(study: Study, names: set[str]) -> set[str]:
     """Return the names of the errors of quantities that a study measures."""
-    kinds = [error for part, (_, error, _) in COMPANIONS.items() if study.settings[part] is not None]
+    kinds = [error for part, (_, error, _) in ERROR_RUNS.items() if study.settings[part] is not None]
     return {f"{name}_{error}_error" for name in names for error in kinds}

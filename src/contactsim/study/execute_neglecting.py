@@ -73,7 +73,7 @@ def run(
     begin = time.process_time()
     setup = build_setup(settings, threads)
     neglected = Neglected.read(decision, setup, settings["member"])
-    settings = settings | {"leave_out": neglected.effects}
+    settings = settings | {"neglect": neglected.effects}
     if twin is not None and _take_over(twin, settings, source, files, neglected.notes):
         return
     compute = execute.compute if setup.options.accuracy is None else execute_to_accuracy.compute

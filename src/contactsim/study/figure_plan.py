@@ -106,7 +106,7 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
     first, load = study.runs()[0], study.settings["load"]
     if FIELDS not in study.settings["keep"] or Trait.SURFACE not in first.setup.scene.traits:
         raise SceneError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
-    places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.companion]
+    places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.measures_error]
     places = [place | {load["name"]: value} for place in places for value in load["values"]]
     for dim, (least, largest) in settings["select"].items():
         low, high = widen_interval(least, largest)

@@ -113,13 +113,13 @@ STUDY_KEYS = {
     "snapshot_members": Key(whole(1), "of how many members fields are kept, 1 or more; left out, of all", None),
     "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
     "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
-    "surfaces_of": Key(text, "the name of a study of this chapter with the same random surfaces", None),
+    "same_surfaces_as": Key(text, "the name of a study of this chapter with the same random surfaces", None),
     "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
-    "companion": Key(mapping, "a mapping with `points` and `members`", None),
-    "tight": Key(mapping, "a mapping with `tolerance` and `members`", None),
-    "leave_out": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}", []),
-    "whole": Key(mapping, "a mapping with `members`, of runs with nothing left out", None),
+    "coarse_grid": Key(mapping, "a mapping with `points` and `members`", None),
+    "tight_tolerance": Key(mapping, "a mapping with `tolerance` and `members`", None),
+    "neglect": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}", []),
+    "full_model": Key(mapping, "a mapping with `members`, of runs that neglect nothing", None),
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
     "tolerance": Key(positive, "a positive number: of grid steps or, of smooth laws, parts of their strength", None),
     "accuracy": Key(error_or_more, "a relative error below 1, or a mapping with `error` and `of`", None),
@@ -131,7 +131,7 @@ STUDY_KEYS |= {
     for name in EFFECTS
     if keys_of(EFFECTS[name])
 }
-CHOSEN = ("points", "tolerance", "increments", "companion", "tight")
+CHOSEN = ("points", "tolerance", "increments", "coarse_grid", "tight_tolerance")
 """What a study leaves out where it asks for an accuracy, beside the increments of its path."""
 BEGIN = {"points": 2**14, "tolerance": 1e-3}
 """Of a run whose own are chosen for an accuracy, until they are."""
@@ -148,18 +148,18 @@ SLIDE_KEYS = {
     "mean_pressure": Key(number, "the mean pressure in GPa under which surfaces slide, or left out", None),
 }
 FEWER = {"members": Key(whole(1), "a whole number, at most the study's members")}
-COMPANIONS = {
-    "companion": (
+ERROR_RUNS = {
+    "coarse_grid": (
         "points",
         "grid",
         {"points": Key(whole(2), "a whole number of grid points, fewer than the study's")} | FEWER,
     ),
-    "tight": (
+    "tight_tolerance": (
         "tolerance",
         "tolerance",
         {"tolerance": Key(positive, "a positive number, in the units of the study's and below it")} | FEWER,
     ),
-    "whole": ("leave_out", "left_out", FEWER),
+    "full_model": ("neglect", "left_out", FEWER),
 }
 """Sections that ask for runs that measure an error: the key in which they differ, the kind of error, of
 `variables.ERRORS`, and their keys."""
@@ -171,9 +171,9 @@ def acting(settings: dict, file: object, prefix: str) -> dict:
     if not isinstance(given, dict):
         return {"auto": None}
     auto = read(given, AUTO_KEYS, file, f"{prefix}.effects")
-    if settings["leave_out"]:
+    if settings["neglect"]:
         allowed = "left out, for what is negligible is left out anyway"
-        raise SceneError(f"{prefix}.leave_out", settings["leave_out"], allowed, file)
+        raise SceneError(f"{prefix}.neglect", settings["neglect"], allowed, file)
     effects = auto.pop("auto")
     known = STUDY_KINDS[problem_kind(effects)].comparable
     for name in auto["of"]:

@@ -202,7 +202,7 @@ class Plan:
                 "costs": f"{self.results}/costs/runs/{run.stem}.json",
                 "coordinates": run.coordinates,
                 "member": run.member,
-                "companion": run.companion,
+                "measures_error": run.measures_error,
                 "error": run.error,
                 "digest": run.digest,
             }
@@ -256,12 +256,12 @@ RESCALED_KEYS = ("hurst", "rms_height", "rms_gradient", "shortest_wavelength")
 def _check_surfaces(studies: dict[str, Study]) -> None:
     """Raise InputError for a study that shares another's surfaces but describes them otherwise."""
     for study in studies.values():
-        name = study.settings["surfaces_of"]
+        name = study.settings["same_surfaces_as"]
         if name is None:
             continue
-        other, key = studies.get(name), f"studies.{study.name}.surfaces_of"
-        if other is None or other.settings["surfaces_of"] is not None:
-            names = ", ".join(name for name, own in studies.items() if own.settings["surfaces_of"] is None)
+        other, key = studies.get(name), f"studies.{study.name}.same_surfaces_as"
+        if other is None or other.settings["same_surfaces_as"] is not None:
+            names = ", ".join(name for name, own in studies.items() if own.settings["same_surfaces_as"] is None)
             raise SceneError(key, name, f"one of {names}", study.file)
         first, second = (
             {k: v for k, v in own.settings["surface"].items() if k not in RESCALED_KEYS} for own in (study, other)

@@ -69,7 +69,7 @@ def build_scene(settings: Mapping) -> Scene:
     elasticities = [body for body in (lower, upper) if body is not None]
     path = _build_path(settings, surface, elasticities)
     scene = Scene(*bodies, effects, path, _build_pairing(settings.get("pairing")))
-    return simplify(scene, settings.get("leave_out", ()))
+    return simplify(scene, settings.get("neglect", ()))
 
 
 def _build_pairing(section: Mapping | None) -> Pairing:

@@ -25,7 +25,7 @@ from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import solver_module
 from contactsim.study.keys import (
     BODIES,
-    COMPANIONS,
+    ERROR_RUNS,
     KINDS,
     MODULI,
     RIGID,
@@ -58,7 +58,7 @@ class Run:
     settings : dict
         Every value that the run depends on.
     error : str
-        Kind of error that it measures, of `keys.COMPANIONS`; empty for the study's own runs.
+        Kind of error that it measures, of `keys.ERROR_RUNS`; empty for the study's own runs.
     """
 
     study: str
@@ -69,7 +69,7 @@ class Run:
     error: str = ""
 
     @property
-    def companion(self) -> bool:
+    def measures_error(self) -> bool:
         """True where it only measures an error."""
         return bool(self.error)
 
@@ -136,9 +136,9 @@ class Study:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": default_solver(settings)} | settings["solver"]
         _refuse_unused(section, settings, file, prefix)
-        for part in COMPANIONS:
+        for part in ERROR_RUNS:
             if settings[part] is not None:
-                settings[part] = _companion(part, settings, file, prefix)
+                settings[part] = _read_error_run(part, settings, file, prefix)
         study = cls(name, settings, str(file), seed)
         for run in study.runs():
             if run.member == 0:
@@ -149,11 +149,11 @@ class Study:
 
     def _check_left_out(self) -> None:
         """Raise InputError where no variant has an effect that is to be neglected."""
-        names = self.settings["leave_out"]
-        scenes = [build_scene(run.settings | {"leave_out": []}) for run in self.runs() if names and run.member == 0]
+        names = self.settings["neglect"]
+        scenes = [build_scene(run.settings | {"neglect": []}) for run in self.runs() if names and run.member == 0]
         for name in names:
             if all(SIMPLIFICATIONS[name](scene) == scene for scene in scenes):
-                raise SceneError(f"studies.{self.name}.leave_out", name, "effects that the study has", self.file)
+                raise SceneError(f"studies.{self.name}.neglect", name, "effects that the study has", self.file)
 
     def _check_fits(self) -> None:
         """Raise InputError for fits without two loads below the limit, or with more varied than Hurst exponents."""
@@ -174,7 +174,7 @@ class Study:
         return [*varied, "member", self.settings["load"]["name"]]
 
     def runs(self) -> list[Run]:
-        """Every job of the study, in order: variants, then members; companions last."""
+        """Every job of the study, in order: variants, then members; runs that measure an error last."""
         return list(self._runs)
 
     @cached_property
@@ -185,7 +185,7 @@ class Study:
             for values in itertools.product(*(self._values(name) for name in names))
         ]
         changes = [("", {}, self.settings["members"])]
-        for part, (knob, error, _) in COMPANIONS.items():
+        for part, (knob, error, _) in ERROR_RUNS.items():
             if self.settings[part] is not None:
                 value = self.settings[part].get(knob, [])  # with nothing left out
                 changes.append((error, {knob: value}, self.settings[part]["members"]))
@@ -213,14 +213,14 @@ class Study:
         """Return the run of one variant and member; change: what a run that measures an error does otherwise."""
         parts, points = self._varied_parts(varied)
         kind = study_kind(self.settings)
-        settings = {"study": self.settings["surfaces_of"] or self.name, "member": member, "seed": self.seed}
-        settings |= {name: self.settings[name] for name in ("effects", "load", "tolerance", "leave_out")}
+        settings = {"study": self.settings["same_surfaces_as"] or self.name, "member": member, "seed": self.seed}
+        settings |= {name: self.settings[name] for name in ("effects", "load", "tolerance", "neglect")}
         settings |= kind.run_settings(self.settings, member) | {"points": points} | change | parts
         if "through" in settings["load"]:  # says all, and is short
             settings["load"] = {key: value for key, value in settings["load"].items() if key != "values"}
-        if not settings["leave_out"]:
-            del settings["leave_out"]  # a study that neglects nothing has the runs of one that does not mention it
-        if self.settings["auto"] is not None and error != COMPANIONS["whole"][1]:
+        if not settings["neglect"]:
+            del settings["neglect"]  # a study that neglects nothing has the runs of one that does not mention it
+        if self.settings["auto"] is not None and error != ERROR_RUNS["full_model"][1]:
             settings["auto"] = self.settings["auto"]
         if "file" in parts["surface"]:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
@@ -316,9 +316,9 @@ class Study:
             raise error.within(self.file, f"studies.{self.name}{section}") from error
 
 
-def _companion(part: str, settings: dict, file: object, prefix: str) -> dict:
-    """What a study says of runs that measure an error."""
-    knob, _, keys = COMPANIONS[part]
+def _read_error_run(part: str, settings: dict, file: object, prefix: str) -> dict:
+    """Return the section of a study for runs that measure an error, checked."""
+    knob, _, keys = ERROR_RUNS[part]
     given = read(settings[part], keys, file, f"{prefix}.{part}")
     if knob in settings["vary"]:
         raise SceneError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)

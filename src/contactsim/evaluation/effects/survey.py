@@ -37,7 +37,7 @@ KEYS = {
 }
 MAP_KEYS = {
     "title": Key(text, "a line of text"),
-    "leave_out": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}"),
+    "neglect": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}"),
     "of": Key(listed(text), "a list of quantities"),
     "scene": Key(mapping, "the keys of a study with one run"),
     "axes": Key(mapping, "a mapping from names to a key of the scene and its values"),
@@ -146,7 +146,7 @@ def measure(name: str, settings: dict) -> xr.Dataset:
     for place in np.ndindex(errors.shape):
         values = {axis: given["values"][k] for (axis, given), k in zip(axes.items(), place, strict=True)}
         setup = _study(settings, values, name, "effect_maps.yaml").runs()[0].setup
-        errors[place] = change_without(setup, settings["leave_out"], settings["of"], known)
+        errors[place] = change_without(setup, settings["neglect"], settings["of"], known)
     return as_dataset(settings, errors)
 
 
@@ -188,7 +188,7 @@ def as_text(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
         one = settings["maps"][name]
         scene = one["scene"]
         told[name] = {
-            "leave_out": one["leave_out"],
+            "neglect": one["neglect"],
             "of": one["of"],
             "surface": scene["surface"]["kind"],
             "effects": scene["effects"],

@@ -19,7 +19,7 @@ from contactsim.paths.driver import follow_path
 from contactsim.provenance import computing_digest, digest
 from contactsim.solvers.registry import is_installed, package_version, solver_module
 from contactsim.study.execute import label_run
-from contactsim.study.keys import COMPANIONS
+from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.study import Run, Study
 
 REFERENCE = "reference"
@@ -79,7 +79,7 @@ class Case:
         """The study of a job at one setting."""
         changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solved_by(job)}}
         changed |= self.kind.changed(self.study, self.settings["load"], setting)
-        apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(COMPANIONS)
+        apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(ERROR_RUNS)
         return replace(self.study, settings=self.study.settings | changed | apart)
 
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:

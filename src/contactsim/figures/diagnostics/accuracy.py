@@ -45,7 +45,7 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     times = {job: json.loads(Path(path).read_text()) for job, path in zip(jobs, files["costs"], strict=True)}
     study = dataset.read(files["study"]).sel(plan["selection"])
     table = error_cost.table(settings, data, study, plan["default"])
-    alone = pd.read_csv(files["study_costs"]).query("not companion")
+    alone = pd.read_csv(files["study_costs"]).query("not measures_error")
     chosen = alone
     for name, values in (plan["selection"] | plan["loads"]).items():
         chosen = chosen[among(chosen[name], values)]
