@@ -12,6 +12,7 @@ import yaml
 
 from contactsim import provenance
 from contactsim.provenance import canonical
+from contactsim.study.execute import point_digests
 from contactsim.study.plan import Plan
 
 SOURCE = Path(provenance.__file__).parent
@@ -164,7 +165,14 @@ def computing_more(text: str) -> str:
     return text + "\nEDITED = 1\n"
 
 
-MODULES = ["grid", "interface/laws", "solvers/hard_wall/active_set", "paths/record", "study/execute", "figures/ch3"]
+MODULES = [
+    "grid",
+    "interface/cohesive_zone",
+    "solvers/hard_wall/active_set",
+    "paths/record",
+    "study/execute",
+    "figures/ch3",
+]
 
 
 @pytest.mark.parametrize(
@@ -184,7 +192,7 @@ def test_an_edit_of_words_alone_runs_nothing(workshop, how):
     ("module", "expected"),
     [
         ("grid", ALL),
-        ("interface/laws", RUNS | AGGREGATED | FIGURES),
+        ("interface/cohesive_zone", RUNS | AGGREGATED | FIGURES),
         ("contact/hard_wall", RUNS | AGGREGATED | FIGURES),
         ("solvers/hard_wall/active_set", everything_after("wall")),
         ("solvers/hard_wall/polonsky_keer", everything_after("keer")),
@@ -228,11 +236,9 @@ def test_an_edit_of_the_config_runs_what_uses_the_value(workshop, file, key, val
 
 
 def test_an_added_pressure_runs_the_sweeps_of_its_study_which_keep_the_load_steps_they_have(workshop):
-    from contactsim.study.execute import names_of
-
     def steps() -> set[str]:
         run = workshop.plan().studies["wall"].runs()[0]
-        return set(names_of(run.settings, run.source))
+        return set(point_digests(run.settings, run.source, len(run.setup.scene.path.steps)))
 
     before, steps_before = workshop.jobs(), steps()
     workshop.change("ch3.yaml", "studies/wall/load", {"contact_ratio": [0.1, 0.15, 0.2]})
