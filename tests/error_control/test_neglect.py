@@ -21,7 +21,7 @@ from contactsim.study import execute_neglecting
 from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
 from contactsim.study.study import Run, Study
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 from support.cases import refused
 from support.places import ROOT
 
@@ -252,8 +252,8 @@ def test_what_cannot_be_left_out_by_itself_is_refused(section, key, allowed):
 @pytest.mark.parametrize("dimensions", [1, 2])
 def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
     given = {"length": 64.0, "hurst": 0.5, "rolloff_wavelength": 32.0, "shortest_wavelength": 4.0, "rms_gradient": 0.1}
-    surface = SelfAffine(**given, dimensions=dimensions, rng=generator(1, 0.5))
-    smooth = SelfAffine(**given, dimensions=dimensions, smoothed=8.0, rng=generator(1, 0.5))
+    surface = SelfAffine(**given, dimensions=dimensions, seed=realisation_seed(1, 0.5))
+    smooth = SelfAffine(**given, dimensions=dimensions, smoothed=8.0, seed=realisation_seed(1, 0.5))
     assert smooth.modes == 7
     whole = np.fft.fftn(surface.heights(64))
     waves = np.fft.fftfreq(64, 1 / 64)
@@ -264,7 +264,7 @@ def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
     assert np.array_equal(surface.heights(64), surface.heights(64))
     smooth.check(16)
     with refused("smoothed", "below the roll-off"):
-        SelfAffine(**given, smoothed=40.0, rng=generator(1, 0.5))
+        SelfAffine(**given, smoothed=40.0, seed=realisation_seed(1, 0.5))
 
 
 def test_a_second_body_and_short_waves_are_left_out_where_there_are_such():

@@ -117,7 +117,7 @@ def peak():  # of this program alone: what getrusage tells begins with its paren
     return float(open("/proc/self/status").read().partition("VmHWM:")[2].split()[0])
 
 for points in (256, 2048):  # the smaller one makes the threads and their buffers
-    rough = SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(1, 0.8), dimensions=2)
+    rough = SelfAffine(points, 0.8, points / 4, 8.0, 1.0, seed=realisation_seed(1, 0.8), dimensions=2)
     path = loading.pressures([1e-3, 1e-2])
     scene = Scene(Body(Flat.facing(rough), HalfSpace(1.0)), Body(rough), (HardWall(),), path)
     before = peak()

@@ -20,7 +20,7 @@ from contactsim.solvers.registry import make_solver
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from support.places import ROOT
@@ -33,7 +33,7 @@ SETTLED = [-4.0, 0.0, 3.0]
 def rough(points: float = 32.0) -> SelfAffine:
     """A rough profile whose shortest wave is so many of 4096 points long."""
     length = 2560.0
-    return SelfAffine(length, 0.8, 320.0, points * length / 4096, rms_height=5.0, rng=generator(7, 0.8))
+    return SelfAffine(length, 0.8, 320.0, points * length / 4096, rms_height=5.0, seed=realisation_seed(7, 0.8))
 
 
 def rough_scene(law: object, begin: float = -5.0, end: float = 3.0) -> Scene:

@@ -18,7 +18,7 @@ from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Flat, Sinusoid, Sphere
 from support.cases import press as press_line
 
@@ -48,7 +48,7 @@ def press(
 
 
 def rough(points, hurst=0.8, seed=1):
-    surface = SelfAffine(points, hurst, points / 2, 8.0, 1.0, rng=generator(seed, hurst), dimensions=2)
+    surface = SelfAffine(points, hurst, points / 2, 8.0, 1.0, seed=realisation_seed(seed, hurst), dimensions=2)
     return surface.heights(points)
 
 

@@ -24,7 +24,7 @@ from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffn
 from contactsim.solvers.registry import SOLVERS, make_solver
 from contactsim.status import Status
 from contactsim.surfaces.profile import Profile, prepare
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait
@@ -188,7 +188,7 @@ def test_each_solver_accepts_every_trait_it_claims_and_refuses_the_rest(name):
 @pytest.mark.parametrize("thickness", [None, 3.0])
 @pytest.mark.parametrize("pressure", [1e-4, 0.03, 0.5])
 def test_polonsky_keer_finds_the_same_contact_of_a_surface(pressure, thickness):
-    heights = SelfAffine(48, 0.5, 16.0, 6.0, 1.0, dimensions=2, rng=generator(3, 0.5)).heights(48)[:40]
+    heights = SelfAffine(48, 0.5, 16.0, 6.0, 1.0, dimensions=2, seed=realisation_seed(3, 0.5)).heights(48)[:40]
     layer = {} if thickness is None else {"thickness": thickness, "poisson_ratio": 0.3}
     given = {"spacing": (1.0, 1.5), "contact_modulus": 1.0, "mean_pressure": pressure, "tolerance": 1e-6} | layer
     found, other = (contactsim.press(heights, solver=name, **given) for name in ON_SURFACES)

@@ -13,7 +13,7 @@ import contactsim
 from contactsim.errors import SceneError
 from contactsim.solvers.base import Result
 from contactsim.solvers.registry import REQUIRED_PACKAGES, SOLVERS, solver_class
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.traits import Trait
 
 ALL = tuple(
@@ -37,7 +37,7 @@ def refused(key: str, allowed: str) -> Iterator[pytest.ExceptionInfo[SceneError]
 def rough(points: int, hurst: float = 0.8, gradient: float = 1.0, modes: int = 0) -> np.ndarray:
     """A self-affine profile on `points` points of unit spacing, with a shortest wavelength of 8 points."""
     modes = modes or points // 8
-    surface = SelfAffine(points, hurst, points / 4, points / (modes + 0.5), gradient, rng=generator(7, hurst))
+    surface = SelfAffine(points, hurst, points / 4, points / (modes + 0.5), gradient, seed=realisation_seed(7, hurst))
     return surface.heights(points)
 
 

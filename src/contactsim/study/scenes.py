@@ -23,7 +23,7 @@ from contactsim.solvers.registry import make_solver
 from contactsim.study.keys import RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.measured import SURFACES
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Flat, Surface
 from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait
@@ -59,7 +59,8 @@ def build_scene(settings: Mapping) -> Scene:
     section = dict(settings["surface"])
     kind = SURFACES[section.pop("kind")]
     if kind is SelfAffine:
-        section["rng"] = generator(settings["seed"], settings["study"], section["hurst"], settings["member"])
+        labels = settings["study"], section["hurst"], settings["member"]
+        section["seed"] = realisation_seed(settings["seed"], *labels)
     surface = kind(**section)
     lower, upper = build_elasticity(settings["body"]), build_elasticity(settings.get("counter_body"))
     if lower is None and upper is None:

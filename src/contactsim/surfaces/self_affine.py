@@ -9,7 +9,6 @@ one asked for, the gradient being that of the band-limited profile itself, not o
 
 from __future__ import annotations
 
-import copy
 import hashlib
 import json
 from dataclasses import dataclass, field
@@ -24,16 +23,22 @@ from contactsim.surfaces.shapes import Smooth, check_dimensions, check_length
 AMPLITUDES = ("gaussian", "fixed")
 
 
-def generator(seed: int, *labels: object) -> np.random.Generator:
-    """Random numbers for one realisation, the same on every machine: SeedSequence([seed, *labels]).
+def realisation_seed(seed: int, *labels: object) -> tuple[int, ...]:
+    """Return the seed of one realisation, the same on every machine.
 
-    Labels that are not whole numbers enter through a digest of their JSON form.
+    Parameters
+    ----------
+    seed : int
+        Root of all random numbers.
+    *labels
+        What the realisation is: names and numbers, such as a study, a Hurst exponent and a member. Labels that are not
+        whole numbers enter through a digest of their JSON form.
     """
-    words = [label if isinstance(label, int) else _word(label) for label in labels]
-    return np.random.default_rng(np.random.SeedSequence([seed, *words]))
+    return (seed, *(label if isinstance(label, int) else _label_word(label) for label in labels))
 
 
-def _word(label: object) -> int:
+def _label_word(label: object) -> int:
+    """Return a label as a whole number."""
     return int.from_bytes(hashlib.sha256(json.dumps(label).encode()).digest()[:8], "big")
 
 
@@ -43,7 +48,7 @@ class SelfAffine(Smooth):
 
     The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
     rolloff_wavelength, shortest_wavelength: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
-    over a surface being the root of the mean of both squared slopes added; rng: draws the modes, two numbers each,
+    over a surface being the root of the mean of both squared slopes added; seed: of the random modes, two numbers each,
     longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); smoothed: waves shorter than this are
     then left out, nm.
     """
@@ -57,7 +62,7 @@ class SelfAffine(Smooth):
     amplitudes: str = "gaussian"
     dimensions: int = 1
     smoothed: float | None = None
-    rng: np.random.Generator = field(kw_only=True)
+    seed: int | tuple[int, ...] = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
         check_length(self.length)
@@ -119,7 +124,9 @@ class SelfAffine(Smooth):
         drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
         drawn &= q <= 2 * np.pi / self.length * modes * (1 + 1e-12)
         order = np.lexsort([*(k[drawn] for k in y), x[drawn], np.max(np.abs([x, *y]), axis=0)[drawn]])
-        normal = copy.deepcopy(self.rng).standard_normal((order.size, 2)) @ np.array([1, 1j])
+        normal = np.random.default_rng(np.random.SeedSequence(self.seed)).standard_normal((order.size, 2)) @ np.array(
+            [1, 1j]
+        )
         if self.amplitudes == "fixed":
             normal /= np.abs(normal)
         half = np.zeros(x.shape, complex)

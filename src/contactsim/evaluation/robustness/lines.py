@@ -9,14 +9,14 @@ import numpy as np
 from contactsim import reference
 from contactsim.evaluation.robustness.cases import Case, alone, level, made
 from contactsim.grid import Array
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 
 POINTS = 1024
 
 
 def _rough(points: int = POINTS) -> Array:
     """A self-affine profile of rms gradient 1 whose shortest wavelength is eight points."""
-    return SelfAffine(points, 0.8, points / 4, 8.0, 1.0, rng=generator(5, 0.8)).heights(points)
+    return SelfAffine(points, 0.8, points / 4, 8.0, 1.0, seed=realisation_seed(5, 0.8)).heights(points)
 
 
 def _wave(points: int, ratio: float) -> Case:

@@ -8,14 +8,14 @@ import numpy as np
 
 from contactsim.evaluation.robustness.cases import Case, alone, complete, level, made, on_top
 from contactsim.grid import Array
-from contactsim.surfaces.self_affine import SelfAffine, generator
+from contactsim.surfaces.self_affine import SelfAffine
 
 SIDE = 64
 
 
 def _rough(side: int = SIDE) -> Array:
     """A self-affine surface of rms gradient 1 whose shortest wavelength is eight points."""
-    return SelfAffine(side, 0.8, side / 4, 8.0, 1.0, dimensions=2, rng=generator(5, 0.8)).heights(side)
+    return SelfAffine(side, 0.8, side / 4, 8.0, 1.0, dimensions=2, seed=realisation_seed(5, 0.8)).heights(side)
 
 
 def _hilly(shape: tuple[int, int], along: tuple[float, float] = (1.5, 1.5)) -> Array:
