@@ -21,7 +21,7 @@ from contactsim.study import execute_neglecting
 from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
 from contactsim.study.study import Run, Study
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from support.cases import refused
 from support.places import ROOT
 

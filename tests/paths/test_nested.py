@@ -20,7 +20,7 @@ from contactsim.solvers.registry import make_solver
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from support.places import ROOT

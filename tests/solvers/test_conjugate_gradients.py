@@ -18,7 +18,7 @@ from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat, Sinusoid, Sphere
 from support.cases import press as press_line
 

@@ -24,7 +24,7 @@ from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffn
 from contactsim.solvers.registry import SOLVERS, make_solver
 from contactsim.status import Status
 from contactsim.surfaces.profile import Profile, prepare
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait

@@ -13,7 +13,7 @@ import contactsim
 from contactsim.errors import SceneError
 from contactsim.solvers.base import Result
 from contactsim.solvers.registry import REQUIRED_PACKAGES, SOLVERS, solver_class
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.traits import Trait
 
 ALL = tuple(

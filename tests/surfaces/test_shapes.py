@@ -6,7 +6,7 @@ import pytest
 from contactsim.errors import SceneError
 from contactsim.surfaces.measured import Measured, Sampled
 from contactsim.surfaces.profile import Profile
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
 from contactsim.surfaces.statistics import rms_gradient, rms_height, spectrum
 

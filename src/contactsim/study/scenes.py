@@ -23,7 +23,7 @@ from contactsim.solvers.registry import make_solver
 from contactsim.study.keys import RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.measured import SURFACES
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat, Surface
 from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait

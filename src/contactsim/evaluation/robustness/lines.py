@@ -9,7 +9,7 @@ import numpy as np
 from contactsim import reference
 from contactsim.evaluation.robustness.cases import Case, alone, level, made
 from contactsim.grid import Array
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 
 POINTS = 1024
 

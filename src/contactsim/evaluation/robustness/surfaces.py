@@ -8,7 +8,7 @@ import numpy as np
 
 from contactsim.evaluation.robustness.cases import Case, alone, complete, level, made, on_top
 from contactsim.grid import Array
-from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 
 SIDE = 64
 
