@@ -1,38 +1,34 @@
-# What leaving effects out changes: one job a map, and their figure; and the maps as the package keeps them.
-if MAPS:
+# What neglecting effects changes: one job a map, and their figure; and the maps in the form that the package keeps.
+if PRODUCTS.maps:
 
-    def map_params(wildcards):
-        return canonical(effect_survey.plan(MAPS, wildcards.map))
-
-
-    rule measure_map:
+    rule measure_effect_map:
         output: RESULTS / "effect_maps/{map}.nc"
-        wildcard_constraints: map="|".join(MAPS["maps"])
+        wildcard_constraints: map="|".join(PRODUCTS.maps["maps"])
         log: RESULTS / "logs/effect_maps/{map}.log"
-        params: plan=map_params
-        group: together("maps")
+        params: plan=EVALUATION_JOBS.map_params
+        group: group_on_cluster(workflow, "maps")
         priority: 1  # they take minutes: not at the end
-        message: "effect map {wildcards.map}: with and without, everywhere"
-        script: "../scripts/measure_map.py"
+        message: "effect map {wildcards.map}: scenes with and without an effect"
+        script: "../scripts/measure_effect_map.py"
 
 
     rule effect_maps:
-        input: [RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
+        input: EVALUATION_JOBS.map_files()
         output:
             png=RESULTS / "figures/effect_maps.png",
             pdf=RESULTS / "figures/effect_maps.pdf",
             csv=RESULTS / "figures/effect_maps.csv",
         log: RESULTS / "logs/figures/effect_maps.log"
-        params: plan=canonical(effect_survey.figure(MAPS, PLAN.tier))
-        group: together("figures")
+        params: plan=EVALUATION_JOBS.maps_figure_params
+        group: group_on_cluster(workflow, "figures")
         message: f"effect_maps: {RESULTS}/figures/effect_maps.png"
-        script: "../scripts/effect_maps.py"
+        script: "../scripts/draw_effect_maps.py"
 
 
-    rule freeze_maps:
-        input: of_the_standard_tier, maps=[RESULTS / f"effect_maps/{name}.nc" for name in sorted(MAPS["maps"])]
+    rule export_effect_maps:
+        input: EVALUATION_JOBS.full_tier, maps=EVALUATION_JOBS.map_files()
         output: RESULTS / "effect_maps/effect_maps.yaml"
         log: RESULTS / "logs/effect_maps/freeze.log"
-        params: plan=canonical(MAPS), source=source_digest("contactsim.evaluation.effects.survey")
-        message: "maps, to be put in the place of src/contactsim/error_control/effect_maps.yaml: {output}"
-        script: "../scripts/freeze_maps.py"
+        params: plan=EVALUATION_JOBS.maps_params, source=code_digest("contactsim.evaluation.effects.survey")
+        message: "effect maps, to replace src/contactsim/error_control/effect_maps.yaml: {output}"
+        script: "../scripts/export_effect_maps.py"

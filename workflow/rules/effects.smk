@@ -1,16 +1,16 @@
-# What effects cost: one job that measures the ladder, alone on the machine since it is timed, and its figure.
-if LADDER:
+# What effects cost: one job that measures them, alone on the machine since it is timed, and its figure.
+if PRODUCTS.effects:
 
     rule measure_effects:
         output:
             data=RESULTS / "datasets/effects.nc",
             costs=RESULTS / "costs/effects.json",
         log: RESULTS / "logs/datasets/effects.log"
-        params: plan=canonical(effect_cost.plan(LADDER))
-        threads: timed_threads()
-        group: together("timed")
-        message: "effects: every variant measured"
-        script: "../scripts/effects.py"
+        params: plan=EVALUATION_JOBS.effects_params
+        threads: timed_threads(PLAN, workflow.cores)
+        group: group_on_cluster(workflow, "timed")
+        message: "effects: the cost of each"
+        script: "../scripts/measure_effects.py"
 
 
     rule effects:
@@ -22,7 +22,7 @@ if LADDER:
             pdf=RESULTS / "figures/effects.pdf",
             csv=RESULTS / "figures/effects.csv",
         log: RESULTS / "logs/figures/effects.log"
-        params: plan=canonical(effect_cost.figure(LADDER, PLAN.tier))
-        group: together("figures")
+        params: plan=EVALUATION_JOBS.effects_figure_params
+        group: group_on_cluster(workflow, "figures")
         message: f"effects: {RESULTS}/figures/effects.png"
-        script: "../scripts/effects_figure.py"
+        script: "../scripts/draw_effects.py"

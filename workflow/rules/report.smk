@@ -1,41 +1,26 @@
-# All that was found on one page, and the same in small pictures for the README.
-_accuracy = {f"accuracy_{name}": case.settings for name, case in CASES.items()} | ({"trials": DRAWS} if DRAWS else {})
-OTHER_FIGURES = {
-    "accuracy": _accuracy | ({"overview": OVERVIEW} if OVERVIEW else {}),
-    "stability": {"stability": HAZARDS} if HAZARDS else {},
-    "effects": ({"effects": LADDER} if LADDER else {}) | ({"effect_maps": MAPS} if MAPS else {}),
-}
-OTHER_TITLES = {name: one["title"] for group in OTHER_FIGURES.values() for name, one in group.items()}
-
-
-def report_inputs():
-    studies = [PLAN.dataset_name(name) for name in PLAN.studies]
-    data = [RESULTS / f"{folder}/{name}.{end}" for name in studies for folder, end in (("datasets", "nc"), ("costs", "csv"))]
-    return data + [file for file in all_figures(None) if file.suffix == ".png"] + all_claims(None)
-
-
-def report_params(wildcards):
-    texts = [file.read_text(encoding="utf-8") for file in sorted(CONFIG.parent.glob("workflow/rules/*.smk"))]
-    return canonical(report.settings(PLAN, OTHER_FIGURES, "".join(texts)))
-
-
-def gallery_params(wildcards):
-    return canonical(gallery.settings(PLAN, OTHER_TITLES))
-
-
+# All results on one page, in small pictures for the docs, and in one folder to deposit.
 rule report:
-    input: report_inputs()
+    input: PAGES.report_inputs()
     output: RESULTS / "report.html"
     log: RESULTS / "logs/report.log"
-    params: plan=report_params, config=os.path.relpath(CONFIG)
+    params: plan=PAGES.report_params, config=os.path.relpath(CONFIG)
     message: "report: {output}"
-    script: "../scripts/report.py"
+    script: "../scripts/write_report.py"
 
 
 rule gallery:
-    input: report_inputs()
+    input: PAGES.report_inputs()
     output: RESULTS / "gallery/gallery.csv"
     log: RESULTS / "logs/gallery.log"
-    params: plan=gallery_params, config=os.path.relpath(CONFIG)
+    params: plan=PAGES.gallery_params, config=os.path.relpath(CONFIG)
     message: f"gallery: {RESULTS}/gallery"
-    script: "../scripts/gallery.py"
+    script: "../scripts/write_gallery.py"
+
+
+rule bundle:
+    input: PAGES.bundle_files
+    output: RESULTS / "bundle/SHA256SUMS"  # written last: with it the bundle is whole
+    log: RESULTS / "logs/bundle.log"
+    params: plan=PAGES.bundle_params
+    message: f"bundle: {RESULTS}/bundle"
+    script: "../scripts/write_bundle.py"

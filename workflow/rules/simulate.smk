@@ -1,67 +1,49 @@
-# One job a study, variant and member, sweeping all its loads.
-def run_params(wildcards):
-    run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
-    return canonical({"settings": run.settings, "source": run.source, "module": STAGES[run.stage][0]})
-
-
-def run_label(wildcards):
-    run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
-    places = [f"{name} {value}" for name, value in run.coordinates.items() if name != "points"]
-    return " ".join(["", *places, f"on {run.settings['points']} points"])
-
-
-def run_decision(wildcards):
-    return PLAN.decision(PLAN.run(wildcards.study, wildcards.variant, wildcards.member)) or []
-
-
-def run_twin(wildcards):
-    return PLAN.twin(PLAN.run(wildcards.study, wildcards.variant, wildcards.member)) or []
-
-
-def run_outlook(wildcards):
-    run = PLAN.run(wildcards.study, wildcards.variant, wildcards.member)
-    return run, RESULTS / f"costs/runs/{run.stem}.json"
-
-
-def run_memory(wildcards, attempt):
-    return resources.memory_asked(*run_outlook(wildcards), attempt)
-
-
-def run_minutes(wildcards, attempt):
-    return resources.minutes_asked(*run_outlook(wildcards), attempt)
-
-
-def run_group(wildcards):
-    name = together("runs")(wildcards)
-    return name if name and resources.is_short(*run_outlook(wildcards)) else None
-
-
-def decide_params(wildcards):
-    return canonical(PLAN.decision_settings(wildcards.study, wildcards.variant))
-
-
-rule decide:
+# One job a study, variant and member, sweeping all its loads; and the effects that a variant can neglect.
+rule select_effects:
     output:
         decision=RESULTS / "decisions/{study}/{variant}.json",
         costs=RESULTS / "costs/decisions/{study}/{variant}.json",
     log: RESULTS / "logs/decisions/{study}/{variant}.log"
-    params: plan=decide_params
-    group: together("decisions")
-    message: "{wildcards.study} {wildcards.variant}: what is negligible"
-    script: "../scripts/decide.py"
+    params: plan=RUN_JOBS.selection_params
+    group: group_on_cluster(workflow, "decisions")
+    message: "{wildcards.study} {wildcards.variant}: effects that can be neglected"
+    script: "../scripts/select_effects.py"
 
 
-rule run:
+rule simulate_member:
     input:
-        decision=run_decision,
-        twin=run_twin,
+        decision=RUN_JOBS.decision,
+        twin=RUN_JOBS.twin,
     output:
         data=update(RESULTS / "runs/{study}/{variant}/{member}.nc"),
         costs=update(RESULTS / "costs/runs/{study}/{variant}/{member}.json"),
-        done=RESULTS / "runs/{study}/{variant}/{member}.done",  # written last, so a run that failed is never taken for one that is up to date
+        done=RESULTS / "runs/{study}/{variant}/{member}.done",  # written last, so a failed run is never taken for one that is up to date
     log: RESULTS / "logs/runs/{study}/{variant}/{member}.log"
-    params: plan=run_params, label=run_label
-    resources: mem_mb=run_memory, runtime=run_minutes   # asked of a cluster; others: profiles/slurm
-    group: run_group
+    params: plan=RUN_JOBS.params, label=RUN_JOBS.label
+    resources: mem_mb=RUN_JOBS.memory, runtime=RUN_JOBS.minutes   # asked of a cluster; others: profiles/slurm
+    group: group_on_cluster(workflow, "runs", RUN_JOBS.is_short)
     message: "{wildcards.study} {wildcards.variant}: member {wildcards.member}{params.label}"
-    script: "../scripts/run.py"
+    script: "../scripts/simulate_member.py"
+
+
+rule aggregate_study:
+    input:
+        data=RUN_JOBS.study_files("runs", "nc"),
+        costs=RUN_JOBS.study_files("costs/runs", "json"),
+        done=RUN_JOBS.study_files("runs", "done"),
+    output:
+        data=RESULTS / "datasets/{chapter}_{study}.nc",
+        costs=RESULTS / "costs/{chapter}_{study}.csv",
+    wildcard_constraints: chapter=r"ch\d+"
+    log: RESULTS / "logs/datasets/{chapter}_{study}.log"
+    params: plan=RUN_JOBS.study_params
+    group: group_on_cluster(workflow, "datasets")
+    message: "dataset of {wildcards.study}"
+    script: "../scripts/aggregate_study.py"
+
+
+for _study in PLAN.studies:
+    rule:
+        name: _study
+        localrule: True
+        input: PRODUCTS.dataset(PLAN.dataset_name(_study))

@@ -1,58 +1,50 @@
-# Accuracy asked for, on trial: one timed job a scene, alone on the machine, and a figure; and the relations measured anew.
-if DRAWS:
+# Error-controlled runs on trial: one timed job a scene, alone on the machine, and a figure; and the scaling measured anew.
+if PRODUCTS.trials:
 
-    def trial_params(wildcards):
-        return canonical(validation.plan(DRAWS, wildcards.kind, int(wildcards.number)))
-
-
-    def relation_params(wildcards):
-        return canonical(measurement.plan(DRAWS, wildcards.kind))
-
-
-    rule trial:
+    rule solve_trial:
         output:
             data=RESULTS / "trials/{kind}_{number}.nc",
             costs=RESULTS / "costs/trials/{kind}_{number}.json",
-        wildcard_constraints: kind="|".join(DRAWS["kinds"]), number=r"\d+"
+        wildcard_constraints: kind="|".join(PRODUCTS.trials["kinds"]), number=r"\d+"
         log: RESULTS / "logs/trials/{kind}_{number}.log"
-        params: plan=trial_params
-        threads: timed_threads()
-        group: together("timed")
-        message: "trial: {wildcards.kind} {wildcards.number}, solved to an accuracy, and judged"
-        script: "../scripts/trial.py"
+        params: plan=EVALUATION_JOBS.trial_params
+        threads: timed_threads(PLAN, workflow.cores)
+        group: group_on_cluster(workflow, "timed")
+        message: "trial: {wildcards.kind} {wildcards.number}, solved to an accuracy, and its error measured"
+        script: "../scripts/solve_trial.py"
 
 
     rule trials:
         input:
-            data=[RESULTS / f"trials/{name}.nc" for name in validation.names(DRAWS)],
-            costs=[RESULTS / f"costs/trials/{name}.json" for name in validation.names(DRAWS)],
+            data=EVALUATION_JOBS.trial_files("trials", "nc"),
+            costs=EVALUATION_JOBS.trial_files("costs/trials", "json"),
         output:
             data=RESULTS / "datasets/trials.nc",
             png=RESULTS / "figures/trials.png",
             pdf=RESULTS / "figures/trials.pdf",
             csv=RESULTS / "figures/trials.csv",
         log: RESULTS / "logs/figures/trials.log"
-        params: plan=canonical(validation.figure(DRAWS, PLAN.tier))
-        group: together("figures")
+        params: plan=EVALUATION_JOBS.trials_figure_params
+        group: group_on_cluster(workflow, "figures")
         message: f"trials: {RESULTS}/figures/trials.png"
-        script: "../scripts/trials.py"
+        script: "../scripts/draw_trials.py"
 
 
-    rule measure_relations:
+    rule measure_scaling:
         output: RESULTS / "costs/relations/{kind}.csv",
-        wildcard_constraints: kind="|".join(DRAWS["kinds"])
+        wildcard_constraints: kind="|".join(PRODUCTS.trials["kinds"])
         log: RESULTS / "logs/relations/{kind}.log"
-        params: plan=relation_params
-        threads: timed_threads()
-        group: together("timed")
-        message: "relations of {wildcards.kind}: scenes on a ladder of every knob"
-        script: "../scripts/measure_relations.py"
+        params: plan=EVALUATION_JOBS.scaling_params
+        threads: timed_threads(PLAN, workflow.cores)
+        group: group_on_cluster(workflow, "timed")
+        message: "scaling of {wildcards.kind}: scenes solved with several values of each setting"
+        script: "../scripts/measure_scaling.py"
 
 
-    rule relations:
-        input: of_the_standard_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in DRAWS["kinds"]]
+    rule fit_scaling:
+        input: EVALUATION_JOBS.full_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in PRODUCTS.trials["kinds"]]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
-        params: source=source_digest("contactsim.evaluation.calibration.fit")
-        message: "relations, to be put in the place of src/contactsim/error_control/scaling.yaml: {output}"
-        script: "../scripts/relations.py"
+        params: source=code_digest("contactsim.evaluation.calibration.fit")
+        message: "scaling relations, to replace src/contactsim/error_control/scaling.yaml: {output}"
+        script: "../scripts/fit_scaling.py"

@@ -20,7 +20,15 @@ START = 1.0
 """CPU seconds that a job takes beside what it computes."""
 OTHER = 2.5
 """The same of one that gathers or draws."""
-UNKNOWN = ("trial", "price", "measure_relations", "measure_map", "measure_effects", "hazard", "decide")
+UNKNOWN = (
+    "solve_trial",
+    "measure_work_precision",
+    "measure_scaling",
+    "measure_effect_map",
+    "measure_effects",
+    "survey_hazard",
+    "select_effects",
+)
 """Rules whose jobs solve scenes, of which nothing is forecast."""
 
 EMPTY = 400.0

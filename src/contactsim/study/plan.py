@@ -25,9 +25,10 @@ CONFIG_KEYS = {
     "results": Key(text, "a folder for all results"),
 }
 RESERVED_NAMES = """
-all claims accuracy effects measure_effects trial trials relations measure_relations decide overview effect_maps
-measure_map freeze_maps stability report gallery bundle targets run aggregate unknown_target price accuracy_figure
-judge hazard stability_dataset test setup help
+all claims accuracy overview effects effect_maps stability trials report gallery bundle targets unknown_target
+select_effects simulate_member aggregate_study assess_claims measure_work_precision draw_work_precision
+survey_hazard gather_hazards measure_effects measure_effect_map export_effect_maps solve_trial measure_scaling
+fit_scaling test setup help
 """.split()
 """Names that the workflow's own rules and the Makefile's targets have."""
 

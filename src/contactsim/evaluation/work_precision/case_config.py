@@ -102,7 +102,7 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     if case.default not in settings["solvers"]:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
         raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
-    for job in (REFERENCE, *settings["solvers"]):
+    for job in case.jobs():
         for setting in case.turned(job):
             _check_setting(case, job, setting, file, prefix)
     return case

@@ -1,0 +1,138 @@
+"""What one tier can make: studies, figures and claims of the chapters, and the evaluation of the package itself."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from contactsim.errors import SceneError
+from contactsim.evaluation.calibration import sampling
+from contactsim.evaluation.effects import effect_cost
+from contactsim.evaluation.effects import survey as effect_survey
+from contactsim.evaluation.robustness import survey
+from contactsim.evaluation.work_precision import case_config
+from contactsim.evaluation.work_precision.cases import Case
+from contactsim.study.plan import Plan
+
+Settings = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Products:
+    """The plan of a tier and the settings of what evaluates the package; None where a tier leaves it out.
+
+    config: the folder with the settings; cases: of the work–precision study; hazards: of the survey of robustness; effects: cost of each effect; trials:
+    scenes drawn at random and solved to an accuracy; maps: what neglecting effects changes; overview: all cases.
+    """
+
+    config: Path
+    plan: Plan
+    cases: dict[str, Case]
+    hazards: Settings | None
+    effects: Settings | None
+    trials: Settings | None
+    maps: Settings | None
+    overview: Settings | None
+
+    @classmethod
+    def read(cls, config: Path, options: Mapping[str, str]) -> Products:
+        """Read all settings and check them.
+
+        Parameters
+        ----------
+        config
+            Folder with the YAML files.
+        options
+            What was given to `--config`: `tier` or nothing.
+
+        Raises
+        ------
+        SceneError
+            Where a key or value is wrong.
+        """
+        unknown = sorted(set(options) - {"tier"})
+        if unknown:
+            raise SceneError("--config", unknown, "tier=NAME")
+        plan = Plan.read(config, options.get("tier"))
+        cases = case_config.read_cases(config, plan)
+        return cls(
+            config,
+            plan,
+            cases,
+            hazards=survey.read_stability(config, plan),
+            effects=effect_cost.read_ladder(config, plan.seed, plan.overrides["effects"], plan.tier),
+            trials=sampling.read_draws(config, plan.overrides["trials"], plan.tier),
+            maps=effect_survey.read_maps(config, plan.overrides["effect_maps"], plan.tier),
+            overview=case_config.read_overview(config) if cases else None,
+        )
+
+    @property
+    def results(self) -> Path:
+        """Return the folder of the tier's results."""
+        return self.plan.results
+
+    @functools.cached_property
+    def all_tiers(self) -> dict[str, Plan]:
+        """Return the plans of all tiers by name."""
+        return case_config.every_tier(self.config, self.plan)
+
+    @functools.cached_property
+    def evaluation_figures(self) -> dict[str, dict[str, Settings]]:
+        """Return the settings of the figures that evaluate the package, by section of the report and by name."""
+        cases = {f"accuracy_{name}": case.settings for name, case in self.cases.items()}
+        return {
+            "accuracy": cases | _present(trials=self.trials, overview=self.overview),
+            "stability": _present(stability=self.hazards),
+            "effects": _present(effects=self.effects, effect_maps=self.maps),
+        }
+
+    @property
+    def evaluation_titles(self) -> dict[str, str]:
+        """Return the titles of the figures that evaluate the package, by name."""
+        figures = self.evaluation_figures.values()
+        return {name: settings["title"] for section in figures for name, settings in section.items()}
+
+    @property
+    def evaluation_datasets(self) -> list[str]:
+        """Return the names of the datasets that evaluate the package."""
+        return list(_present(stability=self.hazards, effects=self.effects, trials=self.trials))
+
+    @property
+    def study_datasets(self) -> list[str]:
+        """Return the names of the datasets of all studies."""
+        return [self.plan.dataset_name(study) for study in self.plan.studies]
+
+    def dataset(self, name: str) -> Path:
+        """Return the file of a dataset."""
+        return self.results / "datasets" / f"{name}.nc"
+
+    def cost_table(self, name: str) -> Path:
+        """Return the file of what a study's runs cost."""
+        return self.results / "costs" / f"{name}.csv"
+
+    def figure_files(self, name: str) -> list[Path]:
+        """Return the files of a figure: picture, document, numbers, and an animation where there is one."""
+        figures = self.plan.figures
+        endings = figures[name].endings if name in figures else ("png", "pdf", "csv")
+        return [self.results / "figures" / f"{name}.{ending}" for ending in endings]
+
+    def all_figures(self) -> list[Path]:
+        """Return the files of all figures."""
+        return [file for name in (*self.plan.figures, *self.evaluation_titles) for file in self.figure_files(name)]
+
+    def all_claims(self) -> list[Path]:
+        """Return the files of the verdicts on all chapters' claims."""
+        endings = (".csv", ".png", ".pdf")
+        return [self.results / "claims" / f"{chapter}{ending}" for chapter in self.plan.claims for ending in endings]
+
+    def study_files(self) -> list[Path]:
+        """Return the datasets of all studies, each with its table of costs."""
+        return [file for name in self.study_datasets for file in (self.dataset(name), self.cost_table(name))]
+
+
+def _present(**settings: Settings | None) -> dict[str, Settings]:
+    """Return the settings that are not left out, by name."""
+    return {name: value for name, value in settings.items() if value}

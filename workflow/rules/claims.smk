@@ -1,0 +1,18 @@
+# From datasets to verdicts on what the thesis states.
+rule assess_claims:
+    input: RESULT_JOBS.claims_data
+    output:
+        csv=RESULTS / "claims/{chapter}.csv",
+        png=RESULTS / "claims/{chapter}.png",
+        pdf=RESULTS / "claims/{chapter}.pdf",
+    wildcard_constraints: chapter=r"ch\d+"
+    log: RESULTS / "logs/claims/{chapter}.log"
+    params: plan=RESULT_JOBS.claims_params
+    group: group_on_cluster(workflow, "figures")
+    message: "claims of {wildcards.chapter}: {output.png}"
+    script: "../scripts/assess_claims.py"
+
+
+rule claims:
+    localrule: True
+    input: PRODUCTS.all_claims()

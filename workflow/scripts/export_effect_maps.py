@@ -1,0 +1,13 @@
+"""All maps of what leaving effects out changes, as the package keeps them."""
+
+import json
+
+from contactsim import dataset
+from contactsim.evaluation.effects.survey import as_text
+from contactsim.files import write_text
+from joblog import open_log
+
+open_log(snakemake.log[0])
+settings = json.loads(snakemake.params.plan)
+maps = dict(zip(sorted(settings["maps"]), map(dataset.read, snakemake.input.maps), strict=True))
+write_text(as_text(maps, settings), snakemake.output[0])

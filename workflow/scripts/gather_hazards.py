@@ -1,0 +1,12 @@
+"""The surveys of all hazards into one dataset."""
+
+import json
+
+from contactsim import dataset
+from contactsim.evaluation.robustness.survey import gather
+from joblog import open_log
+
+open_log(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+data = gather(map(dataset.read, plan["paths"]), plan["settings"], plan["source"])
+dataset.write(data, snakemake.output[0])

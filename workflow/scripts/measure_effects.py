@@ -1,0 +1,17 @@
+"""What effects cost: the ladder measured, and seconds and memory apart."""
+
+import json
+
+from threadpoolctl import threadpool_limits
+
+from contactsim import dataset
+from contactsim.evaluation.effects import effect_cost
+from contactsim.files import write_text
+from joblog import open_log
+
+open_log(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
+    data, spent = effect_cost.measure(plan["settings"])
+dataset.write(dataset.stamped(data, "what effects cost", plan["settings"], plan["source"]), snakemake.output.data)
+write_text(json.dumps(spent), snakemake.output.costs)

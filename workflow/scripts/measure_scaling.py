@@ -1,0 +1,14 @@
+"""Scenes of one kind, each on a ladder of every knob."""
+
+import json
+
+from threadpoolctl import threadpool_limits
+
+from contactsim.evaluation.calibration.measurement import measured
+from contactsim.files import write_text
+from joblog import open_log
+
+open_log(snakemake.log[0])
+with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
+    found = measured(json.loads(snakemake.params.plan))
+write_text(found.to_csv(index=False), snakemake.output[0])

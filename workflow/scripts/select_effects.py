@@ -1,0 +1,12 @@
+"""The effects that a variant of a study neglects; the seconds of the check stand apart."""
+
+import json
+
+from contactsim.files import write_text
+from contactsim.study.select_effects import select_effects
+from joblog import open_log
+
+open_log(snakemake.log[0])
+decision = select_effects(json.loads(snakemake.params.plan)["settings"])
+write_text(decision.text, snakemake.output.decision)
+write_text(json.dumps({"seconds": decision.seconds}), snakemake.output.costs)

@@ -1,0 +1,17 @@
+"""One scene solved to an accuracy and judged; what was predicted and spent apart."""
+
+import json
+
+from threadpoolctl import threadpool_limits
+
+from contactsim import dataset
+from contactsim.evaluation.calibration import validation
+from contactsim.files import write_text
+from joblog import open_log
+
+open_log(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
+    data, spent = validation.trial(plan["settings"], plan["kind"], plan["count"])
+dataset.write(dataset.stamped(data, "accuracy on trial", plan["settings"], plan["source"]), snakemake.output.data)
+write_text(json.dumps(spent), snakemake.output.costs)

@@ -1,0 +1,10 @@
+"""Every solver on one hazard, at every severity."""
+
+import json
+
+from contactsim import dataset
+from contactsim.evaluation.robustness.survey import survey
+from joblog import open_log
+
+open_log(snakemake.log[0])
+dataset.write(survey(**json.loads(snakemake.params.plan)), snakemake.output[0])

@@ -1,0 +1,14 @@
+"""Small pictures, verdicts, errors and costs of all figures, as they stand in the README."""
+
+import json
+from pathlib import Path
+
+from joblog import open_log
+from contactsim.publish import gallery
+from contactsim.study.plan import Plan
+
+open_log(snakemake.log[0])
+target = Path(snakemake.output[0])
+settings = json.loads(snakemake.params.plan)
+plan = Plan.read(snakemake.params.config, settings["tier"])
+gallery.make(plan, target.parent.parent, target.parent, settings["others"])
