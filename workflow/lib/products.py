@@ -22,10 +22,26 @@ Settings = dict[str, Any]
 
 @dataclass(frozen=True)
 class Products:
-    """The plan of a tier and the settings of what evaluates the package; None where a tier leaves it out.
+    """The plan of a tier, and the settings of what evaluates the package; None where there are none.
 
-    config: the folder with the settings; cases: of the work–precision study; hazards: of the survey of robustness; effects: cost of each effect; trials:
-    scenes drawn at random and solved to an accuracy; maps: what neglecting effects changes; overview: all cases.
+    Parameters
+    ----------
+    config
+        Folder with the YAML files.
+    plan
+        Studies, figures and claims.
+    cases
+        Cases of the work–precision study by name.
+    hazards
+        The survey of robustness.
+    effects
+        The costs of effects.
+    trials
+        Scenes drawn at random and solved to an accuracy.
+    maps
+        What neglecting effects changes.
+    overview
+        The page of all cases.
     """
 
     config: Path

@@ -2,10 +2,11 @@
 
 import json
 
+from joblog import open_log
+
 from contactsim import dataset
 from contactsim.analysis import aggregate, costs
 from contactsim.files import write_text
-from joblog import open_log
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

@@ -2,8 +2,9 @@
 
 import json
 
-from contactsim.figures.diagnostics.claims import render_claims
 from joblog import open_log
+
+from contactsim.figures.diagnostics.claims import render_claims
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

@@ -2,8 +2,9 @@
 
 import json
 
-from contactsim.figures.layout import render
 from joblog import open_log
+
+from contactsim.figures.layout import render
 
 open_log(snakemake.log[0])
 files = snakemake.input

@@ -2,10 +2,11 @@
 
 import json
 
+from joblog import open_log
+
 from contactsim import dataset
 from contactsim.evaluation.effects.survey import as_text
 from contactsim.files import write_text
-from joblog import open_log
 
 open_log(snakemake.log[0])
 settings = json.loads(snakemake.params.plan)

@@ -1,10 +1,10 @@
 """The relations of all kinds, fitted, as the package keeps them."""
 
 import pandas as pd
+from joblog import open_log
 
 from contactsim.evaluation.calibration.fit import as_text
 from contactsim.files import write_text
-from joblog import open_log
 
 open_log(snakemake.log[0])
 write_text(as_text(pd.concat(map(pd.read_csv, snakemake.input.tables))), snakemake.output[0])

@@ -2,9 +2,10 @@
 
 import json
 
+from joblog import open_log
+
 from contactsim import dataset
 from contactsim.evaluation.effects.survey import measure
-from joblog import open_log
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

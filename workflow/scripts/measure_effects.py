@@ -2,12 +2,12 @@
 
 import json
 
+from joblog import open_log
 from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.evaluation.effects import effect_cost
 from contactsim.files import write_text
-from joblog import open_log
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)

@@ -2,11 +2,11 @@
 
 import json
 
+from joblog import open_log
 from threadpoolctl import threadpool_limits
 
 from contactsim.evaluation.calibration.measurement import measured
 from contactsim.files import write_text
-from joblog import open_log
 
 open_log(snakemake.log[0])
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others

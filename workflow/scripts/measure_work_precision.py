@@ -2,12 +2,12 @@
 
 import json
 
+from joblog import open_log
 from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.evaluation.work_precision.case_config import read_cases
 from contactsim.files import write_text
-from joblog import open_log
 from contactsim.study.plan import Plan
 
 open_log(snakemake.log[0])

@@ -2,9 +2,10 @@
 
 import json
 
+from joblog import open_log
+
 from contactsim.files import write_text
 from contactsim.study.select_effects import select_effects
-from joblog import open_log
 
 open_log(snakemake.log[0])
 decision = select_effects(json.loads(snakemake.params.plan)["settings"])

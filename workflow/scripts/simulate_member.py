@@ -3,9 +3,10 @@
 import json
 from importlib import import_module
 
+from joblog import open_log
+
 from contactsim.files import write_text
 from contactsim.study.execute import RunFiles
-from joblog import open_log
 
 open_log(snakemake.log[0])
 plan, files = json.loads(snakemake.params.plan), RunFiles(snakemake.output.data, snakemake.output.costs)

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 from joblog import open_log
+
 from contactsim.publish import gallery
 from contactsim.study.plan import Plan
 

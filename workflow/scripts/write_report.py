@@ -3,8 +3,9 @@
 import json
 from pathlib import Path
 
-from contactsim.files import write_text
 from joblog import open_log
+
+from contactsim.files import write_text
 from contactsim.publish import report, rulegraph
 from contactsim.study.plan import Plan
 

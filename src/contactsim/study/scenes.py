@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import asdict
 from functools import lru_cache
@@ -19,6 +20,7 @@ from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import Accuracy, RunOptions, Setup
+from contactsim.provenance import canonical
 from contactsim.solvers.registry import make_solver
 from contactsim.study.keys import RIGID
 from contactsim.study.kinds import study_kind
@@ -56,12 +58,7 @@ def build_scene(settings: Mapping) -> Scene:
 
     A flat body lies below, the surface above; either may be rigid.
     """
-    section = dict(settings["surface"])
-    kind = SURFACES[section.pop("kind")]
-    if kind is SelfAffine:
-        labels = settings["study"], section["hurst"], settings["member"]
-        section["seed"] = realisation_seed(settings["seed"], *labels)
-    surface = kind(**section)
+    surface = _build_surface(settings)
     lower, upper = build_elasticity(settings["body"]), build_elasticity(settings.get("counter_body"))
     if lower is None and upper is None:
         raise SceneError("counter_body", None, "an elastic body, as the one below is rigid")
@@ -71,6 +68,22 @@ def build_scene(settings: Mapping) -> Scene:
     path = _build_path(settings, surface, elasticities)
     scene = Scene(*bodies, effects, path, _build_pairing(settings.get("pairing")))
     return simplify(scene, settings.get("neglect", ()))
+
+
+def _build_surface(settings: Mapping) -> Surface:
+    """Return the surface of a run."""
+    section = dict(settings["surface"])
+    kind = SURFACES[section.pop("kind")]
+    if kind is SelfAffine:
+        seed = realisation_seed(settings["seed"], settings["study"], section["hurst"], settings["member"])
+        return _self_affine_surface(canonical(section), seed)
+    return kind(**section)
+
+
+@lru_cache(maxsize=16)
+def _self_affine_surface(section: str, seed: int) -> SelfAffine:
+    """Return a self-affine surface; the same object for all runs on it, so that its waves are drawn once."""
+    return SelfAffine(**json.loads(section), seed=seed)
 
 
 def _build_pairing(section: Mapping | None) -> Pairing:
