@@ -41,7 +41,8 @@ def serve(control: socket.socket, scripts: Iterable[str]) -> None:
 
 def import_all(scripts: Iterable[str]) -> None:
     """Import the modules that scripts import; what cannot be imported fails in the script, with its message."""
-    importlib.import_module("snakemake.iocontainers")
+    for name in ("snakemake.iocontainers", "snakemake.io"):  # what the `snakemake` object is made of
+        importlib.import_module(name)
     for script in scripts:
         for node in ast.walk(ast.parse(Path(script).read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom):
