@@ -19,9 +19,9 @@ from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.observables import friction, peeling, sliding
 from contactsim.observables.derived import combine_runs
-from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.record import simulate_path
+from contactsim.paths.state import PathState
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
@@ -136,7 +136,7 @@ def small_probe(
 
 
 def places(states: list[PathState]) -> list[float]:
-    return [leap.step.value for state in states for leap in state.leaps]
+    return [jump.step.value for state in states for jump in state.jumps]
 
 
 def test_a_probe_sticks_slips_by_one_lattice_constant_and_peels():

@@ -1,4 +1,4 @@
-"""Paths walked on a coarser grid: what is settled on the whole grid is a solution there; paths from first touch."""
+"""Paths followed on a coarse grid: their states on the full grid are solutions there; paths from first touch."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall
-from contactsim.paths.continuation import PathState, Walk
+from contactsim.paths.continuation import Continuation
 from contactsim.paths.increments import Nested
+from contactsim.paths.state import PathState
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
 from contactsim.study import execute
@@ -27,7 +28,7 @@ from support.places import ROOT
 from support.smooth import LAWS, Walked, along, residual_of, scene_of, walk
 
 ROUGH_LAWS = {"normal": NormalCohesiveZone(10.5), "coupled": CohesiveZone(10.5), "frictional": CohesiveZone(10.5, 0.5)}
-SETTLED = [-4.0, 0.0, 3.0]
+FULL = [-4.0, 0.0, 3.0]
 
 
 def rough(points: float = 32.0) -> SelfAffine:
@@ -42,18 +43,18 @@ def rough_scene(law: object, begin: float = -5.0, end: float = 3.0) -> Scene:
     return Scene(Body(Flat.facing(rough()), body), Body(rough()), (law,), path)
 
 
-def settled(found: Walked, points: int) -> list:
+def on_grid(found: Walked, points: int) -> list:
     return [state for state in found.states if state.points == points]
 
 
 @pytest.mark.parametrize("name", ROUGH_LAWS)
-def test_settled_states_are_those_of_a_walk_on_the_whole_grid(name):
+def test_states_on_the_full_grid_are_those_of_a_path_on_the_full_grid(name):
     scene = rough_scene(ROUGH_LAWS[name])
     whole = walk(scene, points=4096)
-    nested = walk(scene, points=4096, increments=Nested(SETTLED))
+    nested = walk(scene, points=4096, increments=Nested(FULL))
     assert nested.statuses == whole.statuses == {"CONVERGED"}
-    found = settled(nested, 4096)
-    assert [state.step.value for state in found] == SETTLED
+    found = on_grid(nested, 4096)
+    assert [state.step.value for state in found] == FULL
     assert max(state.residual for state in found) <= 1e-7
     assert nested.transforms < whole.transforms / 3  # measured: 5 to 9 times fewer
     places = [state.points == 4096 for state in nested.states]
@@ -63,12 +64,12 @@ def test_settled_states_are_those_of_a_walk_on_the_whole_grid(name):
     assert (wrong > 1e-5).sum() <= 1
 
 
-def test_what_is_settled_is_certified_from_its_displacement_alone():
-    nested = walk(rough_scene(ROUGH_LAWS["normal"]), points=4096, increments=Nested(SETTLED))
-    for state in settled(nested, 4096):
+def test_a_state_on_the_full_grid_is_certified_from_its_displacement_alone():
+    nested = walk(rough_scene(ROUGH_LAWS["normal"]), points=4096, increments=Nested(FULL))
+    for state in on_grid(nested, 4096):
         assert residual_of(nested.problem.at(state.step), state.displacement) <= 1e-7
     others = [state for state in nested.states if state.points == 1024]
-    assert len(others) == len(nested.states) - len(SETTLED)
+    assert len(others) == len(nested.states) - len(FULL)
     for state in others:
         assert residual_of(state.problem, state.displacement) <= 1e-4
         assert [field.shape for field in state.fields()] == [(1, 1024)] * 2
@@ -122,7 +123,12 @@ def test_parts_of_a_path_count_from_the_same_place():
 
 @pytest.mark.parametrize(
     ("options", "key"),
-    [({"ratio": 3}, "ratio"), ({"ratio": 2}, "between"), ({"walking": 0.0}, "walking"), ({"between": 0}, "between")],
+    [
+        ({"coarse_ratio": 3}, "coarse_ratio"),
+        ({"coarse_ratio": 2}, "intermediate_ratio"),
+        ({"coarse_tolerance": 0.0}, "coarse_tolerance"),
+        ({"intermediate_ratio": 0}, "intermediate_ratio"),
+    ],
 )
 def test_impossible_options_are_refused(options, key):
     with pytest.raises(SceneError) as caught:
@@ -137,11 +143,11 @@ def test_a_ratio_that_leaves_no_even_grid_is_refused():
         list(Nested([0.0]).follow(problem, make_solver("newton"), scene.path.steps))
 
 
-def test_a_value_to_settle_that_is_no_step_is_refused():
+def test_a_value_for_the_full_grid_that_is_no_step_is_refused():
     scene = rough_scene(ROUGH_LAWS["normal"])
     with pytest.raises(SceneError, match="steps of the path") as caught:
         walk(scene, points=4096, increments=Nested([0.0, 0.3]))
-    assert (caught.value.key, caught.value.value) == ("settled", [0.3])
+    assert (caught.value.key, caught.value.value) == ("full_grid_at", [0.3])
 
 
 def test_a_tolerance_that_doing_nothing_would_meet_is_refused():
@@ -156,12 +162,12 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
     run = next(iter(Plan.read(ROOT / "config", "quick").studies["rough_adhesive_64"].runs()))
     settings = run.settings | {"points": 2048, "snapshots": [8.0]}
     settings["load"] = settings["load"] | {"through": [-7.0, 8.0]}
-    settings["increments"] = settings["increments"] | {"settled": [-4.0, 2.0, 8.0]}
+    settings["increments"] = settings["increments"] | {"full_grid_at": [-4.0, 2.0, 8.0]}
     whole, again = (RunFiles(tmp_path / f"{name}.nc", tmp_path / f"{name}.json") for name in ("whole", "again"))
     execute.run(settings, run.source, whole)
-    advance, steps = Walk.advance, []
+    advance, steps = Continuation.advance, []
 
-    def killed(self: Walk, step: LoadStep) -> PathState:
+    def killed(self: Continuation, step: LoadStep) -> PathState:
         """Five states, then none."""
         steps.append(step)
         if len(steps) > 5:
@@ -169,7 +175,7 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
         return advance(self, step)
 
     with monkeypatch.context() as patch:
-        patch.setattr(Walk, "advance", killed)
+        patch.setattr(Continuation, "advance", killed)
         with pytest.raises(KeyboardInterrupt):
             execute.run(settings, run.source, again)
     assert not list(tmp_path.glob("*again*"))

@@ -213,10 +213,10 @@ def test_keys_that_the_effects_have_no_use_for_are_refused(changes, key, effects
 @pytest.mark.parametrize(
     ("changes", "key", "allowed"),
     [
-        ({"increments": {"kind": "nested", "settled": [-4.2]}}, "increments.settled", "steps of the path"),
+        ({"increments": {"kind": "nested", "full_grid_at": [-4.2]}}, "increments.full_grid_at", "steps of the path"),
         (
-            {"increments": {"kind": "nested", "settled": [-4.0], "ratio": 128}},
-            "increments.ratio",
+            {"increments": {"kind": "nested", "full_grid_at": [-4.0], "coarse_ratio": 128}},
+            "increments.coarse_ratio",
             "divides half the grid",
         ),
         (
@@ -229,7 +229,11 @@ def test_keys_that_the_effects_have_no_use_for_are_refused(changes, key, effects
             "increments.least",
             "least and most in GPa",
         ),
-        ({"increments": {"kind": "nested", "settled": [-4.0], "walking": 0.5}}, "increments.walking", "at most 0.1"),
+        (
+            {"increments": {"kind": "nested", "full_grid_at": [-4.0], "coarse_tolerance": 0.5}},
+            "increments.coarse_tolerance",
+            "at most 0.1",
+        ),
         ({"tolerance": 0.5}, "tolerance", "at most 0.1"),
         (
             {"effects": ["cohesive_zone"], "normal_cohesive_zone": {}, "cohesive_zone": {"work_of_separation": 1.0}},

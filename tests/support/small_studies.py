@@ -23,7 +23,7 @@ SMALL = {
             "surface": {"shortest_wavelength": 160.0},
             "vary": {"normal_cohesive_zone.work_of_separation": [0.07, 0.7]},
             "path": {"approach": [-4.0, 8.0], "increment": 1.0},
-            "increments": {"settled": [-2.0, 0.0, 4.0, 8.0]},
+            "increments": {"full_grid_at": [-2.0, 0.0, 4.0, 8.0]},
             "snapshots": [0.0, 8.0],
             "snapshot_members": 2,
             "points": 1024,

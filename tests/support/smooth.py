@@ -13,8 +13,8 @@ from contactsim.elasticity.solids import Elasticity, Layer
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import state_observables
-from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Requested
+from contactsim.paths.state import PathState
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Cylinder, Flat, Surface
 

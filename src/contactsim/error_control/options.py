@@ -293,4 +293,6 @@ def choose_increments(scene: Scene, points: int) -> Increments:
     ratio = 2 ** int(np.clip(round(math.log2(waves / 2)), 0, 4))
     while points % (2 * ratio):
         ratio //= 2
-    return Nested(tuple(sorted(set(scene.path.turning_points[1:]))), ratio=ratio, between=min(2, ratio))
+    return Nested(
+        tuple(sorted(set(scene.path.turning_points[1:]))), coarse_ratio=ratio, intermediate_ratio=min(2, ratio)
+    )

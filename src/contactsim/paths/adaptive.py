@@ -1,7 +1,7 @@
 """Increments as long as the prediction of the next state allows.
 
-The states asked for are interpolated between those of one smooth stretch, never across a jump. As elasticity is linear,
-the residual of an interpolated state is known without a transform: it is the traction at the interpolated gap less the
+The requested states are interpolated between those of one smooth segment, never across a jump. As elasticity is
+linear, the residual of an interpolated state needs no transform: it is the traction at the interpolated gap minus the
 interpolated traction.
 """
 
@@ -15,63 +15,120 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.errors import SceneError, is_number
-from contactsim.grid import Array
-from contactsim.paths.continuation import Leap, PathState, Walk
-from contactsim.paths.extrapolation import POINTS, lagrange, shares
+from contactsim.paths.continuation import Continuation
+from contactsim.paths.segments import Segment
+from contactsim.paths.state import Jump, PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-SAFETY, SHRINK, GROW = 0.9, 0.4, 2.0
-"""Of an adaptive increment: share of the length that the error allows, least and largest change."""
-ALLOWED, SHORTEST, LONGEST = 0.005, 0.01, 1.0
-"""Error of a prediction, and increments of an approach, in the laws' length."""
-CLOSE = 1e-6
-"""Of an increment: what is nearer counts as the same place."""
-REFUSED = 4.0
-"""An increment is refused if its prediction was wrong by this many times what is allowed."""
+SAFETY, MIN_FACTOR, MAX_FACTOR = 0.9, 0.4, 2.0
+"""Share of the increment that the error allows, and smallest and largest factor between two increments."""
+DEFAULT_ERROR, DEFAULT_MIN, DEFAULT_MAX = 0.005, 0.01, 1.0
+"""Error of a prediction, and smallest and largest increment of an approach, in the laws' length."""
+ROUNDING = 1e-6
+"""Part of an increment below which two parameters are the same."""
+REJECTION = 4.0
+"""Ratio of the error of a prediction to the allowed error beyond which an increment is rejected."""
 
 
 @dataclass
-class Stretch:
-    """States of a walk between two jumps, by place, and the jumps that it begins with."""
+class IncrementController:
+    """Control of the increments of a path by the error of the predictions.
 
-    leaps: tuple[Leap, ...] = ()
-    places: list[float] = field(default_factory=list)
-    states: list[Equilibrium] = field(default_factory=list)
+    Attributes
+    ----------
+    error
+        Allowed error of a prediction, nm.
+    smallest, largest
+        Bounds of the increment, nm or GPa.
+    increment
+        Length of the next increment, nm or GPa.
+    """
 
-    def add(self, place: float, state: Equilibrium) -> None:
-        """A state that the walk came through."""
-        self.places.append(place)
-        self.states.append(state)
+    error: float
+    smallest: float
+    largest: float
+    increment: float
 
-    def near(self, problem: CohesiveProblem, place: float) -> Equilibrium:
-        """The state at a place within, by the polynomial through the nearest states."""
-        ahead = sum((other - place) * (self.places[0] - place) > 0 for other in self.places)  # before it on the walk
-        first = min(max(ahead - POINTS // 2, 0), max(len(self.places) - POINTS, 0))
-        places, states = (kept[first : first + POINTS] for kept in (self.places, self.states))
-        if place in places:
-            return states[places.index(place)]
+    def propose(self, parameter: float, end: float) -> float:
+        """Return the next parameter towards the end; the last two increments are equal, to interpolate well."""
+        distance = end - parameter
+        if abs(distance) <= self.increment * (1 + ROUNDING):
+            return end
+        return parameter + np.copysign(min(self.increment, abs(distance) / 2), distance)
 
-        def between(name: str) -> Array:
-            """A field of the states at that place."""
-            return lagrange(places, [getattr(state, name) for state in states], place)
+    def rejects(self, error: float) -> bool:
+        """Return True if a prediction with that error (nm) asks for a shorter increment, and there is one."""
+        return not error <= REJECTION * self.error and self.increment > self.smallest
 
-        gap = between("gap")
-        traction = problem.traction(gap)
-        left = traction - between("traction")
-        left[problem.fixed_modes] -= left[problem.fixed_modes].mean(axis=1, keepdims=True)
-        parts = zip(shares(places, place), states, strict=True)
-        residual = float(np.abs(left).max() / problem.strength) + sum(abs(part) * of.residual for part, of in parts)
-        status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
-        return Equilibrium(between("displacement"), gap, traction, status, residual, 0.0, 0)
+    def shrink(self) -> None:
+        """Shorten the increment after a rejection."""
+        self.increment = max(self.increment * MIN_FACTOR, self.smallest)
+
+    def accept(self, error: float, order: int, flowed: bool) -> None:
+        """Adapt the increment after a prediction of that error (nm) and polynomial order, or after a flow."""
+        unknown = flowed or not 0 < error < np.inf
+        factor = MAX_FACTOR if unknown else SAFETY * (self.error / error) ** (1 / (order + 1))
+        increment = self.increment * np.clip(factor, MIN_FACTOR, MAX_FACTOR)
+        self.increment = float(np.clip(increment, self.smallest, self.largest))
+
+
+@dataclass
+class Leg:
+    """A part of a path under one control and in one direction, and the segments of states that were solved on it."""
+
+    steps: Sequence[LoadStep]
+    segments: list[Segment] = field(default_factory=lambda: [Segment()])
+    iterations: int = 0
+    status: Status = Status.CONVERGED
+
+    @property
+    def direction(self) -> int:
+        """Sign of the change of the parameter along the leg."""
+        parameters = self.segments[0].parameters
+        start = parameters[0] if parameters else self.steps[0].value
+        return 1 if self.steps[-1].value >= start else -1
+
+    def add(self, parameter: float, state: Equilibrium, jumps: tuple[Jump, ...]) -> None:
+        """Append a solved state; jumps on the way to it begin a new segment."""
+        if jumps:
+            self.segments.append(Segment(jumps))
+        self.segments[-1].add(parameter, state)
+
+    def passed_segments(self, value: float) -> list[Segment]:
+        """Return the segments that begin before a parameter, or at it."""
+        return [
+            segment
+            for segment in self.segments
+            if segment.parameters and self.direction * (value - segment.parameters[0]) >= 0
+        ]
+
+    def jumps_before(self, value: float) -> tuple[Jump, ...]:
+        """Return the jumps between the requested state at a parameter and the one requested before it."""
+        direction = self.direction
+        earlier = [direction * step.value for step in self.steps if direction * (value - step.value) > 0]
+        previous = max(earlier, default=-np.inf)
+        new = [item for item in self.passed_segments(value) if direction * item.parameters[0] > previous]
+        return tuple(jump for segment in new for jump in segment.jumps)
 
 
 @dataclass(frozen=True)
 class Adaptive:
-    """Increments as long as the prediction is right to `error` (nm), from `least` to `most` (nm or GPa).
+    """Increments that keep the error of the predictions constant.
 
-    Left out, they are `ALLOWED`, `SHORTEST` and `LONGEST`; of a mean pressure the last two have to be given.
+    Parameters
+    ----------
+    error
+        Allowed error of a prediction, nm; 0.005 of the laws' length by default.
+    least, most
+        Smallest and largest increment, nm or GPa; 0.01 and 1 of the laws' length by default. A mean pressure has no
+        default.
+
+    Raises
+    ------
+    SceneError
+        If a value is not positive, or `least` exceeds `most`.
     """
 
     error: float | None = None
@@ -86,154 +143,132 @@ class Adaptive:
         if self.least is not None and self.most is not None and self.least > self.most:
             raise SceneError("least", self.least, f"at most the longest increment, {self.most:g}")
 
-    def _allowed(self, problem: CohesiveProblem) -> float:
-        """Error of a prediction, nm."""
-        return self.error or ALLOWED * problem.interaction_range
-
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """SceneError for a solver that makes no predictions, and where a pressure's increments have no bounds."""
+        """Raise SceneError for a solver without predictions, and for a mean pressure without bounds."""
         if not solver.uses_guess:
             raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
-        given = {"least": self.least, "most": self.most}
-        if None in given.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
-            raise SceneError("least", given, "least and most in GPa, where a mean pressure is prescribed")
+        bounds = {"least": self.least, "most": self.most}
+        if None in bounds.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
+            raise SceneError("least", bounds, "least and most in GPa, where a mean pressure is prescribed")
 
     def coarsened(self, factor: int) -> Adaptive:
-        """Return the same for a coarser grid: it does not depend on the grid."""
+        """Return the same increments: they do not depend on the grid."""
         return self
 
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
-        """States at all steps, in order, interpolated between those walked through."""
+        """Yield the states at all steps, in order, interpolated between solved states."""
         self.check(problem.grid.size, steps, solver)
-        walk, begin = Walk(problem, solver), 0
+        path, begin = Continuation(problem, solver), 0
         while begin < len(steps):
-            end = _turn(steps, begin, walk.place(steps[begin]))
-            leg, spent = steps[begin:end], problem.tally.transforms
-            iterations, stretches, status = self._walk(walk, leg)
-            spent = problem.tally.transforms - spent
+            end = _leg_end(steps, begin, path.parameter(steps[begin]))
+            transforms = problem.tally.transforms
+            leg = self._solve_leg(path, steps[begin:end])
+            transforms = problem.tally.transforms - transforms
             lost = False
-            for count, step in enumerate(leg):
-                shared = (iterations, spent) if count == 0 else (0, 0.0)
-                state = self._state(walk, step, leg, stretches, Status.SKIPPED if lost else status, shared)
+            for count, step in enumerate(leg.steps):
+                cost = (leg.iterations, transforms) if count == 0 else (0, 0.0)
+                state = self._requested_state(path, leg, step, Status.SKIPPED if lost else leg.status, cost)
                 lost |= not state.status.solved
                 yield state
             begin = end
-            if status is not Status.CONVERGED:
+            if leg.status is not Status.CONVERGED:
                 for step in steps[end:]:
-                    yield PathState(step, walk.at(step), walk.last, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
+                    yield PathState(step, path.at(step), path.displacement, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
                 return
 
-    def _walk(self, walk: Walk, leg: Sequence[LoadStep]) -> tuple[int, list[Stretch], Status]:
-        """Walk from where it stands to the last step of a leg: iterations spent, the stretches, and how it ended.
+    def _controller(self, problem: CohesiveProblem) -> IncrementController:
+        """Return a controller that begins with the smallest increment."""
+        length = problem.interaction_range
+        largest = self.most or max(DEFAULT_MAX * length, self.least or 0.0)
+        smallest = self.least or min(DEFAULT_MIN * length, largest)
+        return IncrementController(self._allowed_error(problem), smallest, largest, smallest)
 
-        Where a flow is needed it goes to the next state asked for, if that is within the least increment, so that a
-        jump is found between the same two states as without adapting.
+    def _allowed_error(self, problem: CohesiveProblem) -> float:
+        """Return the allowed error of a prediction, nm."""
+        return self.error or DEFAULT_ERROR * problem.interaction_range
+
+    def _solve_leg(self, path: Continuation, steps: Sequence[LoadStep]) -> Leg:
+        """Solve states from the current one to the last step of a leg.
+
+        Where a flow is needed, it goes to the next requested step if that is within the increment. A jump is then
+        found between the same two states as without adaptive increments.
         """
-        first, last = leg[0], leg[-1]
-        reach, error = walk.problem.interaction_range, self._allowed(walk.problem)
-        most = self.most or max(LONGEST * reach, self.least or 0.0)
-        least = self.least or min(SHORTEST * reach, most)
-        iterations, increment = 0, least
-        stretches = [Stretch()]
-        place = walk.place(first)
-        if place is not None:
-            stretches[0].add(place, walk.stands[1])
-        while place != last.value:
-            goal = first.value if place is None else _towards(place, last.value, increment)
-            step = replace(first, value=goal)
-            found, flowed = walk.near(step), False
-            iterations += found.iterations
-            order = walk.history.order
-            wrong = found.largest_change if found.is_stable and walk.history.places else np.inf
-            if not wrong <= REFUSED * error and increment > least and place is not None:
-                increment = max(increment * SHRINK, least)
+        leg, controller = Leg(steps), self._controller(path.problem)
+        first, last = steps[0], steps[-1]
+        parameter = path.parameter(first)
+        if parameter is not None and path.current is not None:
+            leg.segments[0].add(parameter, path.current[1])
+        while parameter != last.value:
+            goal = first.value if parameter is None else controller.propose(parameter, last.value)
+            state, jumps = path.continue_to(replace(first, value=goal)), ()
+            leg.iterations += state.iterations
+            order = path.history.order
+            error = state.largest_change if state.is_stable and path.history.parameters else np.inf
+            if parameter is not None and controller.rejects(error):
+                controller.shrink()
                 continue
-            leaps = ()
-            if walk.believed(found):
-                walk.accept(step, found, False)
+            flowed = not path.is_on_branch(state)
+            if flowed:
+                goal = next((step.value for step in steps if _is_between(parameter, step.value, goal)), goal)
+                state, jumps, iterations = _flow_to(path, replace(first, value=goal))
+                leg.iterations += iterations
             else:
-                goal = next((other.value for other in leg if _between(place, other.value, goal)), goal)
-                found, leaps, spent = self._flowed(walk, replace(first, value=goal))
-                flowed, iterations = True, iterations + spent
-            if not found.is_stable:
-                return iterations, stretches, found.status
-            if leaps:
-                stretches.append(Stretch(leaps))
-            stretches[-1].add(goal, found)
-            growth = GROW if flowed or not 0 < wrong < np.inf else SAFETY * (error / wrong) ** (1 / (order + 1))
-            increment = float(np.clip(increment * np.clip(growth, SHRINK, GROW), least, most))
-            place = goal
-        return iterations, stretches, Status.CONVERGED
+                path.accept(replace(first, value=goal), state, False)
+            if not state.is_stable:
+                leg.status = state.status
+                break
+            leg.add(goal, state, jumps)
+            controller.accept(error, order, flowed)
+            parameter = goal
+        return leg
 
-    def _flowed(self, walk: Walk, step: LoadStep) -> tuple[Equilibrium, tuple[Leap, ...], int]:
-        """The state at a step to which continuation did not lead: by flow, over a lattice in ever smaller steps."""
-        if walk.slips:
-            return walk.reach(step)
-        found = walk.flow(step)
-        leap = walk.accept(step, found, True) if found.is_stable else None
-        return found, (leap,) if leap else (), found.iterations
-
-    def _state(
-        self,
-        walk: Walk,
-        step: LoadStep,
-        leg: Sequence[LoadStep],
-        stretches: list[Stretch],
-        status: Status,
-        spent: tuple[int, float],
+    def _requested_state(
+        self, path: Continuation, leg: Leg, step: LoadStep, status: Status, cost: tuple[int, float]
     ) -> PathState:
-        """The state asked for, from the stretch that holds it; solved for where interpolation is not good enough."""
-        problem = walk.at(step)
-        begun = stretches[0].places[0] if stretches[0].places else leg[0].value
-        sign = 1 if leg[-1].value >= begun else -1
-        reached = [stretch for stretch in stretches if stretch.places and sign * (step.value - stretch.places[0]) >= 0]
-        if not reached or (status is not Status.CONVERGED and sign * (step.value - reached[-1].places[-1]) > 0):
-            return PathState(step, problem, walk.last, status, np.nan, 0.0, *spent)
-        stretch = reached[-1]
-        beyond = sign * (step.value - stretch.places[-1]) > 0  # by rounding
-        found = stretch.near(problem, stretch.places[-1] if beyond else step.value)
-        if found.residual > problem.tolerance + self._allowed(problem) * problem.law_stiffness / problem.strength:
+        """Return a requested state, interpolated in its segment, or solved where interpolation is not good enough."""
+        problem, direction, segments = path.at(step), leg.direction, leg.passed_segments(step.value)
+        unsolved = status is not Status.CONVERGED
+        if not segments or (unsolved and direction * (step.value - segments[-1].parameters[-1]) > 0):
+            return PathState(step, problem, path.displacement, status, np.nan, 0.0, *cost)
+        segment = segments[-1]
+        is_after_end = direction * (step.value - segment.parameters[-1]) > 0  # by rounding
+        state = segment.interpolate(problem, segment.parameters[-1] if is_after_end else step.value)
+        if state.residual > problem.tolerance + self._allowed_error(problem) * problem.law_stiffness / problem.strength:
             before = problem.tally.transforms
-            found = walk.solver.solve_near(problem, found.displacement, walk.solver.new_memory())
-            spent = spent[0] + found.iterations, spent[1] + problem.tally.transforms - before
-        earlier = [other.value for other in leg if sign * (step.value - other.value) > 0]
-        since = [
-            item
-            for item in reached
-            if item.leaps
-            and (not earlier or sign * (item.places[0] - max(earlier, key=lambda value: sign * value)) > 0)
-        ]
-        leaps = tuple(leap for item in since for leap in item.leaps)
-        numbers = found.status, found.residual, sum(leap.moved for leap in leaps), *spent
-        return PathState(step, problem, found.displacement, *numbers, found, leaps)
+            state = path.solver.solve_near(problem, state.displacement, path.solver.new_memory())
+            cost = cost[0] + state.iterations, cost[1] + problem.tally.transforms - before
+        jumps = leg.jumps_before(step.value)
+        distance = sum(jump.distance for jump in jumps)
+        return PathState(step, problem, state.displacement, state.status, state.residual, distance, *cost, state, jumps)
 
 
-def _towards(place: float, end: float, increment: float) -> float:
-    """One increment from a place towards the end; the last two are alike, as states close by interpolate badly."""
-    left = end - place
-    if abs(left) <= increment * (1 + CLOSE):
-        return end
-    return place + np.copysign(min(increment, abs(left) / 2), left)
+def _flow_to(path: Continuation, step: LoadStep) -> tuple[Equilibrium, tuple[Jump, ...], int]:
+    """Return the state that the flow reaches, the jumps and the iterations; over a lattice in divided steps."""
+    if path.has_lattice:
+        return path.advance_to(step)
+    state = path.flow_to(step)
+    jump = path.accept(step, state, True) if state.is_stable else None
+    return state, (jump,) if jump else (), state.iterations
 
 
-def _between(place: float | None, value: float, goal: float) -> bool:
-    """Whether a value lies after a place, by more than rounding, and not beyond the goal."""
-    return place is not None and CLOSE < (value - place) / (goal - place) <= 1
+def _is_between(parameter: float | None, value: float, goal: float) -> bool:
+    """Return True if a value lies after a parameter, by more than rounding, and not after the goal."""
+    return parameter is not None and ROUNDING < (value - parameter) / (goal - parameter) <= 1
 
 
-def _turn(steps: Sequence[LoadStep], begin: int, last: float | None) -> int:
-    """Where the leg that begins at a step ends, exclusive: of one control, in one direction; a hold is one too.
+def _leg_end(steps: Sequence[LoadStep], begin: int, parameter: float | None) -> int:
+    """Return the end (exclusive) of the leg that begins at a step: one control, one direction; a hold is a leg too.
 
-    last: where the path stands before it, if it does.
+    `parameter` is that of the current state, None at the beginning of the path.
     """
-    before, way = last, None
-    for place in range(begin, len(steps)):
-        if steps[place].control is not steps[begin].control:
-            return place
-        now = None if before is None else float(np.sign(steps[place].value - before))
-        if way is not None and now != way:
-            return place
-        before, way = steps[place].value, now
+    before, direction = parameter, None
+    for index in range(begin, len(steps)):
+        if steps[index].control is not steps[begin].control:
+            return index
+        change = None if before is None else float(np.sign(steps[index].value - before))
+        if direction is not None and change != direction:
+            return index
+        before, direction = steps[index].value, change
     return len(steps)

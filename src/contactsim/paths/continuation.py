@@ -1,13 +1,12 @@
-"""A walk along a load path: each state starts from the one before, since the past decides.
+"""Follow one branch of equilibria along a load path: each state starts from the one before.
 
 The branch is that of a slow experiment: the equilibrium that the overdamped flow reaches from the last stable state.
-Where continuation fails, a step is divided, so that what it does at once is what small steps would do, and what is
-left in the end is a jump or none.
+Where continuation fails, a step is divided until it follows the branch or shows a jump.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,236 +14,208 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import History
+from contactsim.paths.state import Jump, PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-SUDDEN, STEADY = 0.1, 5.0
-"""A flow has jumped if it moved the surface by more than this part of the laws' length, and this times the step, which
-is a length or, under a load, the length that the step before moved the surface by for each unit of load."""
-
-FASTEST = 250.0
-"""How many times as fast as it is driven a surface may slide over a lattice, which is seen as no jump."""
-
-CLOSE = 3.0
+JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
+"""A flow is a jump if it moves the surface by more than this part of the laws' length and by more than this many steps.
+A step under load counts as the length that a step of that size moved the surface before."""
+SLIP_RATIO = 250.0
+"""Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
+BOND_LENGTH = 3.0
 """Gaps, in the laws' length, over which sites of a lattice hold each other."""
-
-DEEPEST = 8
-"""Most times that a step, or a part of it, is halved."""
-
-PATIENCE = 3
-"""Steps in a row without a solution, each sought from the last stable state, after which a path breaks off."""
+MAX_HALVINGS = 8
+"""Largest number of times that a step, or a part of it, is halved."""
+MAX_FAILURES = 3
+"""Steps in a row without a solution, each sought from the last stable state, after which a path ends."""
 
 
-@dataclass(frozen=True)
-class Leap:
-    """A jump of the surface: the step and the state before, and after; moved: how far (nm)."""
+class Continuation:
+    """The last accepted state of a path, and the history that predicts the next one.
 
-    left: LoadStep
-    before: Equilibrium = field(repr=False)
-    step: LoadStep
-    after: Equilibrium = field(repr=False)
-    moved: float
-
-
-@dataclass(frozen=True)
-class PathState:
-    """One state of the path: its load step, the problem there, its coefficients (exerted, m), and how it was found.
-
-    residual: over the laws' strength; jump: how far (nm) the surface jumped since the state before, in all leaps;
-    iterations and transforms: spent since the state before; found: the solution or what was interpolated, None after a
-    break-off.
+    Parameters
+    ----------
+    problem
+        The problem that the path solves.
+    solver
+        Solver of its states.
+    divides
+        If True, steps that continuation fails to take are divided.
     """
-
-    step: LoadStep
-    problem: CohesiveProblem = field(repr=False)
-    displacement: Array = field(repr=False)
-    status: Status
-    residual: float
-    jump: float
-    iterations: int
-    transforms: float
-    found: Equilibrium | None = field(default=None, repr=False)
-    leaps: tuple[Leap, ...] = field(default=(), repr=False)
-
-    @property
-    def points(self) -> int:
-        """Of the grid that it is a solution on."""
-        return self.problem.grid.size
-
-    def fields(self) -> tuple[Array, Array]:
-        """Gap (read, n), nm, and traction (exerted, n), GPa."""
-        if self.found is not None:
-            return self.found.gap, self.found.traction
-        gap = self.problem.gap(self.displacement)
-        return gap, self.problem.traction(gap)
-
-
-class Walk:
-    """Where a path stands: the last stable state, and the history that predicts the next."""
 
     def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver, divides: bool = True) -> None:
         self.problem, self.solver = problem, solver
         self._divides = divides and solver.uses_guess
         self.history = History()
-        self.last = np.zeros(problem.unknowns, complex)
-        self._failed = 0
+        self.displacement = np.zeros(problem.unknowns, complex)
+        self._failures = 0
         self._memory = solver.new_memory()
-        self.stands: tuple[LoadStep, Equilibrium] | None = None  # the last state and its step
+        self.current: tuple[LoadStep, Equilibrium] | None = None  # step and state accepted last
         self._pace: float | None = None
 
-    def place(self, to: LoadStep) -> float | None:
-        """Where it stands, nm or GPa, on the way to a step; None at the beginning."""
-        if self.stands is not None and to.control is not self.stands[0].control:
-            self._turn(to)
-        return self.history.places[-1] if self.history.places else None
+    def parameter(self, target: LoadStep) -> float | None:
+        """Return the load parameter of the current state, under the control of a target step; None at the beginning.
 
-    def _turn(self, to: LoadStep) -> None:
-        """Go on from the last state under another control, where it has another place and maybe uniform mode."""
-        step, state = self.stands
-        here, last = self.at(step), state.displacement.copy()
-        stands = step.normal
-        if to.normal.control is not step.normal.control:
-            if to.normal.control is Trait.MEAN_PRESSURE:
-                place = -float(state.traction[0].mean())
-                last[0, 0] -= here.approach
+        It is an approach or a sliding distance in nm, or a mean pressure in GPa.
+        """
+        if self.current is not None and target.control is not self.current[0].control:
+            self._change_control(target)
+        return self.history.parameters[-1] if self.history.parameters else None
+
+    def _change_control(self, target: LoadStep) -> None:
+        """Continue from the current state under another control, which changes its parameter and its uniform mode."""
+        assert self.current is not None
+        step, state = self.current
+        here, displacement = self.at(step), state.displacement.copy()
+        normal = step.normal
+        if target.normal.control is not step.normal.control:
+            if target.normal.control is Trait.MEAN_PRESSURE:
+                value = -float(state.traction[0].mean())
+                displacement[0, 0] -= here.approach
             else:
-                place = here.mean_displacement - float(last[0, 0].real) - here.origin
-                last[0, 0] = here.mean_displacement
-            stands = LoadStep(to.normal.control, place)
-        if to.control is Trait.SLIDE:
-            stands = LoadStep(Trait.SLIDE, step.sliding_distance, held=stands)
-        place = stands.value
-        self.last, self._pace = last, None
-        self.stands = stands, replace(state, displacement=last)
+                value = here.mean_displacement - float(displacement[0, 0].real) - here.origin
+                displacement[0, 0] = here.mean_displacement
+            normal = LoadStep(target.normal.control, value)
+        current = normal
+        if target.control is Trait.SLIDE:
+            current = LoadStep(Trait.SLIDE, step.sliding_distance, held=normal)
+        self.displacement, self._pace = displacement, None
+        self.current = current, replace(state, displacement=displacement)
         self.history = History()
-        self.history.add(place, last)
+        self.history.add(current.value, displacement)
 
     def at(self, step: LoadStep) -> CohesiveProblem:
-        """The problem at a load step."""
+        """Return the problem at a load step."""
         return self.problem.at(step)
 
-    def guess(self, step: LoadStep) -> Array:
-        """Where the state is expected."""
-        place = self.place(step)
-        if place is None or not self.solver.uses_guess:
+    def prediction(self, step: LoadStep) -> Array:
+        """Return the expected displacement at a step, (exerted, m)."""
+        parameter = self.parameter(step)
+        if parameter is None or not self.solver.uses_guess:
             return self.start(step)
-        if self.history.holds(step.value) and abs(step.value - place) > self.near_by:
+        if self.history.turns_at(step.value) and abs(step.value - parameter) > self.trust_radius:
             return self.start(step)
-        return self.history.guess(step.value)
+        return self.history.extrapolate(step.value)
 
     def start(self, step: LoadStep) -> Array:
-        """The last state at a step, before anything gives way: on a slide, surfaces that stay where they are.
+        """Return the current displacement at a step before anything gives way; on a slide the surfaces stick.
 
-        The far side of a body moves on and shears it; a half-space, of which the mean is moved, is not sheared.
+        The far side of the upper body moves on and shears it. A half-space moves as a whole and is not sheared.
         """
         here = self.at(step)
-        if step.held is None or self.stands is None or len(here.fixed_modes) < 2 or here.fixed_modes[1]:
-            return self.last
-        start = self.last.copy()
-        start[1, 0] -= step.sliding_distance - self.stands[0].sliding_distance
+        if step.held is None or self.current is None or len(here.fixed_modes) < 2 or here.fixed_modes[1]:
+            return self.displacement
+        start = self.displacement.copy()
+        start[1, 0] -= step.sliding_distance - self.current[0].sliding_distance
         return start
 
     @property
-    def near_by(self) -> float:
-        """How far (nm) a state may lie from where it is expected, to be believed on the same branch."""
+    def trust_radius(self) -> float:
+        """Largest distance (nm) between a state and its prediction on the same branch."""
         return self.solver.trust_radius * self.problem.interaction_range
 
-    def believed(self, found: Equilibrium) -> bool:
-        """Whether a state by continuation is on the branch: where it is expected and, over a lattice, not a cell on.
+    def is_on_branch(self, state: Equilibrium) -> bool:
+        """Return True if a state found by continuation is on the branch.
 
-        States a cell apart are alike, and a guess that is wrong by one finds the wrong one at once.
+        It must lie where it is predicted. Over a lattice it must not have slipped by half a cell or more, because
+        states a cell apart are alike, and a prediction that is off by a cell finds the wrong one.
         """
-        if not (found.is_stable and found.largest_change <= self.near_by):
+        if not (state.is_stable and state.largest_change <= self.trust_radius):
             return False
-        if self.stands is None or not self.slips:
+        if self.current is None or not self.has_lattice:
             return True
-        close = found.gap[0] <= CLOSE * self.problem.interaction_range
-        slipped = np.abs(found.gap[1, close] - self.stands[1].gap[1, close]).max(initial=0.0)
-        return bool(slipped <= self.problem.lattice_constant / 2)
+        close = state.gap[0] <= BOND_LENGTH * self.problem.interaction_range
+        slip = np.abs(state.gap[1, close] - self.current[1].gap[1, close]).max(initial=0.0)
+        return bool(slip <= self.problem.lattice_constant / 2)
 
-    def near(self, step: LoadStep) -> Equilibrium:
-        """The state by continuation alone."""
-        return self.solver.solve_near(self.at(step), self.guess(step), self._memory, self.near_by)
+    def continue_to(self, step: LoadStep) -> Equilibrium:
+        """Return the state at a step that the solver finds near its prediction."""
+        return self.solver.solve_near(self.at(step), self.prediction(step), self._memory, self.trust_radius)
 
-    def flow(self, step: LoadStep) -> Equilibrium:
-        """The state by flow from the last stable one."""
+    def flow_to(self, step: LoadStep) -> Equilibrium:
+        """Return the state at a step that the overdamped flow reaches from the current one."""
         return self.solver.flow_from(self.at(step), self.start(step))
 
-    def accept(self, step: LoadStep, found: Equilibrium, flowed: bool) -> Leap | None:
-        """Move on to a state; the jump to it, if it is one."""
-        before = self.place(step)
-        taken = np.inf if before is None else abs(step.value - before)
-        expected = (
-            np.inf
-            if taken == np.inf
-            else max(STEADY * self._length(step, taken), SUDDEN * self.problem.interaction_range)
-        )
-        if step.held is not None and before is not None:  # a slip of a cell is one, however long the step
-            expected = min(expected, self.problem.lattice_constant / 2)
+    def accept(self, step: LoadStep, state: Equilibrium, flowed: bool) -> Jump | None:
+        """Make a state the current one; return the jump to it if it is one."""
+        parameter = self.parameter(step)
+        increment = np.inf if parameter is None else abs(step.value - parameter)
+        smooth = self._largest_smooth_motion(step, parameter, increment)
         jump = (
-            Leap(*self.stands, step, found, found.largest_change)
-            if flowed and found.largest_change > expected
-            else None
+            Jump(*self.current, step, state, state.largest_change) if flowed and state.largest_change > smooth else None
         )
-        if step.control is Trait.MEAN_PRESSURE and not jump and 0 < taken < np.inf:
-            self._pace = largest_change(self.problem, found.displacement - self.last) / taken
+        if step.control is Trait.MEAN_PRESSURE and not jump and 0 < increment < np.inf:
+            self._pace = largest_change(self.problem, state.displacement - self.displacement) / increment
         if jump:
-            self.history.restart(step.value, found.displacement)
+            self.history.restart(step.value, state.displacement)
         else:
-            self.history.add(step.value, found.displacement)
-        self.last, self.stands = found.displacement, (step, found)
+            self.history.add(step.value, state.displacement)
+        self.displacement, self.current = state.displacement, (step, state)
         return jump
 
-    def advance(self, step: LoadStep) -> PathState:
-        """The state at the next step: by continuation, or where that is not to be trusted by flow."""
-        tally, here = self.problem.tally, self.at(step)
-        if self._failed == PATIENCE:
-            return PathState(step, here, self.last, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
-        before = tally.transforms
-        found, leaps, spent = self.reach(step)
-        lost = found.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)  # nothing comes after that
-        self._failed = 0 if found.is_stable else PATIENCE if lost else self._failed + 1
-        cost = tally.transforms - before
-        numbers = found.status, found.residual, sum(leap.moved for leap in leaps), spent, cost
-        return PathState(step, here, found.displacement, *numbers, found, leaps)
+    def _largest_smooth_motion(self, step: LoadStep, parameter: float | None, increment: float) -> float:
+        """Return the distance (nm) beyond which a motion of the surface is a jump."""
+        if increment == np.inf:
+            smooth = np.inf
+        else:
+            smooth = max(JUMP_RATIO * self._length(step, increment), JUMP_LENGTH * self.problem.interaction_range)
+        if step.held is not None and parameter is not None:  # a slip of half a cell is a jump, however long the step
+            smooth = min(smooth, self.problem.lattice_constant / 2)
+        return smooth
 
-    def reach(self, step: LoadStep) -> tuple[Equilibrium, tuple[Leap, ...], int]:
-        """Go to a step, by way of others between if need be: the state, jumps on the way, iterations spent."""
-        goals, divides, leaps, spent = [step.value], self._divides, [], 0
+    def advance(self, step: LoadStep) -> PathState:
+        """Return the state at the next step of the path, found by continuation or else by flow."""
+        counter, here = self.problem.tally, self.at(step)
+        if self._failures == MAX_FAILURES:
+            return PathState(step, here, self.displacement, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
+        before = counter.transforms
+        state, jumps, iterations = self.advance_to(step)
+        is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)
+        self._failures = 0 if state.is_stable else MAX_FAILURES if is_final else self._failures + 1
+        cost = counter.transforms - before
+        distance = sum(jump.distance for jump in jumps)
+        numbers = state.status, state.residual, distance, iterations, cost
+        return PathState(step, here, state.displacement, *numbers, state, jumps)
+
+    def advance_to(self, step: LoadStep) -> tuple[Equilibrium, tuple[Jump, ...], int]:
+        """Advance to a step, divided if need be; return the state, the jumps on the way, and the iterations."""
+        goals, divides, jumps, iterations = [step.value], self._divides, [], 0
         while True:
             goal = replace(step, value=goals[-1])
-            found, flowed = self.near(goal) if self.solver.uses_guess else None, False
-            spent += found.iterations if found else 0
-            if found is None or not self.believed(found):
-                place = self.place(step)
-                divisible = divides and len(goals) <= DEEPEST and place is not None
-                if divisible and self._length(goal, abs(goals[-1] - place)) > self._small:
-                    goals.append((place + goals[-1]) / 2)
+            state = self.continue_to(goal) if self.solver.uses_guess else None
+            iterations += state.iterations if state else 0
+            flowed = state is None or not self.is_on_branch(state)
+            if flowed:
+                parameter = self.parameter(step)
+                divisible = divides and len(goals) <= MAX_HALVINGS and parameter is not None
+                if divisible and self._length(goal, abs(goals[-1] - parameter)) > self._smallest_division:
+                    goals.append((parameter + goals[-1]) / 2)
                     continue
-                found, flowed = self.flow(goal), True
-                spent += found.iterations
-            if found.is_stable:
-                leaps += [leap for leap in [self.accept(goal, found, flowed)] if leap]
+                state = self.flow_to(goal)
+                iterations += state.iterations
+            if state.is_stable:
+                jumps += [jump for jump in [self.accept(goal, state, flowed)] if jump]
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False
                 continue
             goals.pop()
             if not goals:
-                return found, tuple(leaps), spent
+                return state, tuple(jumps), iterations
 
     @property
-    def slips(self) -> bool:
-        """Whether surfaces slide over a lattice, where smooth motion may be fast."""
-        return np.isfinite(self.problem.lattice_constant)
+    def has_lattice(self) -> bool:
+        """True if the surfaces slide over a lattice, where smooth motion may be fast."""
+        return bool(np.isfinite(self.problem.lattice_constant))
 
     @property
-    def _small(self) -> float:
-        """A step (nm) not worth dividing: what moves smoothly during it is not taken for a jump."""
-        return SUDDEN * self.problem.interaction_range / (FASTEST if self.slips else STEADY)
+    def _smallest_division(self) -> float:
+        """Length of a step (nm) that needs no division, because smooth motion during it is not taken for a jump."""
+        return JUMP_LENGTH * self.problem.interaction_range / (SLIP_RATIO if self.has_lattice else JUMP_RATIO)
 
-    def _length(self, step: LoadStep, taken: float) -> float:
-        """About how far (nm) a step of that size moves the surface where it does not jump: unknown, infinitely far."""
+    def _length(self, step: LoadStep, increment: float) -> float:
+        """Return the distance (nm) that a step moves the surface without a jump; infinite if unknown."""
         if step.control is not Trait.MEAN_PRESSURE:
-            return taken
-        return np.inf if self._pace is None else self._pace * taken
+            return increment
+        return np.inf if self._pace is None else self._pace * increment

@@ -1,4 +1,4 @@
-"""Extrapolation and interpolation along a path of states, by Lagrange's polynomials of at most third order."""
+"""Extrapolation and interpolation along a path, by Lagrange's polynomials of at most third order."""
 
 from __future__ import annotations
 
@@ -10,54 +10,66 @@ import numpy as np
 from contactsim.grid import Array
 
 POINTS = 4
-"""Most states that a polynomial goes through."""
+"""Largest number of states that a polynomial goes through."""
 
 
-def shares(places: Sequence[float], place: float) -> list[float]:
-    """How much each of the states at `places`, all different, counts in the polynomial through them at `place`."""
-    return [math.prod((place - other) / (own - other) for other in places if other != own) for own in places]
+def lagrange_weights(parameters: Sequence[float], parameter: float) -> list[float]:
+    """Return the weight of each state in the polynomial through all of them, at a parameter.
+
+    Parameters
+    ----------
+    parameters
+        Load parameters of the states, all different.
+    parameter
+        Load parameter at which the polynomial is evaluated.
+    """
+    return [
+        math.prod((parameter - other) / (own - other) for other in parameters if other != own) for own in parameters
+    ]
 
 
-def lagrange(places: Sequence[float], states: Sequence[Array], place: float) -> Array:
-    """The polynomial through (place, state) pairs, evaluated at `place`; places differ from each other."""
-    out = np.zeros_like(states[0])
-    for share, state in zip(shares(places, place), states, strict=True):
-        out += share * state
-    return out
+def interpolate(parameters: Sequence[float], states: Sequence[Array], parameter: float) -> Array:
+    """Return the polynomial through the states at a parameter; arguments as of `lagrange_weights`."""
+    values = np.zeros_like(states[0])
+    for weight, state in zip(lagrange_weights(parameters, parameter), states, strict=True):
+        values += weight * state
+    return values
 
 
 class History:
-    """The last few states of one smooth stretch of a path."""
+    """The last few states of one smooth segment of a path, with their load parameters."""
 
     def __init__(self) -> None:
-        self.places: list[float] = []
+        self.parameters: list[float] = []
         self.states: list[Array] = []
 
-    def add(self, place: float, state: Array) -> None:
-        """Remember a state, forgetting the oldest; a turn of the path begins anew from its last state."""
-        turned = len(self.places) > 1 and (place - self.places[-1]) * (self.places[-1] - self.places[-2]) < 0
+    def add(self, parameter: float, state: Array) -> None:
+        """Append a state and drop the oldest; where the path turns, keep only the state at the turn."""
+        parameters = self.parameters
+        turned = len(parameters) > 1 and (parameter - parameters[-1]) * (parameters[-1] - parameters[-2]) < 0
         if turned:
-            self.places, self.states = self.places[-1:], self.states[-1:]
-        if self.places and place == self.places[-1]:
-            self.places, self.states = self.places[:-1], self.states[:-1]
-        self.places = [*self.places, place][-POINTS:]
+            self.parameters, self.states = self.parameters[-1:], self.states[-1:]
+        if self.parameters and parameter == self.parameters[-1]:
+            self.parameters, self.states = self.parameters[:-1], self.states[:-1]
+        self.parameters = [*self.parameters, parameter][-POINTS:]
         self.states = [*self.states, state][-POINTS:]
 
-    def restart(self, place: float, state: Array) -> None:
-        """Forget all states before this one."""
-        self.places, self.states = [place], [state]
+    def restart(self, parameter: float, state: Array) -> None:
+        """Drop all states before this one."""
+        self.parameters, self.states = [parameter], [state]
 
-    def holds(self, place: float) -> bool:
-        """Whether no more than the last state is known about a place: it alone, or the path turns there."""
-        return not self.order or (place - self.places[-1]) * (self.places[-1] - self.places[-2]) <= 0
+    def turns_at(self, parameter: float) -> bool:
+        """Return True if only the last state predicts the one at a parameter: it is the only one, or the path turns."""
+        parameters = self.parameters
+        return not self.order or (parameter - parameters[-1]) * (parameters[-1] - parameters[-2]) <= 0
 
-    def guess(self, place: float) -> Array:
-        """The state to be expected at a place; on a turn of the path, the last state."""
-        if self.holds(place):
+    def extrapolate(self, parameter: float) -> Array:
+        """Return the expected state at a parameter; where the path turns, the last state."""
+        if self.turns_at(parameter):
             return self.states[-1]
-        return lagrange(self.places, self.states, place)
+        return interpolate(self.parameters, self.states, parameter)
 
     @property
     def order(self) -> int:
-        """Order of the polynomial behind a guess."""
-        return len(self.places) - 1
+        """Order of the polynomial that predicts a state."""
+        return len(self.parameters) - 1

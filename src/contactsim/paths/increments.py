@@ -1,4 +1,4 @@
-"""Follow smooth laws through a load path: the increments there are to choose from."""
+"""Increments in which a path of a cohesive problem is followed, by name."""
 
 from __future__ import annotations
 
@@ -9,47 +9,48 @@ from typing import Protocol
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.paths.adaptive import Adaptive
-from contactsim.paths.continuation import PathState, Walk
+from contactsim.paths.continuation import Continuation
 from contactsim.paths.nested import Nested
+from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 
 
 class Increments(Protocol):
-    """A way to follow a path."""
+    """A way to choose the increments of a path."""
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """SceneError for what it cannot follow so."""
+        """Raise SceneError for a grid, a path or a solver that these increments do not suit."""
         ...
 
     def coarsened(self, factor: int) -> Increments:
-        """Return the same for a grid that many times coarser."""
+        """Return the same increments for a grid that many times coarser."""
         ...
 
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
-        """States at all steps, in order."""
+        """Yield the states at all steps, in order."""
         ...
 
 
 @dataclass(frozen=True)
 class Requested:
-    """Every increment of the path as it is asked for."""
+    """Every increment of the path as requested."""
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """Any path can be followed so."""
+        """Accept any path."""
 
     def coarsened(self, factor: int) -> Requested:
-        """Return the same for a coarser grid: it does not depend on the grid."""
+        """Return the same increments: they do not depend on the grid."""
         return self
 
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
-        """States at all steps, in order."""
-        walk = Walk(problem, solver)
+        """Yield the states at all steps, in order."""
+        path = Continuation(problem, solver)
         for step in steps:
-            yield walk.advance(step)
+            yield path.advance(step)
 
 
 INCREMENTS = {"requested": Requested, "adaptive": Adaptive, "nested": Nested}

@@ -1,7 +1,7 @@
-"""A path walked on a coarse grid, whose states are then solved for on a finer one, and some of them on the whole.
+"""A path followed on a coarse grid, with its states solved on an intermediate grid, and some on the full grid.
 
-Where and how far a rough contact jumps is decided by waves that a coarser grid carries as well, and by the increments
-of the path; what the finest waves do in a state follows from it.
+The long waves and the increments of the path decide where and how far a rough contact jumps, and a coarse grid
+resolves the long waves. The short waves of a state follow from it.
 """
 
 from __future__ import annotations
@@ -15,104 +15,123 @@ from contactsim.contact.cohesive import CohesiveProblem, check_tolerance
 from contactsim.contact.loading import LoadStep
 from contactsim.errors import SceneError
 from contactsim.grid import Array
-from contactsim.paths.continuation import PathState, Walk
+from contactsim.paths.continuation import Continuation
+from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.status import Status
 
-STRAYING = 0.5
-"""Where a flow ends farther from its begin than this, in the laws' length, the next state is sought by flow too."""
-CLOSE = 1e-9
-"""How near (nm or GPa) a step is to a value that asks for it."""
+FLOW_DISTANCE = 0.5
+"""Distance that a flow covers, in the laws' length, beyond which the next state is found by flow too."""
+ROUNDING = 1e-9
+"""Largest difference (nm or GPa) between a step and the value that selects it."""
 
 
 @dataclass(frozen=True)
 class Nested:
-    """Every increment on a coarse grid, then on one between; states asked for are solved on the whole grid too.
+    """Every increment on a coarse grid, then on an intermediate one; some states also on the full grid.
 
-    settled: values (nm or GPa) of the steps asked for; ratio, between: of the whole grid's points to those of the
-    coarse grid and of the one between, powers of two; walking, reading: tolerances on these two, in parts of the
-    strength. A walk leads to each state, whatever grid it is read on.
+    Parameters
+    ----------
+    full_grid_at
+        Values (nm or GPa) of the steps whose states are solved on the full grid.
+    coarse_ratio, intermediate_ratio
+        Points of the full grid over those of the coarse and of the intermediate grid; powers of two.
+    coarse_tolerance, intermediate_tolerance
+        Tolerances on these grids, in parts of the laws' strength.
+
+    Raises
+    ------
+    SceneError
+        If a ratio is not a power of two, or the intermediate grid is coarser than the coarse one.
     """
 
-    settled: list[float]
-    ratio: int = 16
-    between: int = 4
-    walking: float = 1e-3
-    reading: float = 1e-4
+    full_grid_at: list[float]
+    coarse_ratio: int = 16
+    intermediate_ratio: int = 4
+    coarse_tolerance: float = 1e-3
+    intermediate_tolerance: float = 1e-4
 
     def __post_init__(self) -> None:
-        for name in ("walking", "reading"):
+        for name in ("coarse_tolerance", "intermediate_tolerance"):
             check_tolerance(getattr(self, name), name)
-        for name in ("ratio", "between"):
+        for name in ("coarse_ratio", "intermediate_ratio"):
             value = getattr(self, name)
             if value < 1 or value & (value - 1):
                 raise SceneError(name, value, "a power of two")
-        if self.between > self.ratio:
-            raise SceneError("between", self.between, f"at most the ratio of the coarse grid, {self.ratio}")
+        if self.intermediate_ratio > self.coarse_ratio:
+            allowed = f"at most the ratio of the coarse grid, {self.coarse_ratio}"
+            raise SceneError("intermediate_ratio", self.intermediate_ratio, allowed)
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """SceneError for a grid that cannot be made coarser, states that the path does not visit, and slides."""
+        """Raise SceneError for slides, for a grid that cannot be coarsened, and for values that are no steps."""
         if any(step.held is not None for step in steps):
             raise SceneError("increments", "nested", "requested or adaptive, as the path slides")
-        if points % (2 * self.ratio):
-            raise SceneError("ratio", self.ratio, f"such that it divides half the grid's {points} points")
-        found = np.abs(np.subtract.outer(self.settled, [step.value for step in steps])).min(1) <= CLOSE
-        lost = [value for value, is_found in zip(self.settled, found, strict=True) if not is_found]
-        if lost:
-            raise SceneError("settled", lost, "steps of the path, which these are not")
+        if points % (2 * self.coarse_ratio):
+            allowed = f"such that it divides half the grid's {points} points"
+            raise SceneError("coarse_ratio", self.coarse_ratio, allowed)
+        distances = np.abs(np.subtract.outer(self.full_grid_at, [step.value for step in steps])).min(1)
+        missing = [value for value, far in zip(self.full_grid_at, distances > ROUNDING, strict=True) if far]
+        if missing:
+            raise SceneError("full_grid_at", missing, "steps of the path, which these are not")
 
     def coarsened(self, factor: int) -> Nested:
-        """Return the same for a grid that many times coarser."""
-        ratio = max(self.ratio // factor, 1)
-        return replace(self, ratio=ratio, between=min(self.between, ratio))
+        """Return the same increments for a full grid that many times coarser."""
+        ratio = max(self.coarse_ratio // factor, 1)
+        return replace(self, coarse_ratio=ratio, intermediate_ratio=min(self.intermediate_ratio, ratio))
 
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
-        """States at all steps, in order."""
-        size, tally = problem.grid.size, problem.tally
+        """Yield the states at all steps, in order."""
+        size, counter = problem.grid.size, problem.tally
         self.check(size, steps, solver)
-        walk = Walk(problem.coarser(size // self.ratio, self.walking), solver, divides=False)
-        between = problem.coarser(size // self.between, self.reading)
-        coarse, fine = (np.zeros(level.unknowns, complex) for level in (walk.problem, between))  # of the last state
-        middle, finest = (Level(level, solver) for level in (between, problem))
+        coarse_problem = problem.coarser(size // self.coarse_ratio, self.coarse_tolerance)
+        middle_problem = problem.coarser(size // self.intermediate_ratio, self.intermediate_tolerance)
+        path = Continuation(coarse_problem, solver, divides=False)
+        middle_grid, full_grid = FinerGrid(middle_problem, solver), FinerGrid(problem, solver)
+        coarse, middle = (np.zeros(level.unknowns, complex) for level in (coarse_problem, middle_problem))
         for step in steps:
-            before = tally.transforms
-            state = walk.advance(step)
+            before = counter.transforms
+            state = path.advance(step)
             if state.status is Status.CONVERGED:
-                expected = fine + between.prolong(state.displacement - coarse)
-                refined = middle.state(state, expected)
+                refined = middle_grid.refine(state, middle + middle_problem.prolong(state.displacement - coarse))
                 if refined.status is Status.CONVERGED:
-                    coarse, fine = state.displacement, refined.displacement
+                    coarse, middle = state.displacement, refined.displacement
                 state = refined
-            settled = min((abs(value - step.value) for value in self.settled), default=np.inf) <= CLOSE
-            if settled and state.status is Status.CONVERGED:
-                state = finest.state(state, problem.prolong(state.displacement))
-            yield replace(state, transforms=tally.transforms - before)
+            if state.status is Status.CONVERGED and self._needs_full_grid(step):
+                state = full_grid.refine(state, problem.prolong(state.displacement))
+            yield replace(state, transforms=counter.transforms - before)
+
+    def _needs_full_grid(self, step: LoadStep) -> bool:
+        """Return True if the state at a step is solved on the full grid."""
+        return min((abs(value - step.value) for value in self.full_grid_at), default=np.inf) <= ROUNDING
 
 
-class Level:
-    """A finer grid than that of a walk, on which its states are solved for."""
+class FinerGrid:
+    """A grid finer than that of the path, on which its states are solved again."""
 
     def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver) -> None:
         self._problem, self._solver = problem, solver
-        self._strays = False
+        self._prefers_flow = False
 
-    def state(self, coarse: PathState, start: Array) -> PathState:
-        """The state here that one of a coarser grid leads to, from where it is expected.
+    def refine(self, coarse: PathState, start: Array) -> PathState:
+        """Return the state on this grid that belongs to a state of a coarser grid.
 
-        Where the last one was found far from there, or not without a flow, the flow is tried at once.
+        Parameters
+        ----------
+        coarse
+            State of the coarser grid.
+        start
+            Expected displacement on this grid. If the previous flow ended far from its start, the state is found by
+            flow at once.
         """
-        here, count = self._problem.at(coarse.step), coarse.iterations
-        found = (
-            None
-            if self._strays
-            else self._solver.solve_near(here, start, self._solver.new_memory(), here.interaction_range)
-        )
-        if found is None or not (found.is_stable and found.largest_change <= here.interaction_range):
-            count += found.iterations if found else 0
-            found = self._solver.flow_from(here, start)
-            self._strays = found.largest_change > STRAYING * here.interaction_range
-        count += found.iterations
-        rest = found.status, found.residual, coarse.jump, count, 0.0, found, coarse.leaps
-        return PathState(coarse.step, here, found.displacement, *rest)
+        here, solver, iterations = self._problem.at(coarse.step), self._solver, coarse.iterations
+        trusted = here.interaction_range
+        state = None if self._prefers_flow else solver.solve_near(here, start, solver.new_memory(), trusted)
+        if state is None or not (state.is_stable and state.largest_change <= trusted):
+            iterations += state.iterations if state else 0
+            state = solver.flow_from(here, start)
+            self._prefers_flow = state.largest_change > FLOW_DISTANCE * trusted
+        iterations += state.iterations
+        numbers = state.status, state.residual, coarse.jump, iterations, 0.0
+        return PathState(coarse.step, here, state.displacement, *numbers, state, coarse.jumps)

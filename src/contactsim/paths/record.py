@@ -16,9 +16,9 @@ from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
 from contactsim.observables.sliding import slide_observables, slips_of
-from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Increments
 from contactsim.paths.slips import slip_numbers
+from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.surfaces.statistics import local_squares
 from contactsim.traits import Trait
@@ -60,7 +60,7 @@ def simulate_path(
         total += state.transforms
         marks.append(time.process_time() - begin)
         rows.append(_numbers(scene, state, slopes))
-        slips += [slip_numbers(problem, leap, count) for leap in state.leaps if leap.step.held]
+        slips += [slip_numbers(problem, jump, count) for jump in state.jumps if jump.step.held]
         if count in kept:
             fields[count] = _fields(problem.at(state.step), state, keep_fields)
         if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
@@ -112,7 +112,7 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
 def _fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
     """Histograms and, if kept, gap, traction and displacement by component, each (n,), read on the whole grid."""
     if state.points < problem.grid.size:
-        state = replace(state, problem=problem, displacement=problem.prolong(state.displacement), found=None)
+        state = replace(state, problem=problem, displacement=problem.prolong(state.displacement), solution=None)
     gap, traction = state.fields()
     kept = histograms(problem, gap, traction)
     if keep_fields:

@@ -8,11 +8,11 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadStep
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import TOUCHING, slide_observables
-from contactsim.paths.continuation import Leap
+from contactsim.paths.state import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
 
 
-def slip_numbers(problem: CohesiveProblem, slip: Leap, step: int) -> dict[str, float]:
+def slip_numbers(problem: CohesiveProblem, slip: Jump, step: int) -> dict[str, float]:
     """Return the numbers of one slip (`EVENT`).
 
     Parameters
@@ -30,12 +30,12 @@ def slip_numbers(problem: CohesiveProblem, slip: Leap, step: int) -> dict[str, f
     bodies release; the interface keeps a part of it.
     """
     before, after = (
-        _side_numbers(problem, at, state) for at, state in ((slip.left, slip.before), (slip.step, slip.after))
+        _side_numbers(problem, at, state) for at, state in ((slip.step_before, slip.before), (slip.step, slip.after))
     )
     return {
         "event_step": step,
         "event_sliding_distance": slip.step.sliding_distance,
-        "event_width": abs(slip.step.sliding_distance - slip.left.sliding_distance),
+        "event_width": abs(slip.step.sliding_distance - slip.step_before.sliding_distance),
         "event_force_before": before["force"],
         "event_force_after": after["force"],
         "event_length_before": before["length"],

@@ -19,7 +19,7 @@ from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.grid import Array
 from contactsim.interface.cohesive_zone import MAX_OVERLAP
 from contactsim.observables.adhesion import state_observables
-from contactsim.paths.continuation import PathState
+from contactsim.paths.state import PathState
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver

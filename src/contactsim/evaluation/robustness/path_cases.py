@@ -22,8 +22,8 @@ from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
 from contactsim.grid import Array
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
-from contactsim.paths.continuation import PathState
 from contactsim.paths.increments import Requested
+from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status

@@ -1,0 +1,56 @@
+"""Smooth segments of a path, and the interpolation between their states."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.paths.extrapolation import POINTS, interpolate, lagrange_weights
+from contactsim.paths.state import Jump
+from contactsim.solvers.cohesive.base import Equilibrium
+from contactsim.status import Status
+
+
+@dataclass
+class Segment:
+    """Solved states between two jumps, by their load parameters, and the jumps with which the segment begins."""
+
+    jumps: tuple[Jump, ...] = ()
+    parameters: list[float] = field(default_factory=list)
+    states: list[Equilibrium] = field(default_factory=list)
+
+    def add(self, parameter: float, state: Equilibrium) -> None:
+        """Append a solved state."""
+        self.parameters.append(parameter)
+        self.states.append(state)
+
+    def interpolate(self, problem: CohesiveProblem, parameter: float) -> Equilibrium:
+        """Return the state at a parameter inside the segment, by the polynomial through the nearest states.
+
+        Notes
+        -----
+        As elasticity is linear, the elastic traction of the interpolated displacement is the interpolated traction.
+        The residual is the law's traction at the interpolated gap minus that.
+        """
+        window = self._nearest(parameter)
+        parameters, states = self.parameters[window], self.states[window]
+        if parameter in parameters:
+            return states[parameters.index(parameter)]
+        gap = interpolate(parameters, [state.gap for state in states], parameter)
+        traction = problem.traction(gap)
+        error = traction - interpolate(parameters, [state.traction for state in states], parameter)
+        error[problem.fixed_modes] -= error[problem.fixed_modes].mean(axis=1, keepdims=True)
+        weights = lagrange_weights(parameters, parameter)
+        inherited = sum(abs(weight) * state.residual for weight, state in zip(weights, states, strict=True))
+        residual = float(np.abs(error).max() / problem.strength) + inherited
+        status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
+        displacement = interpolate(parameters, [state.displacement for state in states], parameter)
+        return Equilibrium(displacement, gap, traction, status, residual, 0.0, 0)
+
+    def _nearest(self, parameter: float) -> slice:
+        """Return the window of the states nearest to a parameter."""
+        before = sum((other - parameter) * (self.parameters[0] - parameter) > 0 for other in self.parameters)
+        first = min(max(before - POINTS // 2, 0), max(len(self.parameters) - POINTS, 0))
+        return slice(first, first + POINTS)
