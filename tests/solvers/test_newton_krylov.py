@@ -10,7 +10,7 @@ from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.gmres import gmres
-from contactsim.solvers.cohesive.zone_preconditioner import RATIO, ZonePreconditioner
+from contactsim.solvers.cohesive.zone_preconditioner import COARSENING, ZonePreconditioner
 from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.surfaces.shapes import Cylinder, Sinusoid
 from support.cases import refusal
@@ -73,7 +73,7 @@ def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_w
     smooth += tangent.values.mean(axis=-1, keepdims=True)  # uniform: long waves stay long
     object.__setattr__(tangent, "values", smooth)
     precondition = ZonePreconditioner(problem, tangent, shift)
-    low = 256 // RATIO // 2
+    low = 256 // COARSENING // 2
     change = np.zeros(problem.unknowns, complex)
     change[:, :low] = np.random.default_rng(3).standard_normal((len(change), low, 2)).view(complex)[..., 0]
     change[:, 0] = change[:, 0].real

@@ -1,14 +1,14 @@
-"""Damped Verlet dynamics of smooth laws: the thesis's own scheme (Eqs 2.3-2.7, 2.14), and one with masses that suit.
+"""Damped Verlet dynamics of smooth laws: the scheme of the thesis (Eqs 2.3-2.7, 2.14), and one with other masses.
 
 The surface moves in pseudo time as u⁺ = 2u - u⁻ + δt² F - d (u - u⁻), from rest at the last stable state, until the
-force F vanishes; the sign of the damping printed in Eq. 2.5 would feed energy in. The thesis gives every node the same
-mass, so that the shortest wave sets the time step and the longest the number of steps. With the mass of each wave in
-proportion to its stiffness plus the largest tangent of the laws, all waves have about one frequency and the number of
-steps depends on neither. Both end on the same equilibrium: mass and damping decide how fast it is reached, and from
-the last stable state there is but one to reach unless the surface is thrown over a barrier.
+force F vanishes; the sign of the damping as printed in Eq. 2.5 would feed energy in. The thesis gives every node the
+same mass. The shortest wave then limits the time step, and the longest wave sets the number of steps. If the mass of
+each wave is proportional to its stiffness plus the largest tangent of the laws, all waves have about one frequency, and
+the number of steps depends on neither. Both schemes end in the same equilibrium: mass and damping decide how fast it is
+reached, and only one can be reached from the last stable state unless the surface is thrown over a barrier.
 
-With nodes of one mass the force of the laws is evaluated ahead of the step by their tangent (Eq. 2.14),
-T(g) + T'(g)(g - g⁻), which adds to the damping where a law repels and takes from it where the law softens.
+With equal masses the force of the laws is evaluated ahead of the step by their tangent (Eq. 2.14),
+T(g) + T'(g)(g - g⁻), which adds damping where a law repels and removes it where the law softens.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pull
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-LEAST = 0.01
-"""Least tangential tangent that a mass allows for, over the laws' largest."""
-OUTGROWN = 2.0
-"""How many times as stiff as the masses were made for a law may become before they are made anew, at rest."""
+MIN_TANGENTIAL_STIFFNESS = 0.01
+"""Smallest tangential tangent for which masses are made, over the laws' largest tangent."""
+MAX_STIFFENING = 2.0
+"""Ratio of a law's tangent to that for which the masses were made beyond which they are made anew, at rest."""
 
 Mobility = Callable[[Array], Array]
 
 
-class _Dynamics:
-    """What both have in common: from rest at the last state, whatever lies ahead."""
+class _VerletDynamics:
+    """Common part of both schemes: each state is reached by the flow from the last one."""
 
     fields = 30
     uses_guess = False
@@ -42,23 +42,33 @@ class _Dynamics:
     accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE}
 
     def transforms(self, points: int) -> float:
-        """Real transforms of a time step and unknown component."""
+        """Return the real transforms of a time step, for each unknown component."""
         return 2.0
 
     def new_memory(self) -> None:
-        """Nothing is kept."""
+        """Return nothing: the method has no memory of earlier states."""
 
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
-        """The equilibrium reached from a guess."""
+        """Return the equilibrium reached from a guess."""
         return self.flow_from(problem, guess)
+
+    def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+        """Return the equilibrium reached from a state at rest."""
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class DampedVerlet(_Dynamics):
-    """Unit mass on every node (Eqs 2.3-2.7), as the thesis has it.
+class DampedVerlet(_VerletDynamics):
+    """Unit mass on every node (Eqs 2.3-2.7), the scheme of the thesis.
 
-    time_step: δt and damping: η, in units in which nm, GPa and the mass are 1, text: 0.1 and about 1; batch: steps
-    between two checks of the residual; budget: most batches.
+    Parameters
+    ----------
+    time_step, damping
+        δt and η in units in which nm, GPa and the mass are 1 (thesis: 0.1 and about 1).
+    batch
+        Steps between two checks of the residual.
+    budget
+        Largest number of batches.
     """
 
     time_step: float = 0.1
@@ -67,29 +77,36 @@ class DampedVerlet(_Dynamics):
     budget: int = 4000
 
     def __post_init__(self) -> None:
-        _check(self, "time_step", "damping")
+        _check_positive(self, "time_step", "damping")
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """The equilibrium reached from a state at rest."""
+        """Return the equilibrium reached from a state at rest."""
         square = self.time_step**2
         highest = float(problem.stiffness.diagonal.max()) + problem.law_stiffness
         if not square * highest < 4:
             raise SceneError("time_step", self.time_step, f"below {2 / np.sqrt(highest):.3g}, the limit of stability")
 
         def mobility(tangent: Tangent) -> Mobility:
-            """Displacement for a force: the same for all waves."""
+            """Return the displacement for a force: the same for all waves."""
             return lambda force: square * force
 
-        return _settle(problem, start, mobility, self.damping * square, True, self.batch, self.budget)
+        return _move_until_rest(problem, start, mobility, self.damping * square, True, self.batch, self.budget)
 
 
 @dataclass(frozen=True)
-class MassWeightedVerlet(_Dynamics):
-    """Masses in proportion to the stiffness of each wave plus the largest tangent of the laws.
+class MassWeightedVerlet(_VerletDynamics):
+    """Masses proportional to the stiffness of each wave plus the largest tangent of the laws.
 
-    time_step: over the limit of stability 2/ω; damping: over the critical damping of the softest wave; batch: steps
-    between two checks of the residual, at which masses follow the laws, and sooner where these stiffen; budget: most
-    batches.
+    Parameters
+    ----------
+    time_step
+        Over the limit of stability 2/ω.
+    damping
+        Over the critical damping of the softest wave.
+    batch
+        Steps between two checks of the residual. Masses are made anew at each check, and earlier if the laws stiffen.
+    budget
+        Largest number of batches.
     """
 
     time_step: float = 0.5
@@ -98,12 +115,12 @@ class MassWeightedVerlet(_Dynamics):
     budget: int = 10000
 
     def __post_init__(self) -> None:
-        _check(self, "time_step", "damping")
+        _check_positive(self, "time_step", "damping")
         if not self.time_step < 1:
             raise SceneError("time_step", self.time_step, "above 0 and below 1, the limit of stability")
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """The equilibrium reached from a state at rest."""
+        """Return the equilibrium reached from a state at rest."""
         square = 4 * self.time_step**2
         rows = problem.unknowns[0]
         soft = problem.regularised_stiffness.diagonal[0]
@@ -111,16 +128,16 @@ class MassWeightedVerlet(_Dynamics):
         friction = min(2 * self.damping * np.sqrt(square * soft / (soft + problem.law_stiffness)), 1.0)
 
         def mobility(tangent: Tangent) -> Mobility:
-            """Displacement for a force: less for waves that the body or the laws hold more stiffly."""
+            """Return the displacement for a force: smaller for stiffer waves."""
             largest = max(problem.law_stiffness, np.abs(tangent.values[0]).max())
-            sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.law_stiffness)
+            sideways = np.abs(tangent.values[1:, 1:]).max(initial=MIN_TANGENTIAL_STIFFNESS * problem.law_stiffness)
             inverse = problem.regularised_stiffness.inverse(np.array([largest, sideways][:rows]))
             return lambda force: square * inverse.apply(force)
 
-        return _settle(problem, start, mobility, friction, False, self.batch, self.budget)
+        return _move_until_rest(problem, start, mobility, friction, False, self.batch, self.budget)
 
 
-def _settle(
+def _move_until_rest(
     problem: CohesiveProblem,
     start: Array,
     mobility: Callable[[Tangent], Mobility],
@@ -129,10 +146,10 @@ def _settle(
     batch: int,
     budget: int,
 ) -> Equilibrium:
-    """Move from rest until a residual, recomputed from the displacement alone, is within the tolerance."""
+    """Move from rest until a residual, computed from the displacement alone, is within the tolerance."""
     displacement, change, before = start, np.zeros_like(start), None
     status, worst, count = Status.MAX_ITERATIONS, np.inf, 0
-    with np.errstate(over="ignore", invalid="ignore"):  # what diverges is reported
+    with np.errstate(over="ignore", invalid="ignore"):  # divergence is reported by the status
         for count in range(budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
@@ -147,7 +164,7 @@ def _settle(
             for _ in range(batch):
                 gap = problem.gap(displacement)
                 traction, tangent = problem.tangent(gap)
-                if np.abs(tangent.values).max() > OUTGROWN * stiffest:  # than the masses hold
+                if np.abs(tangent.values).max() > MAX_STIFFENING * stiffest:
                     move, stiffest = mobility(tangent), np.abs(tangent.values).max()
                     change = np.zeros_like(start)
                 if ahead and before is not None:
@@ -159,7 +176,8 @@ def _settle(
     return Equilibrium(displacement, gap, traction, status, worst, distance, count * batch)
 
 
-def _check(method: object, *names: str) -> None:
+def _check_positive(method: object, *names: str) -> None:
+    """Raise a `SceneError` for an option that is not a positive, finite number."""
     for name in names:
         value = getattr(method, name)
         if not (is_number(value) and value > 0):

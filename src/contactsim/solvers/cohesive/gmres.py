@@ -1,8 +1,7 @@
 """Generalised minimal residual method on Fourier coefficients, for maps that are linear over the real numbers.
 
-Coefficients of a real transform are seen as pairs of real numbers. Their Euclidean inner product weighs the uniform
-and the shortest wave twice against all others, which is a norm as good as any (SIAM J. Sci. Stat. Comput. 7, 856,
-doi:10.1137/0907058).
+Coefficients of a real transform are treated as pairs of real numbers. In their Euclidean inner product the uniform and
+the shortest wave count twice as much as the others, which is a norm as good as any.
 """
 
 from __future__ import annotations
@@ -14,13 +13,35 @@ from scipy.linalg.lapack import dtrtrs
 
 from contactsim.grid import Array
 
-Map = Callable[[Array], Array]
+LinearMap = Callable[[Array], Array]
 
 
-def gmres(product: Map, precondition: Map, target: Array, tolerance: float, budget: int) -> tuple[Array, int]:
-    """Solve product(x) = target to a relative residual, preconditioned from the right: x and the iterations spent.
+def gmres(
+    product: LinearMap, precondition: LinearMap, target: Array, tolerance: float, budget: int
+) -> tuple[Array, int]:
+    """Solve product(x) = target, preconditioned from the right.
 
-    target: complex, of any shape; the best x within the budget is returned.
+    Parameters
+    ----------
+    product
+        The linear map.
+    precondition
+        Its approximate inverse.
+    target
+        Complex, of any shape.
+    tolerance
+        Relative residual.
+    budget
+        Largest number of iterations.
+
+    Returns
+    -------
+    x, iterations
+        The best x within the budget, of the shape of the target, and the number of iterations.
+
+    References
+    ----------
+    Y. Saad and M. H. Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986), doi:10.1137/0907058.
     """
     flat = target.reshape(-1).view(float)
     norm = np.linalg.norm(flat)
@@ -34,10 +55,10 @@ def gmres(product: Map, precondition: Map, target: Array, tolerance: float, budg
     for column in range(budget):
         steps.append(precondition(basis[column].view(complex).reshape(target.shape)))
         vector = product(steps[-1]).reshape(-1).view(float)
-        known, entries = basis[: column + 1], hessenberg[: column + 2, column]
-        for _ in range(2):  # twice is enough
-            shares = known @ vector
-            vector -= shares @ known
+        earlier, entries = basis[: column + 1], hessenberg[: column + 2, column]
+        for _ in range(2):  # the second pass removes what rounding has left
+            shares = earlier @ vector
+            vector -= shares @ earlier
             entries[:-1] += shares
         entries[-1] = np.linalg.norm(vector)
         broken = not entries[-1] > 0

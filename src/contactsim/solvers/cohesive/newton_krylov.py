@@ -1,23 +1,23 @@
-"""Newton–Krylov equilibrium of smooth laws, and the overdamped flow that takes over where a branch ends.
+"""Newton–Krylov equilibrium of smooth laws, and the overdamped flow that takes over at the end of a branch.
 
-From a guess near the solution, Newton's method on the Fourier coefficients needs one or two linear solves, each a few
-Krylov iterations behind the preconditioner of `zone`. Where the branch ends (a jump into or out of contact) Newton
-would land anywhere; what a slow experiment does there is the overdamped flow du/dt = -(K u + T) from the last stable
-state. It is followed by linearly implicit steps
+From a guess near the solution, Newton's method on the Fourier coefficients needs one or two linear solves, each of a
+few Krylov iterations with the preconditioner of `zone_preconditioner`. At the end of a branch (a jump into or out of
+contact) Newton's method could end anywhere. A slow experiment follows the overdamped flow du/dt = -(K u + T) from the
+last stable state. It is integrated by linearly implicit steps
 
     (K + T' + s) du = -r,
 
-with a shift s, the inverse of the time step, that adapts to how far a step moves the surface. Steps uphill or too far
-are refused. Once s is small against the laws' tangent it is dropped, and the end is Newton's.
+with a shift s, the inverse of the time step, that adapts to the change of the displacement in a step. Steps that go
+uphill or too far are refused. Once s is small against the laws' tangent it is set to zero, and the last steps are
+Newton's.
 
-A symmetric scene has symmetric equilibria, which nothing symmetric leaves, stable or not. So each is looked at: by
-the sign of the determinant of K + T' and by its eigenvalue nearest zero, by-products of the preconditioner, and at the
-end of a flow by all eigenvalues. A state from which a displacement grows by itself is left along it.
+A symmetric scene has symmetric equilibria, which no symmetric method leaves, stable or not. The stability of each state
+is therefore checked: by the sign of the determinant of K + T' and by its eigenvalue nearest zero, by-products of the
+preconditioner, and at the end of a flow by all eigenvalues. An unstable state is left along a growing displacement.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,60 +26,59 @@ from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
-from contactsim.solvers.cohesive.gmres import gmres
+from contactsim.solvers.cohesive.gmres import LinearMap, gmres
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-TIGHTEST, LOOSEST = 1e-3, 0.1
-"""Smallest and largest relative residual asked of a linear solve."""
-MARGIN = 0.3
-"""By how much the residual should fall below the tolerance, at the place where it is largest."""
-ROUGH = 3e-2
-"""The same for a step of the flow: its direction need not be exact."""
-FIRST, RETURN, DROP = 0.03, 0.02, 1e-3
-"""Shift over the laws' largest tangent: at the start, at least after a refusal, and below which it is zero."""
-
-STRAYED = 3.0
-"""Newton is given up once it has moved this many times as far as is of use."""
-HARD = 5
-"""A preconditioner is made anew after a linear solve that took more iterations than this."""
-NUDGE, NUDGES = 0.03, 5
-"""How far an unstable state is pushed along a displacement that grows, over the laws' length, and how often."""
+MIN_FORCING, MAX_FORCING = 1e-3, 0.1
+"""Smallest and largest relative residual of a linear solve."""
+SAFETY = 0.3
+"""Fraction of the tolerance to which a linear solve should reduce the residual."""
+MAX_FLOW_FORCING = 3e-2
+"""Largest relative residual of a linear solve in a step of the flow: its direction need not be exact."""
+INITIAL_SHIFT, MIN_REFUSED_SHIFT, NEGLIGIBLE_SHIFT = 0.03, 0.02, 1e-3
+"""Shift over the laws' largest tangent: at first, at least after a refused step, and below which it is set to zero."""
+MAX_CHANGE_RATIO = 3.0
+"""Newton's method ends once it has moved this many times as far as is of use."""
+MAX_SHARED_ITERATIONS = 5
+"""A preconditioner is made anew after a linear solve with more iterations than this."""
+NUDGE, MAX_NUDGES = 0.03, 5
+"""Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
 
 
 class Memory:
-    """The preconditioner of the last state, which serves the next one nearly as well, and its softest wave."""
+    """Preconditioner of the last state, which serves the next state nearly as well, and its softest wave."""
 
     def __init__(self) -> None:
-        self._kept: ZonePreconditioner | None = None
+        self._shared: ZonePreconditioner | None = None
         self._last: ZonePreconditioner | None = None
-        self._held = b""
+        self._fixed_modes = b""
         self._wave: Array | None = None
 
     def preconditioner(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
-        """The one kept, or a new one for this tangent."""
-        if self._kept is None or self._held != problem.fixed_modes.tobytes():
+        """Return the preconditioner of the last state, or a new one if it does not serve."""
+        if self._shared is None or self._fixed_modes != problem.fixed_modes.tobytes():
             return self.renew(problem, tangent)
-        return self._kept
+        return self._shared
 
     def renew(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
-        """A new one for this tangent, to keep."""
-        held = problem.fixed_modes.tobytes()
-        before = self._last if held == self._held else None
-        self._kept = self._last = ZonePreconditioner(problem, tangent, before=before)
-        self._held = held
-        return self._kept
+        """Return a new preconditioner for a tangent, and keep it."""
+        fixed_modes = problem.fixed_modes.tobytes()
+        before = self._last if fixed_modes == self._fixed_modes else None
+        self._shared = self._last = ZonePreconditioner(problem, tangent, before=before)
+        self._fixed_modes = fixed_modes
+        return self._shared
 
-    def doubts(self) -> bool:
-        """Whether the state that the one kept was made for may be one that a disturbance leaves."""
-        doubtful, self._wave = self._kept.softest(self._wave)
-        return doubtful
+    def may_be_unstable(self, preconditioner: ZonePreconditioner) -> bool:
+        """Return whether the state of a preconditioner may be unstable."""
+        negative, self._wave = preconditioner.softest(self._wave)
+        return negative
 
-    def learn(self, iterations: int) -> None:
-        """Drop it if it served badly."""
-        if iterations > HARD:
-            self._kept = None
+    def record(self, iterations: int) -> None:
+        """Forget the preconditioner if a linear solve took many iterations."""
+        if iterations > MAX_SHARED_ITERATIONS:
+            self._shared = None
 
 
 @dataclass(frozen=True)
@@ -112,43 +111,47 @@ class NewtonKrylov:
     def __post_init__(self) -> None:
         for name in ("flow_step", "trust_radius"):
             if not getattr(self, name) > 0:
-                raise SceneError(name, getattr(self, name), "a positive number of the laws' length")
+                raise SceneError(name, getattr(self, name), "a positive number, over the interaction range of the laws")
 
     def transforms(self, points: int) -> float:
-        """Real transforms of a Krylov iteration and unknown component."""
+        """Return the real transforms of a Krylov iteration, for each unknown component."""
         return 2.5
 
     def new_memory(self) -> Memory:
-        """What is kept between the states of one walk."""
+        """Return an empty memory of preconditioners."""
         return Memory()
 
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
-        """Newton's method from a guess."""
-        displacement, far, strayed = guess, STRAYED * within, 0.0
+        """Return the state that Newton's method reaches from a guess."""
+        displacement, far, distance = guess, MAX_CHANGE_RATIO * within, 0.0
         for count in range(self.newton_budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
             worst = problem.norm(residual)
             if count:
-                strayed = largest_change(problem, displacement - guess, self.trust_radius * problem.interaction_range)
-            if worst <= problem.tolerance or count == self.newton_budget or not (np.isfinite(worst) and strayed <= far):
+                distance = largest_change(problem, displacement - guess, self.trust_radius * problem.interaction_range)
+            if (
+                worst <= problem.tolerance
+                or count == self.newton_budget
+                or not (np.isfinite(worst) and distance <= far)
+            ):
                 break
-            forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, LOOSEST)
+            forcing = np.clip(SAFETY * problem.tolerance / worst, MIN_FORCING, MAX_FORCING)
             precondition = memory.preconditioner(problem, tangent)
             change, iterations = self._solve(problem, tangent, precondition, residual, 0.0, forcing)
-            memory.learn(iterations)
+            memory.record(iterations)
             displacement = displacement + change
         status = status_of(worst, problem)
         unstable = False
         if status is Status.CONVERGED:
             fresh = memory.renew(problem, tangent)
-            unstable = memory.doubts() and self._growing(problem, tangent, fresh) is not None
-        return Equilibrium(displacement, gap, traction, status, worst, strayed, count, unstable)
+            unstable = memory.may_be_unstable(fresh) and self._growing(problem, tangent, fresh) is not None
+        return Equilibrium(displacement, gap, traction, status, worst, distance, count, unstable)
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """The overdamped flow from a state."""
-        displacement, shift, most = start, FIRST * problem.law_stiffness, self.flow_step * problem.interaction_range
+        """Return the end of the overdamped flow from a state."""
+        displacement, shift = start, INITIAL_SHIFT * problem.law_stiffness
         status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
         while count < self.flow_budget:
             count += 1
@@ -168,26 +171,30 @@ class NewtonKrylov:
                 if growing is None:
                     status = Status.CONVERGED
                     break
-                if nudges == NUDGES:
+                if nudges == MAX_NUDGES:
                     break
-                nudges, shift = nudges + 1, FIRST * problem.law_stiffness
+                nudges, shift = nudges + 1, INITIAL_SHIFT * problem.law_stiffness
                 displacement = displacement + NUDGE * problem.interaction_range * growing
                 continue
-            forcing = np.clip(MARGIN * problem.tolerance / worst, TIGHTEST, ROUGH)
+            forcing = np.clip(SAFETY * problem.tolerance / worst, MIN_FORCING, MAX_FLOW_FORCING)
             change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
-            move = float(np.abs(problem.field(change)[: len(change)]).max())
-            downhill = -np.vdot(change, residual).real > 0
-            if not (downhill and move <= 2 * most):
-                shift = max(3 * shift, RETURN * problem.law_stiffness)
-                continue
-            displacement = displacement + change
-            shift /= 3 if move < 0.3 * most else 1.5 if move < most else 1
-            shift = shift if shift > DROP * problem.law_stiffness else 0.0
+            accepted, shift = self._judge_step(problem, change, residual, shift)
+            displacement = displacement + change if accepted else displacement
         distance = largest_change(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
+    def _judge_step(self, problem: CohesiveProblem, change: Array, residual: Array, shift: float) -> tuple[bool, float]:
+        """Return whether a step of the flow is accepted, and the shift of the next step."""
+        size = float(np.abs(problem.field(change)[: len(change)]).max())
+        largest, stiffness = self.flow_step * problem.interaction_range, problem.law_stiffness
+        downhill = -np.vdot(change, residual).real > 0
+        if not (downhill and size <= 2 * largest):
+            return False, max(3 * shift, MIN_REFUSED_SHIFT * stiffness)
+        shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1
+        return True, shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0
+
     def _growing(self, problem: CohesiveProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:
-        """A displacement of largest value one that grows by itself from a state of that tangent; None if none does."""
+        """Return a displacement of largest value 1 that grows on its own at a state; None if there is none."""
         wave = precondition.growing()
         if wave is None or np.vdot(wave, problem.add_elastic(tangent(wave), wave)).real >= 0:
             return None
@@ -196,14 +203,16 @@ class NewtonKrylov:
     def _solve(
         self,
         problem: CohesiveProblem,
-        tangent: Callable,
-        precondition: Callable,
+        tangent: LinearMap,
+        precondition: LinearMap,
         residual: Array,
         shift: float,
         forcing: float,
     ) -> tuple[Array, int]:
+        """Return the solution of (K + T' + s) du = -r to a relative residual, and the iterations that it took."""
+
         def product(change: Array) -> Array:
-            """(K + T' + s) times a change of the displacement."""
+            """Return (K + T' + s) times a change of the displacement."""
             out = tangent(change)
             if shift:
                 out += shift * change

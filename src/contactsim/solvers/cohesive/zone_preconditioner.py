@@ -1,12 +1,12 @@
-"""Preconditioner for stiffness plus the tangent of laws that act over a small part of a line.
+"""Preconditioner of the stiffness plus the tangent of laws that act on a small part of a line.
 
-Long waves, those below a fraction of the grid, are solved for exactly on a coarser grid: with C the compliance and D
-the tangent, (K + D) w = r is w = C (r - D w), in which D is not zero on the process zone Z alone, so that
+Long waves, those of a coarser grid, are solved for exactly: with C the compliance and D the tangent, (K + D) w = r is
+w = C (r - D w). As D is not zero on the process zone Z alone,
 
     (1 + C_ZZ D_Z) w_Z = (C r)_Z,   w = C (r - D w_Z),
 
-one dense factorisation of the size of the zone. Short waves see the stiffness and a constant shift. A uniform mode
-that is free (its stiffness zero, under load control) is given the stiffness of the longest wave.
+which is one dense factorisation of the size of the zone. Short waves have the stiffness plus a constant shift. A
+uniform mode that is free (its stiffness is zero, under a prescribed load) has the stiffness of the longest wave.
 """
 
 from __future__ import annotations
@@ -18,26 +18,39 @@ import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
+from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array
 
-RATIO, NODES = 8, 128
-"""Points of the grid to one on which long waves are solved for, unless these would be fewer than so many."""
-SHIFT, LEAST = 0.3, 0.01
-"""Shift of short waves, over the laws' largest tangent; its least tangential part, over the normal one."""
-ALIKE = 2.0
-"""Ratio of largest tangential tangents up to which short waves are shifted alike."""
-NEGLIGIBLE = 1e-3
+COARSENING, MIN_NODES = 8, 128
+"""Points of the grid for each node of the coarse grid of long waves, and smallest number of nodes."""
+SHORT_WAVE_SHIFT, MIN_TANGENTIAL_SHIFT = 0.3, 0.01
+"""Shift of short waves, over the laws' largest tangent; smallest tangential part of it, over the normal one."""
+SHIFT_RATIO = 2.0
+"""Ratio of the largest tangential tangents of two states up to which they share the shift of short waves."""
+ZONE_THRESHOLD = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
-TURNS, FAINT = 2, 0.1
-"""Steps of inverse iteration a state; size of a wave where the zone has not been yet, over its rms in the zone."""
-SEEN = 160
-"""Most entries of a zone whose growing displacements are looked for."""
-MOST = 400
-"""Entries of the zone beyond which its factorisation would cost more than it saves: the coarse grid gets coarser."""
+INVERSE_ITERATIONS, OUTSIDE_AMPLITUDE = 2, 0.1
+"""Steps of inverse iteration for each state; initial amplitude of a wave outside the zone, over its rms in the zone."""
+MAX_EIGENVALUES = 160
+"""Largest number of unknowns of a zone whose growing displacements are computed."""
+MAX_UNKNOWNS = 400
+"""Unknowns of the zone above which its factorisation costs more than it saves: the coarse grid gets coarser."""
 
 
 class ZonePreconditioner:
-    """Approximate inverse of K + D + shift, for coefficients (exerted, m)."""
+    """Approximate inverse of K + D + shift, for coefficients (exerted, m).
+
+    Parameters
+    ----------
+    problem
+        Problem at a load step.
+    tangent
+        D at a state.
+    shift
+        Inverse of a time step, GPa/nm.
+    before
+        Preconditioner of an earlier state with the same shift; what does not depend on the tangent is shared with it.
+    """
 
     def __init__(
         self,
@@ -46,50 +59,58 @@ class ZonePreconditioner:
         shift: float = 0.0,
         before: ZonePreconditioner | None = None,
     ) -> None:
-        """before: one of the same shift and path, from which is taken over what does not depend on the tangent."""
         self._problem = problem
-        rows, modes = problem.unknowns
-        ratio = min(RATIO, max(problem.grid.size // NODES, 1))
-        values = _averaged(tangent.values, ratio)
-        while np.count_nonzero(self._acting(values)) * len(problem.shape) > MOST:
+        ratio = min(COARSENING, max(problem.grid.size // MIN_NODES, 1))
+        values = _averages(tangent.values, ratio)
+        while np.count_nonzero(self._acting(values)) * len(problem.shape) > MAX_UNKNOWNS:
             ratio *= 2
-            values = _averaged(tangent.values, ratio)
+            values = _averages(tangent.values, ratio)
         self._nodes = values.shape[-1]
-        self._low = min(self._nodes // 2, modes)
-        self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=LEAST * problem.law_stiffness)
-        alike = before is not None and before._nodes == self._nodes
-        if alike and 1 / ALIKE <= self._sideways / before._sideways <= ALIKE:
-            self._high, self._sideways = before._high, before._sideways
-        else:
-            extra = shift + SHIFT * np.array([problem.law_stiffness, self._sideways][:rows])
-            self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
-        if alike:
-            self._compliance, self._responses = before._compliance, before._responses
-        else:
-            self._compliance = problem.regularised_stiffness.modes(slice(0, self._low)).inverse(shift)
-            self._responses = [self._response(row) for row in range(rows)]
+        self._low = min(self._nodes // 2, problem.unknowns[1])
+        before = before if before is not None and before._nodes == self._nodes else None
+        self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=MIN_TANGENTIAL_SHIFT * problem.law_stiffness)
+        self._set_short_waves(shift, before)
+        self._set_long_waves(shift, before)
         self._factor(values)
 
+    def _set_short_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
+        """Invert the stiffness of short waves plus a shift, or share it with another preconditioner."""
+        if before is not None and 1 / SHIFT_RATIO <= self._sideways / before._sideways <= SHIFT_RATIO:
+            self._high, self._sideways = before._high, before._sideways
+            return
+        problem = self._problem
+        extra = shift + SHORT_WAVE_SHIFT * np.array([problem.law_stiffness, self._sideways][: problem.unknowns[0]])
+        self._high: Symbol = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
+
+    def _set_long_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
+        """Invert the stiffness of long waves, or share it with another preconditioner."""
+        if before is not None:
+            self._compliance, self._responses = before._compliance, before._responses
+            return
+        self._compliance: Symbol = self._problem.regularised_stiffness.modes(slice(0, self._low)).inverse(shift)
+        self._responses: list[Array] = [self._response(row) for row in range(self._problem.unknowns[0])]
+
     def _acting(self, values: Array) -> Array:
-        """Points where the tangent is not negligible, bool."""
-        return np.abs(values).max(axis=(0, 1)) > NEGLIGIBLE * self._problem.law_stiffness
+        """Return the nodes where the tangent is not negligible, bool."""
+        return np.abs(values).max(axis=(0, 1)) > ZONE_THRESHOLD * self._problem.law_stiffness
 
     def _field(self, coefficients: Array) -> Array:
-        """Values (rows, nodes) on the coarse grid of long waves (rows, low), with the derived component."""
-        derived = self._problem.slip_factor
-        if derived is not None:
-            coefficients = np.concatenate((coefficients, derived[: self._low] * coefficients))
+        """Return the values (read, nodes) on the coarse grid of long waves (exerted, low)."""
+        factor = self._problem.slip_factor
+        if factor is not None:
+            coefficients = np.concatenate((coefficients, factor[: self._low] * coefficients))
         wide = np.zeros((len(coefficients), self._nodes // 2 + 1), complex)
         wide[:, : self._low] = coefficients
         return ducc0.fft.c2r(wide, axes=(1,), lastsize=self._nodes, forward=False)
 
     def _response(self, row: int) -> Array:
-        """Displacement (read, nodes) under a unit of traction in one component at the first node."""
+        """Return the displacement (read, nodes) under a unit of traction in one component at the first node."""
         unit = np.zeros((len(self._compliance.diagonal), self._low), complex)
         unit[row] = 1 / self._nodes
         return self._field(self._compliance.apply(unit))
 
     def _factor(self, values: Array) -> None:
+        """Factorise 1 + C D on the process zone, for derivatives (exerted, read, nodes)."""
         self._zone = np.flatnonzero(self._acting(values))
         self._values = values[..., self._zone]
         count, read = len(self._zone), len(self._problem.shape)
@@ -108,32 +129,37 @@ class ZonePreconditioner:
         self._lu = dgetrf(square)[:2]
 
     def softest(self, wave: Array | None) -> tuple[bool, Array | None]:
-        """Whether K + D + shift may have negative eigenvalues, and a wave (read, nodes) to ask the next one with.
+        """Return whether K + D + shift may have negative eigenvalues, and the softest wave.
 
-        An odd number of them is told by the sign of the determinant. Of an even number, as alike asperities have, the
-        one nearest zero is found by inverse iteration from the wave of the state before, in which it was the next to
-        cross: w' = (1 + C D)⁻¹ w, and w·w' is negative.
+        An odd number of negative eigenvalues shows in the sign of the determinant. Of an even number, as equal
+        asperities have, the one nearest zero is found by inverse iteration from the softest wave of the state before,
+        where it was the next to change sign: w' = (1 + C D)⁻¹ w, and w·w' is negative.
+
+        Parameters
+        ----------
+        wave
+            Softest wave (read, nodes) of the state before; None at first.
         """
         if not len(self._zone):
             return False, wave
-        kept = _arbitrary(len(self._problem.shape), self._nodes).copy()
+        softest = _asymmetric_wave(len(self._problem.shape), self._nodes).copy()
         factors, swaps = self._lu
         negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
-        here = (kept if wave is None or wave.shape != kept.shape else wave)[:, self._zone].ravel()
-        for _ in range(TURNS):
+        here = (softest if wave is None or wave.shape != softest.shape else wave)[:, self._zone].ravel()
+        for _ in range(INVERSE_ITERATIONS):
             here /= np.linalg.norm(here)
             after = dgetrs(*self._lu, here)[0]
             falls, here = here @ after < 0, after
-        kept[:, self._zone] = (here * np.sqrt(len(here)) / np.linalg.norm(here)).reshape(len(kept), -1)
-        return bool(negative % 2) or bool(falls), kept
+        softest[:, self._zone] = (here * np.sqrt(len(here)) / np.linalg.norm(here)).reshape(len(softest), -1)
+        return bool(negative % 2) or bool(falls), softest
 
     def growing(self) -> Array | None:
-        """Displacement (exerted, m) that would grow by itself the most, as seen here; None if none would.
+        """Return the displacement (exerted, m) that would grow most on its own, in this approximation.
 
-        With w an eigenvector of 1 + C D and its eigenvalue μ < 0, (K + D) w = μ K w. None too for more entries than
-        `SEEN`, which would take long.
+        With w an eigenvector of 1 + C D and its eigenvalue μ < 0, (K + D) w = μ K w. None is returned if there is no
+        such eigenvalue, and for zones of more unknowns than `MAX_EIGENVALUES`, which would take long.
         """
-        if not 0 < len(self._zone) * len(self._values) <= SEEN:
+        if not 0 < len(self._zone) * len(self._values) <= MAX_EIGENVALUES:
             return None
         values, vectors = np.linalg.eig(self._matrix)
         lowest = int(np.argmin(values.real))
@@ -144,13 +170,13 @@ class ZonePreconditioner:
         return wave
 
     def _spread(self, held: Array) -> Array:
-        """Displacement (exerted, low) under the tractions that displacements (read, zone) in the zone lead to."""
+        """Return the displacement (exerted, low) under the tractions of a displacement in the zone (read, zone)."""
         pull = np.zeros((len(self._values), self._nodes))
         pull[:, self._zone] = contract(self._values, held)
         return self._compliance.apply(ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low])
 
     def __call__(self, residual: Array) -> Array:
-        """Displacement (exerted, m) for a residual of the same shape."""
+        """Return the displacement (exerted, m) for a residual of the same shape."""
         out = np.empty_like(residual)
         out[:, self._low :] = self._high.apply(residual[:, self._low :])
         long = self._compliance.apply(residual[:, : self._low])
@@ -164,13 +190,13 @@ class ZonePreconditioner:
 
 
 @lru_cache(maxsize=8)
-def _arbitrary(rows: int, nodes: int) -> Array:
-    """A faint wave (rows, nodes) of no symmetry."""
-    return FAINT * np.cos(np.arange(rows * nodes) ** 2.0).reshape(rows, nodes)
+def _asymmetric_wave(rows: int, nodes: int) -> Array:
+    """Return a wave (rows, nodes) of small amplitude and without symmetry."""
+    return OUTSIDE_AMPLITUDE * np.cos(np.arange(rows * nodes) ** 2.0).reshape(rows, nodes)
 
 
-def _averaged(values: Array, ratio: int) -> Array:
-    """Means over `ratio` points about every ratio-th, at least two of them (…, n // ratio), of values (…, n)."""
+def _averages(values: Array, ratio: int) -> Array:
+    """Return the means of values (…, n) over `ratio` points about every ratio-th point, two means or more."""
     size = values.shape[-1]
     ratio = min(ratio, size // 2)
     cells = size // ratio
