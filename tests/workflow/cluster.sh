@@ -26,7 +26,7 @@ CLUSTER=$WORK/cluster SLURM=$WORK/slurm
 LOG=$WORK/snakemake.log
 export SLURM_CONF=$SLURM/slurm.conf
 COMMAND=(.venv/bin/snakemake --workflow-profile profiles/slurm "${TARGETS[@]}" --config tier=quick
-  --slurm-status-command squeue --slurm-init-seconds-before-status-checks 5)
+  --slurm-groups-status-command squeue --slurm-groups-init-seconds-before-status-checks 5)
 
 say() { printf '%(%H:%M:%S)T  %s\n' -1 "$*"; }
 

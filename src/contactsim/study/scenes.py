@@ -81,7 +81,7 @@ def _build_surface(settings: Mapping) -> Surface:
 
 
 @lru_cache(maxsize=16)
-def _self_affine_surface(section: str, seed: int) -> SelfAffine:
+def _self_affine_surface(section: str, seed: tuple[int, ...]) -> SelfAffine:
     """Return a self-affine surface; the same object for all runs on it, so that its waves are drawn once."""
     return SelfAffine(**json.loads(section), seed=seed)
 
