@@ -168,8 +168,8 @@ def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     setup = build_setup(settings, threads)
     if "auto" in settings:
         decision = select_effects(settings)
-        sys.stdout.write(f"{decision.words}\n")
-        setup, settings = neglect_effects(setup, decision.left_out), settings | {"neglect": decision.left_out}
+        sys.stdout.write(f"{decision.description}\n")
+        setup, settings = neglect_effects(setup, decision.neglected), settings | {"neglect": decision.neglected}
     accuracy = setup.options.accuracy
     if accuracy is None:
         return follow_path(setup), settings

@@ -219,7 +219,7 @@ def neglect(
     """
     setup = Setup(scene, RunOptions(points=points, tolerance=tolerance, increments=increments))
     decision = decide_neglect([setup], within, quantities)
-    return neglect_effects(setup, decision.left_out).scene, decision
+    return neglect_effects(setup, decision.neglected).scene, decision
 
 
 def _solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:

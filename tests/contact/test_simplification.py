@@ -84,17 +84,17 @@ def test_a_wall_on_a_path_has_the_error_of_what_is_left_out(tmp_path):
     given = {name: value for name, value in ASPERITY.items() if name not in ("cohesive_zone", "vary")}
     study = Study.read("asperity", given | wall | {"tolerance": 1e-3}, "ch9.yaml", 1)
     data = _aggregated(study, tmp_path)
-    assert (data.normalised_pressure_left_out_error > 0).any()
+    assert (data.normalised_pressure_neglect_error > 0).any()
 
 
 def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path):
     study = Study.read("asperity", ASPERITY, "ch9.yaml", 1)
-    assert [run.error for run in study.runs()] == ["", "", "left_out", "left_out"]
+    assert [run.error for run in study.runs()] == ["", "", "neglect", "neglect"]
     assert ["neglect" in run.settings for run in study.runs()] == [True, True, False, False]
     data = _aggregated(study, tmp_path)
     assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
-    error = data.pull_off_load_loading_left_out_error
-    files = [tmp_path / f"{run.variant}_left_out.nc" for run in study.runs() if run.measures_error]
+    error = data.pull_off_load_loading_neglect_error
+    files = [tmp_path / f"{run.variant}_neglect.nc" for run in study.runs() if run.measures_error]
     whole = [summarised(dataset.read(file)).pull_off_load_loading for file in files]
     assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
     assert (error > 5).all()

@@ -248,12 +248,12 @@ def test_a_grid_that_was_too_hopeful_is_refined_and_an_error_that_is_still_misse
     assert len(result.before) == 2
     assert result.last.points > result.before[1].points > result.before[0].points
     assert result.data.refinements == 1
-    assert bool(result.data.reached) == result.met
+    assert bool(result.data.accuracy_reached) == result.met
     monkeypatch.setattr(Controlled, "met", property(lambda self: False))
     with caplog.at_level(logging.WARNING):
         file = run_to_accuracy(run, tmp_path)
     assert "is not reached" in caplog.text
-    assert dataset.read(file).reached == 0
+    assert dataset.read(file).accuracy_reached == 0
 
 
 def test_a_run_stores_its_estimate_what_it_was_asked_for_and_all_that_it_cost(tmp_path):
@@ -261,11 +261,11 @@ def test_a_run_stores_its_estimate_what_it_was_asked_for_and_all_that_it_cost(tm
     file = run_to_accuracy(run, tmp_path)
     data = dataset.read(file)
     assert data.accuracy == 0.02
-    assert data.reached == 1
+    assert data.accuracy_reached == 1
     assert data.relative_contact_area_subgrid_estimated_error.dims == ("reduced_pressure",)
     assert (data.relative_contact_area_subgrid_estimated_error <= 0.02 * data.relative_contact_area_subgrid).all()
-    assert data.points_before < data.points
-    assert data.transforms_before > 0
+    assert data.coarse_run_points < data.points
+    assert data.coarse_run_transforms > 0
     assert dataset.settings_of(data)["points"] == data.points
     assert run_to_accuracy(run, tmp_path, "again").read_bytes() == file.read_bytes()
 
@@ -313,7 +313,7 @@ def test_the_shell_tells_the_cost_of_a_scene_and_runs_it_to_its_accuracy(tmp_pat
     assert "relative_contact_area_subgrid" in out
     cli.main(["run", str(file)])
     assert "relative_contact_area_subgrid to" in capsys.readouterr().out
-    assert dataset.read(tmp_path / "scene.nc").reached == 1
+    assert dataset.read(tmp_path / "scene.nc").accuracy_reached == 1
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}
     file.write_text(yaml.safe_dump(plain | {"points": 1024, "tolerance": 1e-3}))
     cli.main(["cost", str(file)])

@@ -141,15 +141,15 @@ def test_only_effects_that_a_scene_has_can_be_neglected():
 
 def test_an_effect_that_maps_and_sample_find_negligible_is_left_out_and_another_stays():
     nearly = decide_neglect([setup_of(0.49, 0.0)], 0.05, PULL_OFF)
-    assert "coupling" in nearly.left_out
+    assert "coupling" in nearly.neglected
     assert nearly.together <= 0.05
-    assert "coupling left out" in nearly.words
+    assert "coupling left out" in nearly.description
     assert nearly.work > 0
     compressible = decide_neglect([setup_of(0.0, 0.0)], 0.05, PULL_OFF)
-    assert "coupling" not in compressible.left_out
-    assert "coupling kept" in compressible.words
-    assert "as no map knows: height" in compressible.words
-    assert json.loads(nearly.text)["left_out"] == nearly.left_out
+    assert "coupling" not in compressible.neglected
+    assert "coupling kept" in compressible.description
+    assert "as no map knows: height" in compressible.description
+    assert json.loads(nearly.text)["neglected"] == nearly.neglected
     assert "seconds" not in json.loads(nearly.text)
 
 
@@ -157,7 +157,7 @@ def test_the_measured_change_decides_against_the_map(monkeypatch):
     monkeypatch.setattr(neglect, "expected_change", lambda scene, effect: 0.001)
     decision = decide_neglect([setup_of(0.0, 0.0)], 0.05, PULL_OFF)
     assert decision.measured["coupling"] > 0.05
-    assert "coupling" not in decision.left_out
+    assert "coupling" not in decision.neglected
 
 
 def test_of_effects_that_are_too_much_together_the_largest_is_put_back(monkeypatch):
@@ -165,14 +165,14 @@ def test_of_effects_that_are_too_much_together_the_largest_is_put_back(monkeypat
     monkeypatch.setattr(neglect, "expected_change", lambda scene, effect: 0.001)
     monkeypatch.setattr(neglect, "change_without", lambda setup, effects, *rest: sum(changes[name] for name in effects))
     decision = decide_neglect([setup_of()], 0.05, PULL_OFF)
-    assert decision.left_out == ["friction", "coupling"]
+    assert decision.neglected == ["friction", "coupling"]
     assert decision.together == pytest.approx(0.04)
 
 
 def test_an_effect_far_from_negligible_is_not_even_checked(monkeypatch):
     monkeypatch.setattr(neglect, "expected_change", lambda scene, effect: 0.9)
     monkeypatch.setattr(neglect, "change_without", lambda *arguments: pytest.fail("checked"))
-    assert decide_neglect([setup_of()], 0.05, PULL_OFF).left_out == []
+    assert decide_neglect([setup_of()], 0.05, PULL_OFF).neglected == []
 
 
 def test_setups_have_the_same_fingerprint_where_their_scenes_are_the_same_without_an_effect():
@@ -204,18 +204,18 @@ def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_ta
 
     decision = tmp_path / "decision.json"
     decision.write_text(decide_neglect([frictionless.setup], 0.05, PULL_OFF).text)
-    left_out = json.loads(decision.read_text())["left_out"]
-    assert "coupling" in left_out
+    neglected = json.loads(decision.read_text())["neglected"]
+    assert "coupling" in neglected
     data = compute(frictionless, "first", decision)
-    assert data.left_out.item() == ", ".join(left_out)
-    assert data.left_out_change <= 0.05
-    assert data.transforms_of_check > 0
+    assert data.neglected.item() == ", ".join(neglected)
+    assert data.neglect_change <= 0.05
+    assert data.check_transforms > 0
     same = compute(frictional, "same", decision, twin=tmp_path / "first.nc")
     assert (same.line_load == data.line_load).all()
     assert same.transforms.sum() == 0
     assert (same.point_digest != data.point_digest).all()
     nothing = tmp_path / "nothing.json"
-    nothing.write_text(json.dumps(json.loads(decision.read_text()) | {"left_out": []}))
+    nothing.write_text(json.dumps(json.loads(decision.read_text()) | {"neglected": []}))
     assert compute(frictional, "whole", nothing, twin=tmp_path / "first.nc").transforms.sum() > 0
 
 

@@ -188,10 +188,10 @@ class Controlled:
         seconds = data.seconds.values + seconds_before * (np.arange(data.step.size) == 0)
         data = data.assign(
             accuracy=self.wanted,
-            reached=int(self.met),
-            points_before=self.before[-1].points,
+            accuracy_reached=int(self.met),
+            coarse_run_points=self.before[-1].points,
             refinements=len(self.before) - 1,
-            transforms_before=self.work - self.last.transforms,
+            coarse_run_transforms=self.work - self.last.transforms,
             seconds=("step", seconds),
         )
         return dataset.described(data)

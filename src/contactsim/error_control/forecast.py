@@ -121,9 +121,9 @@ def forecast_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()
     chosen = choose_options(setup, error, quantities)
     companion = coarsen(chosen)
     run, before = forecast_setup(chosen, quantities), forecast_setup(companion, quantities)
-    transforms_before = before.transforms * companion.size / chosen.size
+    coarse_run_transforms = before.transforms * companion.size / chosen.size
     part = scaling_relations().families[scene_family(chosen.scene)].warm_start
-    return replace(run, transforms=part * run.transforms + transforms_before, units=part * run.units + before.units)
+    return replace(run, transforms=part * run.transforms + coarse_run_transforms, units=part * run.units + before.units)
 
 
 @cache

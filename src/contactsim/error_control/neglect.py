@@ -42,7 +42,7 @@ class Decision:
 
     Parameters
     ----------
-    left_out : list of str
+    neglected : list of str
         Effects that are neglected.
     expected : dict
         Relative change by effect as the maps expect it; None where no map knows it.
@@ -50,7 +50,7 @@ class Decision:
         Relative change by effect on the sample, as far as it was checked.
     together : float
         Relative change on the sample without all of them.
-    words : str
+    description : str
         What was done, in words.
     work : float
         Transforms times points of the check.
@@ -58,11 +58,11 @@ class Decision:
         CPU seconds of the check, which are not reproducible and kept apart.
     """
 
-    left_out: list[str] = field(default_factory=list)
+    neglected: list[str] = field(default_factory=list)
     expected: dict[str, float | None] = field(default_factory=dict)
     measured: dict[str, float] = field(default_factory=dict)
     together: float = 0.0
-    words: str = ""
+    description: str = ""
     work: float = 0.0
     seconds: float = 0.0
 
@@ -122,20 +122,20 @@ def decide_neglect(samples: Sequence[Setup], tolerance: float, quantities: Seque
         return max(change_without(setup, effects, quantities, solutions) for setup, solutions in checks)
 
     near = [name for name, value in decision.expected.items() if value is not None and value <= NEAR_FACTOR * tolerance]
-    decision.left_out = [name for name in near if decision.expected[name] <= tolerance]
-    decision.together = measure(decision.left_out) if decision.left_out else 0.0
-    if decision.together > tolerance or len(decision.left_out) < len(near):  # each on its own
+    decision.neglected = [name for name in near if decision.expected[name] <= tolerance]
+    decision.together = measure(decision.neglected) if decision.neglected else 0.0
+    if decision.together > tolerance or len(decision.neglected) < len(near):  # each on its own
         decision.measured = {name: measure([name]) for name in near}
-        decision.left_out = [name for name, value in decision.measured.items() if value <= tolerance]
-        decision.together = measure(decision.left_out) if decision.left_out else 0.0
+        decision.neglected = [name for name, value in decision.measured.items() if value <= tolerance]
+        decision.together = measure(decision.neglected) if decision.neglected else 0.0
     while decision.together > tolerance:
-        decision.left_out.remove(max(decision.left_out, key=decision.measured.__getitem__))
-        decision.together = measure(decision.left_out) if decision.left_out else 0.0
+        decision.neglected.remove(max(decision.neglected, key=decision.measured.__getitem__))
+        decision.together = measure(decision.neglected) if decision.neglected else 0.0
     solutions = [solution for _, solved in checks for solution in solved.values()]
     decision.work = sum(solution.transforms * solution.size for solution in solutions)
     decision.seconds = sum(solution.seconds for solution in solutions)
-    decision.words = _describe(decision, tolerance)
-    logger.info(decision.words)
+    decision.description = _describe(decision, tolerance)
+    logger.info(decision.description)
     return decision
 
 
@@ -187,9 +187,9 @@ def _describe(decision: Decision, tolerance: float) -> str:
         if value is not None:
             measured = decision.measured.get(name)
             checked = "" if measured is None else f", {_describe_change(measured)} on the sample"
-            action = "left out" if name in decision.left_out else "kept"
+            action = "left out" if name in decision.neglected else "kept"
             parts.append(f"{name} {action}, {value:.2g} by the maps{checked}")
-    parts += [f"together {decision.together:.2g} on the sample"] * bool(decision.left_out)
+    parts += [f"together {decision.together:.2g} on the sample"] * bool(decision.neglected)
     parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
     return f"within {tolerance:g}: " + "; ".join(parts or ["there is nothing to leave out"])
 

@@ -181,7 +181,7 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         mean, error = (less[f"relative_interacting_area_{kind}"][known] for kind in rough.ENDS)
         marker = {"marker": "s" if work else "o", "mfc": "white", "ls": "", "ms": 4}
         axes[0].errorbar(less.indentation[known], mean, error, color=color, **marker)
-        spent = float(less.transforms.sum() + less.transforms_of_check.sum()), float(more.transforms.sum())
+        spent = float(less.transforms.sum() + less.check_transforms.sum()), float(more.transforms.sum())
         for offset, value, alpha in zip((0.2, -0.2), spent, (1.0, thicknesses.FAINT), strict=True):
             axes[1].barh(-place + offset, value, 0.36, color=color, alpha=alpha)
         told = str(less.decision.isel(member=0).item())

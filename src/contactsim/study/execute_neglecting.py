@@ -44,12 +44,12 @@ class Neglected:
         """Return the decision in a file; the first member bears the work of the check."""
         decision = json.loads(Path(file).read_text(encoding="utf-8"))
         notes = {
-            "left_out": ", ".join(decision["left_out"]),
-            "left_out_change": decision["together"],
-            "decision": decision["words"],
-            "transforms_of_check": decision["work"] / setup.size if member == 0 else 0.0,
+            "neglected": ", ".join(decision["neglected"]),
+            "neglect_change": decision["together"],
+            "decision": decision["description"],
+            "check_transforms": decision["work"] / setup.size if member == 0 else 0.0,
         }
-        return cls(decision["left_out"], notes)
+        return cls(decision["neglected"], notes)
 
 
 def run(
@@ -90,9 +90,9 @@ def _take_over(twin: str | Path, settings: dict, source: str, files: RunFiles, n
     if build_setup(other).fingerprint != build_setup(settings).fingerprint:
         return False
     (dim,) = data.transforms.dims
-    spent = {name: data[name] * 0 for name in ("transforms", "transforms_before") if name in data}
+    spent = {name: data[name] * 0 for name in ("transforms", "coarse_run_transforms") if name in data}
     data = data.drop_vars("point_digest").assign(spent | dict(notes)).assign(seconds=(dim, np.zeros(data[dim].size)))
     data = data if dim == "step" else data.rename({dim: "step"})
-    logger.info("taken over from a run whose scene is the same without %s", notes["left_out"])
+    logger.info("taken over from a run whose scene is the same without %s", notes["neglected"])
     keep_run(data, settings, source, files, begin)
     return True

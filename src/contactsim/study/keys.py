@@ -159,7 +159,7 @@ ERROR_RUNS = {
         "tolerance",
         {"tolerance": Key(positive, "a positive number, in the units of the study's and below it")} | FEWER,
     ),
-    "full_model": ("neglect", "left_out", FEWER),
+    "full_model": ("neglect", "neglect", FEWER),
 }
 """Sections that ask for runs that measure an error: the key in which they differ, the kind of error, of
 `variables.ERRORS`, and their keys."""

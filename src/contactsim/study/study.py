@@ -143,11 +143,11 @@ class Study:
         for run in study.runs():
             if run.member == 0:
                 study._check(run)
-        study._check_left_out()
+        study._check_neglect()
         study._check_fits()
         return study
 
-    def _check_left_out(self) -> None:
+    def _check_neglect(self) -> None:
         """Raise InputError where no variant has an effect that is to be neglected."""
         names = self.settings["neglect"]
         scenes = [build_scene(run.settings | {"neglect": []}) for run in self.runs() if names and run.member == 0]
