@@ -33,7 +33,7 @@ def scene_file(tmp_path):
 def test_a_scene_file_is_run_into_a_dataset_equal_to_that_from_python(scene_file, capsys):
     cli.main(["run", str(scene_file)])
     assert "written to" in capsys.readouterr().out
-    stored = dataset.read(scene_file.with_suffix(".nc"))
+    stored = dataset.load_dataset(scene_file.with_suffix(".nc"))
     scene = Scene(
         Body(Flat(1000.0), HalfSpace(70.0)), Body(Sinusoid(1000.0, 5.0)), (HardWall(),), loading.pressures([0.01, 0.1])
     )
@@ -52,7 +52,7 @@ def test_a_run_has_its_own_load_and_the_proportionality_factors(scene_file, caps
     cli.main(["run", str(scene_file)])
     told = capsys.readouterr().out
     assert "kappa" in told and "kappa_r" in told and "reduced_pressure" in told
-    stored = dataset.read(scene_file.with_suffix(".nc"))
+    stored = dataset.load_dataset(scene_file.with_suffix(".nc"))
     assert stored.reduced_pressure.values.tolist() == [0.02, 0.2]
     assert np.allclose(stored.kappa, stored.relative_contact_area / stored.reduced_pressure, rtol=1e-15)
     gradient = stored.mean_pressure / (stored.contact_modulus * stored.reduced_pressure)
@@ -63,7 +63,7 @@ def test_a_run_has_its_own_load_and_the_proportionality_factors(scene_file, caps
 def test_units_stand_between_the_names_and_the_numbers_of_their_columns(scene_file, capsys):
     cli.main(["run", str(scene_file)])
     *_, broken, names, units, first, second, _ = capsys.readouterr().out.splitlines()
-    gaps = dataset.read(scene_file.with_suffix(".nc")).mean_gap.values
+    gaps = dataset.load_dataset(scene_file.with_suffix(".nc")).mean_gap.values
     end = {name: names.index(name) + len(name) for name in ("mean_pressure", "mean_gap")}
     for line, pressure, gap in (
         (units, "GPa", "nm"),
@@ -80,7 +80,7 @@ def test_units_stand_between_the_names_and_the_numbers_of_their_columns(scene_fi
 def test_a_run_keeps_what_its_scene_file_says_and_its_fields_can_be_mapped(scene_file):
     scene_file.write_text(SCENE.replace("5.0}", "5.0, dimensions: 2}").replace("256", "32") + "keep: [fields]\n")
     cli.main(["run", str(scene_file)])
-    stored = dataset.read(scene_file.with_suffix(".nc"))
+    stored = dataset.load_dataset(scene_file.with_suffix(".nc"))
     assert {"heights", "pressure", "gap"} <= set(stored)
     assert not {"contact_bits", "contact_pressure", "profile_real"} & set(stored)
     image = maps.draw(stored.isel(mean_pressure=-1)).axes[0].images[0]
@@ -103,7 +103,7 @@ def test_a_scene_of_smooth_laws_is_run_along_its_path(scene_file, capsys):
     cli.main(["run", str(scene_file)])
     told = capsys.readouterr().out
     assert "line_load" in told and "relative_contact_area" not in told
-    stored = dataset.read(scene_file.with_suffix(".nc"))
+    stored = dataset.load_dataset(scene_file.with_suffix(".nc"))
     assert np.allclose(stored.approach, np.arange(-9.5, -3.9, 0.5))
     assert stored.line_load.min() < -200 and (stored.jump > 1).sum() == 1
     assert not [name for name in stored if name.startswith("tangential_traction")]
@@ -189,7 +189,7 @@ def test_a_load_step_that_does_not_converge_is_stored_named_and_ends_in_an_error
     with pytest.raises(SystemExit, match="2 of 2 load steps did not converge"):
         cli.main(["run", str(scene_file)])
     assert "number of iterations" in capsys.readouterr().out
-    assert (dataset.read(scene_file.with_suffix(".nc")).status == 1).all()
+    assert (dataset.load_dataset(scene_file.with_suffix(".nc")).status == 1).all()
 
 
 @pytest.mark.parametrize(
@@ -222,5 +222,5 @@ def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(
     cli.main(["run", str(scene_file)])
     assert (type(given["method"]).__name__, given["method"].batch) == ("PolonskyKeer", 5)
     assert (given["tolerance"], given["points"]) == (1e-4, 256)
-    assert dataset.read(scene_file.with_suffix(".nc")).attrs["settings"]
+    assert dataset.load_dataset(scene_file.with_suffix(".nc")).attrs["settings"]
     assert cli.read_scene(str(scene_file)).seed == 7

@@ -122,7 +122,7 @@ def test_a_stamp_says_title_settings_source_and_versions(data):
 
 def test_what_is_written_is_read_back_the_same(data, tmp_path):
     dataset.write(data, tmp_path / "new" / "folder" / "data.nc")
-    found = dataset.read(tmp_path / "new" / "folder" / "data.nc")
+    found = dataset.load_dataset(tmp_path / "new" / "folder" / "data.nc")
     xr.testing.assert_identical(found, data)
     for name in data.variables.keys() - {"point_digest"}:  # text has no width in a file
         assert found[name].dtype == data[name].dtype, name
@@ -131,9 +131,9 @@ def test_what_is_written_is_read_back_the_same(data, tmp_path):
 def test_a_file_can_be_replaced_and_removed_once_it_is_read(data, tmp_path):
     path = tmp_path / "data.nc"
     dataset.write(data, path)
-    dataset.read(path)
+    dataset.load_dataset(path)
     dataset.write(data.assign(length=1.0), path)
-    assert float(dataset.read(path).length) == 1.0
+    assert float(dataset.load_dataset(path).length) == 1.0
 
 
 def test_writing_twice_gives_the_same_bytes_at_another_time(data, tmp_path):
@@ -190,7 +190,7 @@ def test_a_truncated_file_is_an_error_that_names_it(data, tmp_path, share):
     content = path.read_bytes()
     path.write_bytes(content[: int(share * len(content))])
     with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc.*allowed: a readable netCDF file"):
-        dataset.read(path)
+        dataset.load_dataset(path)
 
 
 @pytest.mark.parametrize("length", [500, 50000])
@@ -203,7 +203,7 @@ def test_damage_to_the_numbers_is_an_error_whether_they_are_compressed_or_not(tm
     content[place] ^= 0xFF
     path.write_bytes(content)
     with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc"):
-        dataset.read(path)
+        dataset.load_dataset(path)
 
 
 @pytest.mark.parametrize("content", [None, b"", b"not a dataset"])
@@ -212,7 +212,7 @@ def test_what_is_no_dataset_is_an_error_that_names_it(tmp_path, content):
     if content is not None:
         path.write_bytes(content)
     with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc"):
-        dataset.read(path)
+        dataset.load_dataset(path)
 
 
 def test_a_solver_has_no_option_named_like_a_key_of_a_surface_or_a_body():

@@ -32,7 +32,7 @@ FLOORS = (
     ("observables",),
     ("paths",),
     ("error_control",),
-    ("simulation", "explain"),
+    ("simulation", "explanation"),
     ("analysis",),
     ("study",),
     ("evaluation",),

@@ -5,11 +5,45 @@ from __future__ import annotations
 from importlib import import_module
 
 PUBLIC = {
-    "SceneError": "errors",
     "press": "simulation",
     "simulate": "simulation",
+    "estimate_cost": "simulation",
+    "neglect": "simulation",
+    "explain": "simulation",
+    "Scene": "contact.scene",
+    "Body": "contact.scene",
+    "RIGID": "contact.scene",
+    "LoadPath": "contact.loading",
+    "pressures": "contact.loading",
+    "approaches": "contact.loading",
+    "sliding": "contact.loading",
+    "HalfSpace": "elasticity.solids",
+    "Layer": "elasticity.solids",
+    "Flat": "surfaces.shapes",
+    "Cylinder": "surfaces.shapes",
+    "Sphere": "surfaces.shapes",
+    "Sinusoid": "surfaces.shapes",
+    "SelfAffine": "surfaces.self_affine",
+    "Topography": "surfaces.topography",
+    "read_topography": "surfaces.topography",
+    "HardWall": "interface.hard_wall",
+    "CohesiveZone": "interface.cohesive_zone",
+    "NormalCohesiveZone": "interface.cohesive_zone",
+    "Law": "interface.base",
+    "Aligned": "interface.pairing",
+    "Lattice": "interface.lattice",
+    "Requested": "paths.increments",
+    "Adaptive": "paths.adaptive",
+    "Nested": "paths.nested",
+    "Result": "solvers.base",
+    "Status": "status",
+    "SceneError": "errors",
+    "load_dataset": "dataset",
+    "plot": "figures.plot",
 }
-"""Module of each public name; imported when first used."""
+"""Module of each public name; it is imported when the name is first used."""
+MODULES = ("reference",)
+"""Public modules."""
 
 __all__ = [*PUBLIC, "__version__"]
 
@@ -20,6 +54,8 @@ def __getattr__(name: str) -> object:
         from importlib.metadata import version
 
         return version("contactsim")
+    if name in MODULES:
+        return import_module(f"contactsim.{name}")
     if name not in PUBLIC:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"contactsim.{PUBLIC[name]}"), name)

@@ -25,7 +25,7 @@ from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.options import choose_options
 from contactsim.errors import SceneError
 from contactsim.evaluation import budget
-from contactsim.explain import explain
+from contactsim.explanation import explain_setup
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.forms import form_of
 from contactsim.paths.driver import follow_path
@@ -104,7 +104,7 @@ def explain_scene(options: argparse.Namespace) -> None:
     study = named(options.scene, options.tier)
     setup, runs = study.runs()[0].setup, len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
-    sys.stdout.write(explain(setup, study.settings["neglect"]).text + "\n")
+    sys.stdout.write(explain_setup(setup, study.settings["neglect"]).text + "\n")
     if options.draw:
         from contactsim.figures.sketch import save_sketch
 

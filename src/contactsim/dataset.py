@@ -128,7 +128,7 @@ def write(data: xr.Dataset, path: str | Path) -> None:
     write_atomically(path, lambda file: data.to_netcdf(file, **kind))
 
 
-def read(path: str | Path) -> xr.Dataset:
+def load_dataset(path: str | Path) -> xr.Dataset:
     """Read a dataset into memory and close the file."""
     try:
         return xr.load_dataset(path, engine="netcdf4")

@@ -17,6 +17,7 @@ from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import Decision, decide_neglect
 from contactsim.errors import SceneError
+from contactsim.explanation import Explanation, explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments
@@ -220,6 +221,30 @@ def neglect(
     setup = Setup(scene, RunOptions(points=points, tolerance=tolerance, increments=increments))
     decision = decide_neglect([setup], within, quantities)
     return neglect_effects(setup, decision.neglected).scene, decision
+
+
+def explain(
+    scene: Scene,
+    *,
+    points: int | None = None,
+    solver: str | HardWallSolver | CohesiveSolver | None = None,
+    increments: Increments | None = None,
+) -> Explanation:
+    """Explain which effects of a scene act, which fields exist, what an iteration costs, and which solvers apply.
+
+    Parameters
+    ----------
+    scene : Scene
+        Bodies, effects and load path.
+    points, solver, increments
+        As in `simulate`.
+
+    Returns
+    -------
+    Explanation
+        Print it, or read its attributes.
+    """
+    return explain_setup(Setup(scene, RunOptions(points=points, solver=_solver(solver), increments=increments)))
 
 
 def _solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:

@@ -491,7 +491,7 @@ def test_a_study_with_fit_limits_gets_its_fits(runs):
 def test_an_aggregated_study_can_be_written_and_read(runs, tmp_path):
     data = made(runs(companions=2), fit_limits=[1.0])
     dataset.write(data, tmp_path / "study.nc")
-    xr.testing.assert_identical(dataset.read(tmp_path / "study.nc"), data)
+    xr.testing.assert_identical(dataset.load_dataset(tmp_path / "study.nc"), data)
 
 
 def test_a_load_is_named_by_the_dimension_that_it_is():

@@ -363,7 +363,7 @@ def test_each_reduction_gives_what_a_hand_would():
 
 
 def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     settings = claim(select={"hurst": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
     found, at = estimate(settings, [data]), data.sel(hurst=0.5, reduced_pressure=0.1)
     assert found.value == pytest.approx(float(at.kappa_mean))
@@ -372,7 +372,7 @@ def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the
 
 
 def test_the_fits_are_those_of_the_dataset(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     below = data.sel(reduced_pressure=slice(0, 0.1001))
     pressure = below.reduced_pressure.values
     for name, weighting, fitted in (

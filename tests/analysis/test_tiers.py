@@ -109,7 +109,7 @@ def test_the_figures_have_the_columns_that_they_compare_and_equal_themselves(mad
 
 
 def test_the_dimensions_of_fits_are_those_of_the_dataset(made):
-    assert dataset.read(made / "results/quick/datasets/ch3_rough_line.nc").fit_b1.dims == FIT_DIMENSIONS
+    assert dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc").fit_b1.dims == FIT_DIMENSIONS
 
 
 @pytest.fixture

@@ -95,7 +95,7 @@ def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path
     assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
     error = data.pull_off_load_loading_neglect_error
     files = [tmp_path / f"{run.variant}_neglect.nc" for run in study.runs() if run.measures_error]
-    whole = [summarised(dataset.read(file)).pull_off_load_loading for file in files]
+    whole = [summarised(dataset.load_dataset(file)).pull_off_load_loading for file in files]
     assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
     assert (error > 5).all()
 

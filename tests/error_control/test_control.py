@@ -253,13 +253,13 @@ def test_a_grid_that_was_too_hopeful_is_refined_and_an_error_that_is_still_misse
     with caplog.at_level(logging.WARNING):
         file = run_to_accuracy(run, tmp_path)
     assert "is not reached" in caplog.text
-    assert dataset.read(file).accuracy_reached == 0
+    assert dataset.load_dataset(file).accuracy_reached == 0
 
 
 def test_a_run_stores_its_estimate_what_it_was_asked_for_and_all_that_it_cost(tmp_path):
     run = study(LINE_SCENE).runs()[0]
     file = run_to_accuracy(run, tmp_path)
-    data = dataset.read(file)
+    data = dataset.load_dataset(file)
     assert data.accuracy == 0.02
     assert data.accuracy_reached == 1
     assert data.relative_contact_area_subgrid_estimated_error.dims == ("reduced_pressure",)
@@ -313,7 +313,7 @@ def test_the_shell_tells_the_cost_of_a_scene_and_runs_it_to_its_accuracy(tmp_pat
     assert "relative_contact_area_subgrid" in out
     cli.main(["run", str(file)])
     assert "relative_contact_area_subgrid to" in capsys.readouterr().out
-    assert dataset.read(tmp_path / "scene.nc").accuracy_reached == 1
+    assert dataset.load_dataset(tmp_path / "scene.nc").accuracy_reached == 1
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}
     file.write_text(yaml.safe_dump(plain | {"points": 1024, "tolerance": 1e-3}))
     cli.main(["cost", str(file)])

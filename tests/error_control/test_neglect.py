@@ -200,7 +200,7 @@ def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_ta
         """Return the dataset of a run that neglects what was decided."""
         files = RunFiles(tmp_path / f"{name}.nc", tmp_path / f"{name}.json")
         execute_neglecting.run(run.settings, "source", files, decision=decision, twin=twin)
-        return dataset.read(files.data)
+        return dataset.load_dataset(files.data)
 
     decision = tmp_path / "decision.json"
     decision.write_text(decide_neglect([frictionless.setup], 0.05, PULL_OFF).text)

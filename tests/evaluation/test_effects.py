@@ -15,7 +15,7 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.explain import Explanation, explain
+from contactsim.explanation import Explanation, explain
 from contactsim.figures.sketch import save_sketch
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup

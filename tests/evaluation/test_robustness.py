@@ -233,7 +233,7 @@ def drawn(tmp_path_factory):
     parts = []
     for hazard in plan.stability["hazards"]:
         dataset.write(survey(**json.loads(json.dumps(plan.hazard_settings(hazard)))), folder / f"{hazard}.nc")
-        parts.append(dataset.read(folder / f"{hazard}.nc"))
+        parts.append(dataset.load_dataset(folder / f"{hazard}.nc"))
     settings = plan.map_settings()
     dataset.write(gather(parts, settings["settings"], settings["source"]), folder / "stability.nc")
     targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
@@ -242,7 +242,7 @@ def drawn(tmp_path_factory):
 
 
 def test_the_dataset_says_what_came_of_every_cell(drawn):
-    data = dataset.read(drawn / "stability.nc")
+    data = dataset.load_dataset(drawn / "stability.nc")
     assert dict(data.sizes) == {"hazard": 3, "solver": 7, "severity": 3}
     assert data.hazard.values.tolist() == ["tension", "nearly_full_rough", "low_spike"]
     assert (data.outcome.sel(hazard="tension") == Outcome.REFUSED.value[0]).all()
@@ -264,7 +264,7 @@ def test_the_dataset_says_what_came_of_every_cell(drawn):
 
 
 def test_everything_in_the_dataset_is_described(drawn):
-    data = dataset.read(drawn / "stability.nc")
+    data = dataset.load_dataset(drawn / "stability.nc")
     for name in data.variables:
         assert data[name].attrs["units"] == "1", name
         assert VARIABLES[name][1] == data[name].attrs["long_name"], name
@@ -276,7 +276,7 @@ def test_everything_in_the_dataset_is_described(drawn):
 
 
 def test_a_survey_made_again_is_the_same_byte_for_byte(drawn, tmp_path):
-    data = dataset.read(drawn / "low_spike.nc")
+    data = dataset.load_dataset(drawn / "low_spike.nc")
     again = survey(**dataset.settings_of(data), source=data.attrs["source_digest"])
     dataset.write(again, tmp_path / "again.nc")
     assert (tmp_path / "again.nc").read_bytes() == (drawn / "low_spike.nc").read_bytes()
@@ -292,7 +292,7 @@ def test_the_map_is_drawn_and_gives_its_numbers(drawn):
 
 
 def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(drawn):
-    data = dataset.read(drawn / "stability.nc")
+    data = dataset.load_dataset(drawn / "stability.nc")
     data["outcome"][0, 0, 0], data["outcome"][0, 0, 1:] = Outcome.WRONG.value[0], Outcome.NON_FINITE.value[0]
     assert footer(data).endswith("1 wrong, 2 not finite")
     axes = Figure().subplots()
@@ -304,7 +304,7 @@ def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(dra
 
 
 def test_the_map_says_why_a_case_was_refused_and_fits_its_numbers_into_their_cells(drawn):
-    data = dataset.read(drawn / "stability.nc")
+    data = dataset.load_dataset(drawn / "stability.nc")
     axes = Figure(figsize=(13, 8)).subplots()
     stability(data, [axes])
     texts = [text.get_text() for text in axes.texts]
@@ -314,7 +314,7 @@ def test_the_map_says_why_a_case_was_refused_and_fits_its_numbers_into_their_cel
 
 
 def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
-    data = dataset.read(drawn / "stability.nc")
+    data = dataset.load_dataset(drawn / "stability.nc")
     assert "refused and left out, as their solver does not take the kind of case: 36 ·" in footer(data)
     one = data.sel(hazard="low_spike")
     assert taken(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
@@ -323,7 +323,7 @@ def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
 
 
 def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):
-    one = dataset.read(drawn / "stability.nc").sel(hazard="nearly_full_rough")
+    one = dataset.load_dataset(drawn / "stability.nc").sel(hazard="nearly_full_rough")
     one = one.sel(solver=["active_set", "polonsky_keer", "verlet"])
     refused = Outcome.REFUSED.value[0]
     one["outcome"].values[:2] = [[refused, refused, 0], [refused, 0, refused]]

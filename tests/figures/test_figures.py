@@ -31,7 +31,7 @@ def test_every_figure_is_drawn_and_gives_its_numbers(made, name):
 
 
 def test_a_footer_says_grid_members_losses_and_time(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     costs = pd.read_csv(made / "results/quick/costs/ch3_rough_line.csv")
     text = layout.footer_text(data, costs)
     for part in (
@@ -48,7 +48,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
 
 
 def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):
-    data = dataset.read(made / "results/quick/datasets/ch3_smooth_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
     data["kappa_r_grid_error"][data.contact_ratio < 0.05] = 7.0
     data["status"][..., data.contact_ratio.values < 0.05] = 1
     dataset.write(data, tmp_path / "data.nc")
@@ -67,7 +67,7 @@ def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monk
 
 
 def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     axes = list(Figure().subplots(1, 4))
     shown = ch3.fig_3_2(data, axes, kappa_r=1.75)
     assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
@@ -84,14 +84,14 @@ def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
 
 
 def test_without_a_measured_grid_error_the_rough_lines_are_drawn_all_the_same(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     axes = list(Figure().subplots(1, 4))
     ch3.fig_3_2(data.drop_vars(name for name in data if name.endswith("grid_error")), axes, kappa_r=1.75)
     assert not axes[3].lines
 
 
 def smooth(made):
-    return [dataset.read(made / f"results/quick/datasets/ch3_smooth_{kind}.nc") for kind in ("line", "surface")]
+    return [dataset.load_dataset(made / f"results/quick/datasets/ch3_smooth_{kind}.nc") for kind in ("line", "surface")]
 
 
 def test_cylinder_and_sphere_are_drawn_beside_the_exact_lines(made):
@@ -116,7 +116,7 @@ def test_the_table_lists_exact_and_computed(made):
 
 
 def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(made):
-    rough = {name: dataset.read(made / f"results/quick/datasets/ch3_{name}.nc") for name in ROUGH}
+    rough = {name: dataset.load_dataset(made / f"results/quick/datasets/ch3_{name}.nc") for name in ROUGH}
     axes = list(Figure().subplots(1, 3))
     shown = ch3.fig_3_4(rough["rough_surface"], axes, kappa=2.2, kappa_r=1.88)
     assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
@@ -138,7 +138,7 @@ def test_the_last_of_smooth_figures_counts_its_cells(made):
 
 
 def test_the_fits_are_given_as_the_curves_that_they_draw(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc").sel(reduced_pressure=slice(0, 0.11))
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc").sel(reduced_pressure=slice(0, 0.11))
     axes = Figure().subplots()
     shown = ch3.fig_3_3(data, axes)
     assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
@@ -155,7 +155,7 @@ def test_the_fits_are_given_as_the_curves_that_they_draw(made):
 
 
 def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
-    data = dataset.read(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
     axes = list(Figure().subplots(1, 4))
     shown = ch5.fig_5_2(data, axes, kappa_r=1.75)
     variants = data.hurst.size * data.poisson_ratio.size * data.thickness.size
@@ -176,7 +176,7 @@ def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
 
 
 def test_on_a_half_space_poissons_ratio_changes_no_contact(made):
-    data = dataset.read(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
     assert np.allclose(data.rms_height, 10.0, rtol=1e-12)
     thick = data.sel(thickness=data.thickness.max())
     assert not thick.relative_contact_area.diff("poisson_ratio").any()

@@ -232,13 +232,13 @@ def test_what_cannot_be_drawn_is_refused_with_key_and_what_is_allowed():
 
 
 def test_a_line_of_a_study_is_refused(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     error = refusal(lambda: ch3.maps(data, list(Figure(layout="constrained").subplots(1, 3))))
     assert (error.key, error.value) == ("dimensions", 1)
 
 
 def test_the_figure_shows_one_load_of_the_study_and_says_which(made):
-    data = dataset.read(made / "results/quick/datasets/ch3_surface_map.nc")
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_surface_map.nc")
     axes = list(Figure(layout="constrained").subplots(1, 3))
     shown = ch3.maps(data, axes).set_index("map")
     one = data.squeeze()

@@ -62,7 +62,7 @@ def test_every_row_says_what_claims_datasets_and_costs_say(shown, made, plan):
     }
     costs = pd.read_csv(folder / "costs/ch4_pull_off.csv")
     assert rows.seconds["fig_4_8"] == pytest.approx(costs.seconds.sum(), abs=0.051)
-    data = dataset.read(folder / "datasets/ch3_rough_line.nc")
+    data = dataset.load_dataset(folder / "datasets/ch3_rough_line.nc")
     error = float(data.kappa_r_grid_error.max())
     assert f"κᵣ {error:.1g}" in rows.errors["fig_3_2"]
     assert rows.data["fig_3_2"] == plan.figure_settings("fig_3_2")["data"]
@@ -75,7 +75,7 @@ def test_every_variable_of_every_dataset_is_known(made, plan):
     assert len(files) >= len(plan.studies)
     options = {name for kind in SOLVERS for name in keys_of(solver_class(kind))}
     for file in files:
-        for name, item in dataset.read(file).variables.items():
+        for name, item in dataset.load_dataset(file).variables.items():
             assert name in options or not item.attrs["long_name"].startswith("option "), (file.name, name)
 
 

@@ -140,7 +140,7 @@ def test_a_study_tells_its_cost_its_unconverged_solutions_and_its_settings(page,
     assert f"{costs.run.nunique()} runs, {costs.transforms.sum():.3g} transforms" in page
     part = page[page.index('<details id="study-indentation">') :]
     part = html.unescape(part[: part.index("</details>")])
-    settings = dataset.settings_of(dataset.read(folder / "datasets/ch4_indentation.nc"))
+    settings = dataset.settings_of(dataset.load_dataset(folder / "datasets/ch4_indentation.nc"))
     assert f"<th>points</th><td>{settings['points']}</td>" in part
     assert "<td>{kind: cylinder, length: 10000.0, radius: 25000.0}</td>" in part
     assert "solutions unconverged and left out" in part

@@ -15,7 +15,7 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.explain import explain
+from contactsim.explanation import explain
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
 from contactsim.solvers.base import check_solver, solve

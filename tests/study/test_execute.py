@@ -130,7 +130,7 @@ def test_heights_contact_pressure_and_gap_follow_from_the_file_alone(place, surf
 
 def test_the_file_holds_the_certificate_and_the_numbers_of_the_profile(place):
     settings = settings_of()
-    data = dataset.read(place(settings).data)
+    data = dataset.load_dataset(place(settings).data)
     heights = build_setup(settings).scene.heights(256)
     slope = np.diff(heights, append=heights[0]) / 0.25
     assert data.rms_height.item() == pytest.approx(heights.std(), rel=1e-12)
@@ -146,13 +146,13 @@ def test_the_file_holds_the_certificate_and_the_numbers_of_the_profile(place):
 
 
 def test_the_profile_of_a_band_limited_surface_is_kept_up_to_its_last_mode(place):
-    data = dataset.read(place(settings_of()).data)
+    data = dataset.load_dataset(place(settings_of()).data)
     assert data.mode.size == 64  # 63 waves longer than the shortest, and the mean
 
 
 def test_every_variable_of_a_run_is_described_and_the_run_stamped(place):
     settings = settings_of()
-    data = dataset.read(place(settings, source="abc").data)
+    data = dataset.load_dataset(place(settings, source="abc").data)
     for name, item in data.variables.items():
         assert set(item.attrs) >= {"units", "long_name"}, name
     assert data.status.attrs["flag_meanings"].startswith("converged")
@@ -163,7 +163,7 @@ def test_every_variable_of_a_run_is_described_and_the_run_stamped(place):
 @pytest.mark.parametrize("load", ["mean_pressure", "contact_ratio", "reduced_pressure"])
 def test_a_run_can_be_asked_for_any_kind_of_load(place, load):
     files = place(settings_of([0.01, 0.02], surface="cylinder", load=load))
-    data = dataset.read(files.data)
+    data = dataset.load_dataset(files.data)
     assert data.status.dims == (load,)
     assert data[load].values.tolist() == [0.01, 0.02]
     assert (data.relative_contact_area.values > 0).all()
@@ -171,7 +171,7 @@ def test_a_run_can_be_asked_for_any_kind_of_load(place, load):
 
 def test_what_does_not_converge_is_kept_with_its_status(place):
     settings = settings_of(solver={"kind": "polonsky_keer", "batch": 1, "budget": 1})
-    data = dataset.read(place(settings).data)
+    data = dataset.load_dataset(place(settings).data)
     assert data.status.values.tolist() == [Status.MAX_ITERATIONS.value[0]] * 3
     assert (data.iterations == 1).all()
     assert (data[["max_contact_gap", "penetration"]].to_array().max("variable") > 1e-3).all()
@@ -234,7 +234,9 @@ def test_other_settings_reuse_nothing(place, solved, changes):
 
 
 def test_each_point_is_named_by_all_that_made_it_and_not_by_the_other_loads(place):
-    names = [set(dataset.read(place(settings_of(loads)).data).point_digest.values) for loads in ([0.1], [0.02, 0.1])]
+    names = [
+        set(dataset.load_dataset(place(settings_of(loads)).data).point_digest.values) for loads in ([0.1], [0.02, 0.1])
+    ]
     assert names[0] < names[1]
 
 
@@ -281,7 +283,7 @@ def test_a_dataset_of_another_kind_under_the_name_is_computed_anew(place, solved
     dataset.write(xr.Dataset({"length": 1.0}), files.data)
     place(settings_of())
     assert len(solved) == 3
-    assert dataset.read(files.data).sizes["reduced_pressure"] == 3
+    assert dataset.load_dataset(files.data).sizes["reduced_pressure"] == 3
 
 
 # --- costs --------------------------------------------------------------------------------------------------------
@@ -298,7 +300,7 @@ def test_costs_keep_the_seconds_of_points_taken_over(place):
     assert before.items() < after.items()
     assert len(after) == 3
     assert all(seconds > 0 for seconds in after.values())
-    assert set(after) == set(dataset.read(files.data).point_digest.values)
+    assert set(after) == set(dataset.load_dataset(files.data).point_digest.values)
 
 
 def test_seconds_stand_in_the_costs_and_never_in_the_dataset(place, monkeypatch):
@@ -326,14 +328,14 @@ def test_damaged_costs_do_not_stop_a_run(place, content):
     files.costs.write_text(content)
     place(settings_of([0.1]))
     assert files.data.read_bytes() == good
-    assert list(seconds_of(files)) == [dataset.read(files.data).point_digest.item()]
+    assert list(seconds_of(files)) == [dataset.load_dataset(files.data).point_digest.item()]
 
 
 def test_the_table_of_costs_has_a_row_for_each_solved_load(place):
     files = place(settings_of())
     run = {"path": str(files.data), "costs": str(files.costs), "coordinates": {"hurst": 0.8}}
     table = costs.table([run | {"member": 0, "measures_error": False}])
-    data = dataset.read(files.data)
+    data = dataset.load_dataset(files.data)
     assert table.reduced_pressure.tolist() == LOADS
     assert table.transforms.tolist() == data.transforms.values.tolist()
     assert table.seconds.tolist() == [seconds_of(files)[name] for name in data.point_digest.values]
@@ -366,7 +368,7 @@ def step_lines(caplog):
 
 def test_the_log_has_a_line_for_each_step_with_load_residual_transforms_and_seconds(place, caplog):
     caplog.set_level(logging.INFO, "contactsim.paths.pressures")
-    data = dataset.read(place(settings_of()).data)
+    data = dataset.load_dataset(place(settings_of()).data)
     lines = step_lines(caplog)
     assert len(lines) == 3
     for number, (line, load, transforms) in enumerate(zip(lines, LOADS, data.transforms.values, strict=True), 1):

@@ -678,12 +678,12 @@ def test_states_of_paths_are_averaged_over_members_with_the_error_of_the_grid(tm
         runs.append(
             {"path": path, "coordinates": run.coordinates, "member": run.member, "measures_error": run.measures_error}
         )
-    assert ["normal_gap" in dataset.read(run["path"]) for run in runs[:2]] == [True, False]
+    assert ["normal_gap" in dataset.load_dataset(run["path"]) for run in runs[:2]] == [True, False]
     data = aggregate.aggregate(runs, read.settings, "source")
     one, two = data.mean_pressure.transpose("member", "step").values
     assert np.allclose(data.mean_pressure_mean, (one + two) / 2)
     assert np.allclose(data.mean_pressure_standard_error, np.abs(one - two) / 2)
-    coarse = dataset.read(runs[2]["path"]).mean_pressure.values
+    coarse = dataset.load_dataset(runs[2]["path"]).mean_pressure.values
     assert np.allclose(data.mean_pressure_grid_error, np.abs(one - coarse))
     assert np.allclose(data.normalised_pressure_mean, data.mean_pressure_mean / data.contact_modulus)
     assert np.allclose(data.relative_repulsive_area, data.contact_length / data.length)

@@ -809,7 +809,7 @@ def test_a_measured_surface_is_pressed_on_its_own_grid(tmp_path: Path) -> None:
     heights = np.random.default_rng(0).standard_normal((24, 16))
     (run,) = area(npy_file(tmp_path, heights)).runs()
     execute.run(run.settings, run.source, RunFiles(tmp_path / "run.nc", tmp_path / "run.json"))
-    data = dataset.read(tmp_path / "run.nc")
+    data = dataset.load_dataset(tmp_path / "run.nc")
     assert data.status == Status.CONVERGED.value[0]
     assert (int(data.points), int(data.points_y), float(data.length), float(data.length_y)) == (30, 46, 15.0, 115.0)
     assert float(data.rms_height) == pytest.approx(prepared(heights, "plane", "mirror").std(), rel=1e-12)

@@ -20,7 +20,7 @@ from contactsim.errors import SceneError
 from contactsim.evaluation.robustness.cases import Case, layer_response
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.survey import judge
-from contactsim.explain import Explanation, explain
+from contactsim.explanation import Explanation, explain
 from contactsim.figures.sketch import sketch
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup

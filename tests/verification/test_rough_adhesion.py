@@ -31,7 +31,7 @@ ROUGH = (
 def studies(made):
     """All studies of rough adhesive contact of the quick tier, and those of the hard wall, by name."""
     names = (*ROUGH, "rough_wall", "rough_wall_picture")
-    return {name: dataset.read(made / f"results/quick/datasets/ch5_{name}.nc") for name in names}
+    return {name: dataset.load_dataset(made / f"results/quick/datasets/ch5_{name}.nc") for name in names}
 
 
 def panels(count: int) -> list:

@@ -10,5 +10,5 @@ from contactsim.files import write_text
 
 open_log(snakemake.log[0])
 settings = json.loads(snakemake.params.plan)
-maps = dict(zip(sorted(settings["maps"]), map(dataset.read, snakemake.input.maps), strict=True))
+maps = dict(zip(sorted(settings["maps"]), map(dataset.load_dataset, snakemake.input.maps), strict=True))
 write_text(as_text(maps, settings), snakemake.output[0])

@@ -9,5 +9,5 @@ from contactsim.evaluation.robustness.survey import gather
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-data = gather(map(dataset.read, plan["paths"]), plan["settings"], plan["source"])
+data = gather(map(dataset.load_dataset, plan["paths"]), plan["settings"], plan["source"])
 dataset.write(data, snakemake.output[0])

@@ -79,7 +79,9 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> x
 
 def _read_runs(runs: list[dict]) -> xr.Dataset:
     """Return the combined dataset of runs."""
-    return combine_runs([(dataset.read(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs])
+    return combine_runs(
+        [(dataset.load_dataset(run["path"]), run["coordinates"] | {"member": run["member"]}) for run in runs]
+    )
 
 
 def _error_runs(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:

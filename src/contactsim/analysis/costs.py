@@ -19,7 +19,7 @@ def table(runs: list[dict]) -> pd.DataFrame:
 
 
 def _of_run(run: dict) -> pd.DataFrame:
-    data = dataset.read(run["path"])
+    data = dataset.load_dataset(run["path"])
     spent = json.loads(Path(run["costs"]).read_text())
     load = data.status.dims[0]
     told = {"run": run["path"], **run["coordinates"], "member": run["member"], "measures_error": run["measures_error"]}

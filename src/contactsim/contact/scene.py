@@ -20,7 +20,7 @@ from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, is_coupled
 from contactsim.interface.pairing import ALIGNED, Pairing
-from contactsim.surfaces.shapes import Surface
+from contactsim.surfaces.shapes import Flat, Surface
 from contactsim.traits import Trait
 
 
@@ -37,17 +37,48 @@ class ProblemKind(Enum):
     """Traction is a smooth function of the gap; states follow one another along a path."""
 
 
+RIGID = None
+"""Elasticity of a rigid body: absent, not stiff."""
+
+
 @dataclass(frozen=True)
 class Body:
-    """A surface on an elastic solid; elasticity None is rigid: absent, not stiff."""
+    """A surface on an elastic solid.
+
+    Parameters
+    ----------
+    surface : Surface
+        Periodic heights.
+    elasticity : Elasticity, optional
+        The solid below the surface; `RIGID` by default.
+    """
 
     surface: Surface
-    elasticity: Elasticity | None = None
+    elasticity: Elasticity | None = RIGID
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Scene:
-    """Two bodies, the effects at their interface, and what is done to them."""
+    """Two bodies, the effects at their interface, and the load path.
+
+    Parameters
+    ----------
+    lower : Body or Elasticity
+        Lower body; an elasticity stands for a flat body.
+    upper : Body or Surface
+        Upper body; a surface stands for a rigid body.
+    effects : Effect or tuple of Effect
+        A hard wall, or laws whose tractions add.
+    path : LoadPath
+        Load steps.
+    pairing : Pairing
+        Which points of the two surfaces interact; facing points by default.
+
+    Raises
+    ------
+    SceneError
+        For bodies, effects and paths that do not go together.
+    """
 
     lower: Body
     upper: Body
@@ -55,7 +86,25 @@ class Scene:
     path: LoadPath
     pairing: Pairing = ALIGNED
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        lower: Body | Elasticity,
+        upper: Body | Surface,
+        effects: Effect | tuple[Effect, ...],
+        path: LoadPath,
+        pairing: Pairing = ALIGNED,
+    ) -> None:
+        upper_body = upper if isinstance(upper, Body) else Body(upper)
+        lower_body = lower if isinstance(lower, Body) else Body(Flat.facing(upper_body.surface), lower)
+        acting = effects if isinstance(effects, tuple) else (effects,)
+        values = {"lower": lower_body, "upper": upper_body, "effects": acting, "path": path, "pairing": pairing}
+        for name, value in values.items():
+            object.__setattr__(self, name, value)  # a frozen dataclass
+        self._check_parts()
+        self._check_sliding()
+
+    def _check_parts(self) -> None:
+        """Raise InputError for bodies, effects or loads that are missing or do not go together."""
         if not self.elasticities:
             raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not self.effects:
@@ -63,17 +112,20 @@ class Scene:
         for step in self.path.steps if Trait.WALL in self.traits else ():
             if step.control is Trait.MEAN_PRESSURE and step.value < 0:
                 raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
-        for side in ("lower", "upper") if "t" in self.components else ():
-            body = getattr(self, side).elasticity
-            if body is not None and body.poisson_ratio is None:
-                allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
-                raise SceneError("poisson_ratio", None, allowed)
-        if self.sliding and "t" not in self.components:
-            raise SceneError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
         self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise SceneError("length", lengths, "the same periods for both surfaces")
+
+    def _check_sliding(self) -> None:
+        """Raise InputError for tangential displacements that nothing determines."""
+        for side, body in (("lower", self.lower), ("upper", self.upper)):
+            elasticity = body.elasticity
+            if "t" in self.components and elasticity is not None and elasticity.poisson_ratio is None:
+                allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
+                raise SceneError("poisson_ratio", None, allowed)
+        if self.sliding and "t" not in self.components:
+            raise SceneError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:

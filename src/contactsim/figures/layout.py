@@ -42,7 +42,7 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     plan: `Plan.figure_settings`; data: paths of the datasets; costs: of the studies' costs, none where the module of
     the figure writes a `footer` of its own; targets: png, pdf and csv, and gif where there is a film.
     """
-    settings, shown_data = plan["settings"], [dataset.read(path) for path in data]
+    settings, shown_data = plan["settings"], [dataset.load_dataset(path) for path in data]
     if settings["law"] is not None:
         shown_data = [tabulated(settings["law"])]
     module = import_module(plan["module"])

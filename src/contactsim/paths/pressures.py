@@ -160,7 +160,7 @@ def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
     if not Path(target).exists():
         return {}
     try:
-        data = dataset.read(target)
+        data = dataset.load_dataset(target)
         ends = np.cumsum(data.contact_points.values)
         load = data.status.dims[0]
         seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}

@@ -111,7 +111,7 @@ def _copy(path: Path, place: Path) -> None:
 def _describe(plan: Mapping, places: Sequence[str], folder: Path) -> None:
     """Write README, metadata and sums into a folder that holds all else."""
     citation = read_citation(folder / CITATION)
-    held = {place: Held.of(dataset.read(folder / place)) for place in places if place.endswith(".nc")}
+    held = {place: Held.of(dataset.load_dataset(folder / place)) for place in places if place.endswith(".nc")}
     about = {place: about_file(place, plan["titles"]) for place in [*places, README, SUMS, METADATA]}
     (folder / README).write_text(readme(plan, citation, held, about), encoding="utf-8")
     sums = {place: _sum(folder / place) for place in [*places, README]}

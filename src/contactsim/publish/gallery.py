@@ -86,7 +86,7 @@ def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, st
     for chapter, own in entries(plan).items():
         for entry in own:
             paths = [plan.dataset_name(study) for study in entry.studies]
-            told = errors_told(dataset.read(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
+            told = errors_told(dataset.load_dataset(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
             seconds = sum(pd.read_csv(folder / "costs" / f"{path}.csv").seconds.sum() for path in paths)
             place = {"chapter": chapter, "figure": entry.name, "title": entry.title}
             found = counted(of_figure(every, entry.name))

@@ -167,7 +167,7 @@ def _chapters(plan: Plan, folder: Path, every: pd.DataFrame) -> dict[str, list[S
 
 def _study(plan: Plan, folder: Path, name: str) -> Solved:
     """What the page tells of a study."""
-    data = dataset.read(folder / "datasets" / f"{plan.dataset_name(name)}.nc")
+    data = dataset.load_dataset(folder / "datasets" / f"{plan.dataset_name(name)}.nc")
     costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(name)}.csv")
     drawn_scene = _sketch(plan.studies[name].runs()[0].settings)
     return Solved(data.attrs["title"], footer_text(data, costs), _cost(costs), _settings(data), drawn_scene)

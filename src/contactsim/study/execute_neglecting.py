@@ -84,7 +84,7 @@ def run(
 def _take_over(twin: str | Path, settings: dict, source: str, files: RunFiles, notes: Mapping[str, object]) -> bool:
     """Write the dataset of another run as that of this one if their scenes are the same; nothing is spent."""
     begin = time.process_time()
-    data = dataset.read(twin)
+    data = dataset.load_dataset(twin)
     other = dataset.settings_of(data)
     settings = settings | {name: other[name] for name in FROM_ACCURACY if name in other}
     if build_setup(other).fingerprint != build_setup(settings).fingerprint:

@@ -41,9 +41,9 @@ def render(plan: Mapping, files: Mapping[str, str], targets: Mapping[str, str]) 
     dataset and costs; targets: png, pdf, csv and, for the comparison at equal error, equal_error.
     """
     settings, jobs = plan["settings"], plan["jobs"]
-    data = {job: dataset.read(path) for job, path in zip(jobs, files["data"], strict=True)}
+    data = {job: dataset.load_dataset(path) for job, path in zip(jobs, files["data"], strict=True)}
     times = {job: json.loads(Path(path).read_text()) for job, path in zip(jobs, files["costs"], strict=True)}
-    study = dataset.read(files["study"]).sel(plan["selection"])
+    study = dataset.load_dataset(files["study"]).sel(plan["selection"])
     table = error_cost.table(settings, data, study, plan["default"])
     alone = pd.read_csv(files["study_costs"]).query("not measures_error")
     chosen = alone

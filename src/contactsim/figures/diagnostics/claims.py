@@ -43,7 +43,7 @@ def render_claims(plan: Mapping, paths: Mapping[str, str], targets: Mapping[str,
 
     plan: `Plan.claims_settings`; paths: the datasets by study; targets: csv, png and pdf.
     """
-    data = {study: dataset.read(path) for study, path in paths.items()}
+    data = {study: dataset.load_dataset(path) for study, path in paths.items()}
     rows = judge_claims(dict(plan["claims"]), data)
     number = plan["chapter"].removeprefix("ch")
     figure = drawn(rows, f"Chapter {number}: what it states, and what was found", made_text(data))

@@ -34,7 +34,7 @@ def render(plan: Mapping, data: Sequence[str], targets: Mapping[str, str]) -> No
     """Draw all panels into their files; plan: of `contactsim.evaluation.effects.survey.figure`; data: the maps, by
     name.
     """
-    maps = dict(zip(sorted(plan["titles"]), map(dataset.read, data), strict=True))
+    maps = dict(zip(sorted(plan["titles"]), map(dataset.load_dataset, data), strict=True))
     panels = plan["settings"]["panels"]
     rows = -(-len(panels) // COLUMNS)
     places = sum(one.change_without.size for one in maps.values())

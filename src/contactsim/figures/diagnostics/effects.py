@@ -25,7 +25,7 @@ def render(plan: Mapping, data: str, costs: str, targets: Mapping[str, str]) -> 
     """Draw the ladder into its files; plan: settings with titles; data, costs: of
     `contactsim.evaluation.effects.effect_cost.measure`.
     """
-    found = dataset.read(data)
+    found = dataset.load_dataset(data)
     prices = pd.DataFrame(json.loads(Path(costs).read_text())).T.loc[found.variant.values].reset_index(drop=True)
     table = pd.concat([found.to_dataframe().reset_index(), prices], axis=1)
     table.insert(1, "title", [plan["titles"][name] for name in found.variant.values])

@@ -30,7 +30,7 @@ def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Ma
     """All trials into one dataset, a table and a figure; data, costs: of
     `contactsim.evaluation.calibration.validation.trial`, scene by scene.
     """
-    found = xr.concat([dataset.read(path) for path in data], "scene")
+    found = xr.concat([dataset.load_dataset(path) for path in data], "scene")
     dataset.write(dataset.stamped(found, plan["settings"]["title"], plan, plan["data"]), targets["data"])
     table = tabulated(found, [json.loads(Path(path).read_text()) for path in costs])
     figure, panels = framed(plan["settings"] | {"panels": 3}, _footer(table, plan))

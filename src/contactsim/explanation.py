@@ -67,7 +67,7 @@ class Explanation:
         return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
 
 
-def explain(setup: Setup, neglected: Sequence[str] = ()) -> Explanation:
+def explain_setup(setup: Setup, neglected: Sequence[str] = ()) -> Explanation:
     """Explain which effects of a scene act, which fields exist, and what an iteration costs.
 
     Parameters
