@@ -10,6 +10,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.figures import maps
 from contactsim.interface.hard_wall import HardWall
+from contactsim.paths.driver import follow_path
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from support.places import ROOT
 
@@ -188,7 +189,7 @@ def test_a_load_step_that_does_not_converge_is_stored_named_and_ends_in_an_error
     scene_file.write_text(SCENE.replace("1.0e-4", "1.0e-18"))
     with pytest.raises(SystemExit, match="2 of 2 load steps did not converge"):
         cli.main(["run", str(scene_file)])
-    assert "number of iterations" in capsys.readouterr().out
+    assert "max_iterations" in capsys.readouterr().out
     assert (dataset.load_dataset(scene_file.with_suffix(".nc")).status == 1).all()
 
 
@@ -212,15 +213,16 @@ def test_a_wrong_option_ends_in_one_line(scene_file, command, options, words):
 
 def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(scene_file, monkeypatch):
     scene_file.write_text(SCENE + "seed: 7\nsolver: {kind: polonsky_keer, batch: 5}\n")
-    given = {}
+    setups = []
 
-    def simulate(scene, **options):
-        given.update(options)
-        return contactsim.simulate(scene, **options)
+    def follow(setup):
+        setups.append(setup)
+        return follow_path(setup)
 
-    monkeypatch.setattr(cli, "simulate", simulate)
+    monkeypatch.setattr(cli, "follow_path", follow)
     cli.main(["run", str(scene_file)])
-    assert (type(given["method"]).__name__, given["method"].batch) == ("PolonskyKeer", 5)
-    assert (given["tolerance"], given["points"]) == (1e-4, 256)
+    (options,) = (setup.options for setup in setups)
+    assert (type(options.solver).__name__, options.solver.batch) == ("PolonskyKeer", 5)
+    assert (options.tolerance, options.points) == (1e-4, 256)
     assert dataset.load_dataset(scene_file.with_suffix(".nc")).attrs["settings"]
     assert cli.read_scene(str(scene_file)).seed == 7

@@ -15,7 +15,7 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.explanation import Explanation, explain
+from contactsim.explanation import Explanation, explain_setup
 from contactsim.figures.sketch import save_sketch
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
@@ -39,7 +39,7 @@ def solved(subject, points=256, name="active_set"):
 
 
 def explained(subject: Scene, points: int = 256, name: str = "active_set") -> Explanation:
-    return explain(Setup(subject, RunOptions(points, solver=make_solver(name))))
+    return explain_setup(Setup(subject, RunOptions(points, solver=make_solver(name))))
 
 
 def test_a_wall_alone_has_one_component():
@@ -105,13 +105,13 @@ def test_peak_memory_is_the_few_fields_that_are_explained(name):
 
 PRESS_A_SURFACE = """
 import sys
-from contactsim import loading
-from contactsim.elasticity import HalfSpace
-from contactsim.laws import HardWall
-from contactsim.march import simulate
-from contactsim.scene import Body, Scene
-from contactsim.self_affine import SelfAffine, generator
-from contactsim.surface import Flat
+from contactsim.contact import loading
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.solids import HalfSpace
+from contactsim.interface.hard_wall import HardWall
+from contactsim.simulation import simulate
+from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
+from contactsim.surfaces.shapes import Flat
 
 def peak():  # of this program alone: what getrusage tells begins with its parent's
     return float(open("/proc/self/status").read().partition("VmHWM:")[2].split()[0])

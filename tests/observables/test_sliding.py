@@ -22,6 +22,7 @@ from contactsim.observables.derived import combine_runs
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.record import simulate_path
 from contactsim.paths.state import PathState
+from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
@@ -202,7 +203,7 @@ def test_a_slide_to_and_fro_is_antisymmetric_and_dissipates():
     _, _, slides, force = walked(scene, 256)
     first, second = slice(101, 301), slice(301, 501)
     np.testing.assert_allclose(-force[first], force[second], atol=1e-4 * force.max())
-    found = friction.slid(simulate_path(scene, make_solver("newton"), points=256, tolerance=1e-7))
+    found = friction.slid(simulate(scene, solver="newton", points=256, tolerance=1e-7))
     assert float(found.loop_energy) > 100 * float(found.loop_energy_increment_error) > 0
     steps = np.diff(slides[first.start - 1 :])
     about = np.sum(steps * (force[first.start - 1 : -1] + force[first.start :]) / 2) * 1000.0
@@ -234,13 +235,13 @@ def walked_frictionless() -> tuple:
 def dataset_of(increment: float) -> xr.Dataset:
     """Of the slide up to its first slip, and a little on."""
     scene = probe(path_of(0.0, [0.0, 8.5], increment))
-    return simulate_path(scene, make_solver("newton"), points=256, tolerance=1e-7)
+    return simulate(scene, solver="newton", points=256, tolerance=1e-7)
 
 
 @cache
 def dataset(**changes: object) -> xr.Dataset:
     scene = probe(path_of(0.0, [0.0, 11.0], 0.1), **changes)
-    data = simulate_path(scene, make_solver("newton"), points=256, tolerance=1e-7, snapshots=(0.0, 4.0))
+    data = simulate(scene, solver="newton", points=256, tolerance=1e-7, snapshots=(0.0, 4.0))
     return data
 
 
@@ -374,14 +375,14 @@ def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
 @pytest.mark.parametrize(("modulus", "slips"), [(480.0, True), (526.0, False), (560.0, False)])  # critical: 517.7
 def test_a_fast_smooth_slide_is_no_slip(modulus, slips, increments, increment):
     scene, how = flat(modulus, 0.2, [0.0, 5.0], increment), INCREMENTS[increments]()
-    data = simulate_path(scene, make_solver("newton"), points=16, tolerance=1e-7, increments=how)
+    data = simulate(scene, solver="newton", points=16, tolerance=1e-7, increments=how)
     assert (float(friction.slid(data).slip_count) > 0) == slips
 
 
 @pytest.mark.parametrize("increment", [0.1, 0.7, 11.0])
 def test_slips_are_found_one_by_one_whatever_the_increment(increment):
     scene = flat(70.0, 0.2, [0.0, 11.0], increment)
-    found = friction.slid(simulate_path(scene, make_solver("newton"), points=16, tolerance=1e-7))
+    found = friction.slid(simulate(scene, solver="newton", points=16, tolerance=1e-7))
     slides = np.linspace(0.0, 11.0, 110001)
     drops = np.flatnonzero(np.diff(exact(70.0, 0.2, slides)) < -0.01)
     np.testing.assert_array_less(np.abs(found.event_sliding_distance - slides[drops + 1]), found.event_width + 2e-4)
@@ -392,13 +393,13 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
 
 def test_a_solver_without_predictions_sees_slips_in_increments_of_half_a_nanometre():
     scene = probe(path_of(0.0, [0.0, 11.0], 0.5))
-    data = simulate_path(scene, make_solver("mass_weighted_verlet"), points=64, tolerance=1e-6)
+    data = simulate(scene, solver="mass_weighted_verlet", points=64, tolerance=1e-6)
     assert float(friction.slid(data).slip_count) == 2
 
 
 def test_a_frictionless_slide_has_no_force():
     scene = probe(path_of(0.0, [0.0, 3.0], 0.5), CohesiveZone(2.0))
-    data = friction.slid(simulate_path(scene, make_solver("newton"), points=128, tolerance=1e-7))
+    data = friction.slid(simulate(scene, solver="newton", points=128, tolerance=1e-7))
     assert (data.friction_force == 0).all()
     assert np.isnan(data.static_friction)
 
@@ -406,7 +407,7 @@ def test_a_frictionless_slide_has_no_force():
 @cache
 def dataset_without_slips() -> xr.Dataset:
     scene = probe(path_of(0.0, [0.0, 1.0], 0.1))
-    return simulate_path(scene, make_solver("newton"), points=128, tolerance=1e-7)
+    return simulate(scene, solver="newton", points=128, tolerance=1e-7)
 
 
 @pytest.mark.parametrize("turn", [9.42, 8.44, 10.9])

@@ -180,4 +180,4 @@ def test_a_path_that_was_killed_and_begun_again_is_the_same_byte_for_byte(tmp_pa
             execute.run(settings, run.source, again)
     assert not list(tmp_path.glob("*again*"))
     execute.run(settings, run.source, again)
-    assert again.read_bytes() == whole.read_bytes()
+    assert again.data.read_bytes() == whole.data.read_bytes()

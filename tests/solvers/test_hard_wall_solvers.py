@@ -15,7 +15,7 @@ from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
-from contactsim.explanation import explain
+from contactsim.explanation import explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
 from contactsim.solvers.base import check_solver, solve
@@ -345,7 +345,7 @@ def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypa
     with pytest.raises(SceneError, match="pip install tamaas"):
         make_solver("tamaas")
     scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.pressures([1.0]))
-    assert "tamaas: is not installed" in explain(Setup(scene, RunOptions(64))).text
+    assert "tamaas: is not installed" in explain_setup(Setup(scene, RunOptions(64))).text
 
 
 def test_one_solver_serves_several_threads_at_once():

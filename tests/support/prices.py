@@ -7,7 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from contactsim.contact.scene import ProblemKind
+
 LOADS = [0.01, 0.1]
+WALL, COHESIVE = ({"problem": kind.value} for kind in (ProblemKind.HARD_WALL, ProblemKind.COHESIVE))
 SETTINGS = {"load": LOADS, "quantities": ["kappa_r"]}
 
 
@@ -19,7 +22,7 @@ def job(settings: Sequence[tuple], values: Sequence, transforms: Sequence | None
     variables = {"kappa_r": (dims, values), "transforms": (dims, spent), "status": (dims, np.zeros(shape, np.int8))}
     for name, column in zip(("knob", "points", "tolerance"), zip(*settings, strict=True), strict=True):
         variables[name] = ("setting", list(column))
-    return xr.Dataset(variables, {"reduced_pressure": LOADS})
+    return xr.Dataset(variables, {"reduced_pressure": LOADS}, WALL)
 
 
 def study(members: int = 3, points: int = 64) -> xr.Dataset:
@@ -34,7 +37,7 @@ def study(members: int = 3, points: int = 64) -> xr.Dataset:
         "status": (dims, np.zeros(shape, np.int8)),
         "points": points,
     }
-    return xr.Dataset(variables, {"member": range(members), "reduced_pressure": LOADS})
+    return xr.Dataset(variables, {"member": range(members), "reduced_pressure": LOADS}, WALL)
 
 
 def path_job(settings: Sequence[tuple], values: Sequence, transforms: Sequence | float = 1.0) -> xr.Dataset:
@@ -48,7 +51,7 @@ def path_job(settings: Sequence[tuple], values: Sequence, transforms: Sequence |
     }
     for name, column in zip(("knob", "points", "tolerance", "increment"), zip(*settings, strict=True), strict=True):
         variables[name] = ("setting", list(column))
-    return xr.Dataset(variables, {"member": [0]})
+    return xr.Dataset(variables, {"member": [0]}, COHESIVE)
 
 
 def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
@@ -65,7 +68,7 @@ def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
     states |= {name: np.ones(shape) for name in of_area} | {"mean_pressure": load / 1000.0}
     variables = {name: (dims, value) for name, value in states.items()}
     variables |= {"points": points, "length": 1000.0, "contact_modulus": 1.0, "approach_first_touch": 0.0}
-    return xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)})
+    return xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)}, COHESIVE)
 
 
 REFERENCE = job([("points", 1024, 1e-6), ("tolerance", 32, 1e-6)], [2.0, 4.0])

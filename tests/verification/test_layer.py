@@ -20,7 +20,7 @@ from contactsim.errors import SceneError
 from contactsim.evaluation.robustness.cases import Case, layer_response
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.survey import judge
-from contactsim.explanation import Explanation, explain
+from contactsim.explanation import Explanation, explain_setup
 from contactsim.figures.sketch import sketch
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
@@ -313,7 +313,7 @@ def test_the_preconditioners_stiffness_is_close_to_that_of_the_layer(ratio, thic
 
 
 def explained(subject: Scene, points: int = 256) -> Explanation:
-    return explain(Setup(subject, RunOptions(points, solver=make_solver("active_set"))))
+    return explain_setup(Setup(subject, RunOptions(points, solver=make_solver("active_set"))))
 
 
 def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
