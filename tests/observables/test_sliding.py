@@ -20,7 +20,6 @@ from contactsim.interface.lattice import Lattice
 from contactsim.observables import friction, peeling, sliding
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.increments import INCREMENTS, Requested
-from contactsim.paths.record import simulate_path
 from contactsim.paths.state import PathState
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
