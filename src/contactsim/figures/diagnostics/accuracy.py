@@ -169,10 +169,10 @@ def draw(table: pd.DataFrame, equal: pd.DataFrame, values: xr.Dataset, axes: np.
 
 def _forecast(axes: Axes, own: pd.DataFrame, quantity: str, measure: str) -> None:
     """What the study's own solver was forecast to take, where its errors are found."""
-    shown = own[(own[quantity] > ROUNDING) & np.isfinite(own[quantity]) & own[f"{measure}_expected"].notna()]
+    shown = own[(own[quantity] > ROUNDING) & np.isfinite(own[quantity]) & own[f"predicted_{measure}"].notna()]
     if len(shown):
         look = {"ls": ":", "marker": "+", "lw": 1.0, "ms": 5, "color": style.EXACT, "label": "forecast"}
-        axes.plot(shown[quantity], shown[f"{measure}_expected"], **look)
+        axes.plot(shown[quantity], shown[f"predicted_{measure}"], **look)
 
 
 def _grid_dependence(axes: Axes, values: xr.Dataset, quantity: str, across: str) -> None:

@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
@@ -55,6 +54,8 @@ class EnergyMinimisation:
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """Return the minimum below a state."""
+        from scipy.optimize import minimize  # slow to import, and reading a study imports every solver
+
         descent = _Descent(problem)
         place, count = descent.variables(start), 0
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is reported
