@@ -1,4 +1,4 @@
-"""Observed orders of convergence."""
+"""Observed orders of convergence at a hard wall, and solvers that agree."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 import contactsim
 from contactsim import reference
 from contactsim.observables.contact import relative_contact_area_subgrid
-from support.cases import FAST, press, wave
+from support.cases import ALL, FAST, press, rough, wave
 
 
 def orders(errors):
@@ -24,6 +24,17 @@ def test_mean_gap_of_a_wave_converges_at_second_order(name):
         result = press(wave(points), mean, name, tolerance=1e-8)
         errors.append(abs(result.gap.mean() - reference.sinusoid_mean_gap(0.5, 1.0)))
     assert orders(errors) == pytest.approx([2, 2, 2, 2], abs=0.1)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.5])
+@pytest.mark.parametrize("name", ALL)
+def test_all_solvers_agree_on_a_layer(name, ratio):
+    heights = rough(256, gradient=0.1)
+    body = {"spacing": 1.0, "contact_modulus": 1.0, "thickness": 40.0, "poisson_ratio": ratio}
+    expected = contactsim.press(heights, mean_pressure=0.02, tolerance=1e-6, **body)
+    result = contactsim.press(heights, mean_pressure=0.02, tolerance=1e-6, solver=name, **body)
+    assert np.abs(result.pressure - expected.pressure).max() < 1e-4 * expected.pressure.max()
+    assert result.approach == pytest.approx(expected.approach, rel=1e-5)
 
 
 def test_cylinder_area_converges_at_first_order():

@@ -1,4 +1,4 @@
-"""A signed field continued from one grid of a surface to a finer one, compiled: what a cascade starts a level from."""
+"""Prolongation of a signed field from one grid of a surface to a finer one, compiled."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from contactsim.solvers.hard_wall.kernels import compiled
 
 
 @compiled
-def between(before, left, right, after, part):
-    """A signed field `part` of the way from left to right: cubic among one sign, else linear in the signed square."""
+def interpolate(before, left, right, after, part):
+    """Return a signed field `part` of the way from left to right: cubic at one sign, else linear in the square."""
     if part == 0.0:
         return left
     if (before > 0) == (left > 0) == (right > 0) == (after > 0):
@@ -23,8 +23,8 @@ def between(before, left, right, after, part):
 
 
 @compiled
-def along_x(signed, row, line):
-    """One row of a signed field, periodic, on the points of a longer line."""
+def interpolate_row(signed, row, line):
+    """Write one periodic row of a signed field on the points of a longer line."""
     mx, nx = signed.shape[1], line.size
     for j in range(nx):
         at = j * mx // nx
@@ -32,12 +32,12 @@ def along_x(signed, row, line):
         east = at + 1 if at < mx - 1 else 0
         far = east + 1 if east < mx - 1 else 0
         part = (j * mx - at * nx) / nx
-        line[j] = between(signed[row, west], signed[row, at], signed[row, east], signed[row, far], part)
+        line[j] = interpolate(signed[row, west], signed[row, at], signed[row, east], signed[row, far], part)
 
 
 @compiled
 def refine(low, high, nx, signed, out, sums):
-    """A signed field (my, mx) on the points of a finer grid out (ny, nx), first along x, then along y; clipped at 0."""
+    """Write a signed field (my, mx) on a finer grid out (ny, nx), along x, then along y; negative values are 0."""
     ny = out.shape[0]
     my = signed.shape[0]
     lines = np.empty((4, nx))
@@ -48,7 +48,7 @@ def refine(low, high, nx, signed, out, sums):
             row = (first - 1 + k) % my
             slot = (first + 3 + k) % 4
             if held[slot] != row:
-                along_x(signed, row, lines[slot])
+                interpolate_row(signed, row, lines[slot])
                 held[slot] = row
         before = (first + 3) % 4
         left = first % 4
@@ -56,4 +56,4 @@ def refine(low, high, nx, signed, out, sums):
         after = (first + 2) % 4
         part = (i * my - first * ny) / ny
         for j in range(nx):
-            out[i, j] = max(between(lines[before, j], lines[left, j], lines[right, j], lines[after, j], part), 0.0)
+            out[i, j] = max(interpolate(lines[before, j], lines[left, j], lines[right, j], lines[after, j], part), 0.0)

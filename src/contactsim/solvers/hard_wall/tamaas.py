@@ -1,13 +1,14 @@
-"""Polonsky and Keer's conjugate gradients as tamaas has them, as a peer to measure against; needs `pip install tamaas`.
+"""Conjugate gradients of Polonsky and Keer as tamaas has them, for comparison; needs `pip install tamaas`.
 
-J. Open Source Softw. 5, 2121 (2020), doi:10.21105/joss.02121. tamaas stops at a relative error of its own, so it is
-asked for ever smaller ones, going on from where it stands, until our certificate is met. Restarting costs it about one
-iteration in a hundred.
+J. Open Source Softw. 5, 2121 (2020), doi:10.21105/joss.02121. tamaas stops at a relative error of its own. It is
+therefore run with smaller and smaller errors, each from the last solution, until our certificate is met. The restarts
+cost about one iteration in a hundred.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -20,18 +21,25 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class TamaasState(State):
-    """Pressure (n,) or (ny, nx); tamaas's solver; a counter of its iterations; the relative error asked for next."""
+    """Pressure (n,) or (ny, nx), solver of tamaas, counter of its iterations, and the next relative error."""
 
-    method: object = field(repr=False)
-    counter: object = field(repr=False)
+    method: Any = field(repr=False)
+    counter: Any = field(repr=False)
     error: float
 
 
 @dataclass(frozen=True)
 class Tamaas:
-    """One outer step is a solution to a relative error ten times smaller than the last.
+    """Solver of tamaas; one outer step is a solution to a relative error ten times smaller than the last.
 
-    first_error: the first; iterations: most of an outer step.
+    Parameters
+    ----------
+    first_error
+        Relative error of the first outer step.
+    iterations
+        Largest number of iterations in an outer step.
+    budget
+        Largest number of outer steps.
     """
 
     first_error: float = 1e-2
@@ -41,30 +49,35 @@ class Tamaas:
     accepts = frozenset({Trait.LINE, Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.MEAN_PRESSURE})
 
     def transforms(self, points: int) -> float:
-        """Real transforms of an iteration on a grid of that size."""
+        """Return the real transforms of an iteration."""
         return 4.0
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> TamaasState:
-        """A model without units: spacing 1 along x, E* = 1.
+        """Return the first state, a model without units: spacing 1 along x, E* = 1.
 
-        Refused on an odd number of rows, of which tamaas 2.9 takes one of the two shortest waves for a shorter one.
+        Raises
+        ------
+        SceneError
+            For an odd number of rows, on which tamaas 2.9 has a wrong wavenumber for one of the two shortest waves.
         """
         shape, grid = problem.heights.shape, problem.compliance.grid
         if len(shape) == 2 and shape[0] % 2:
-            raise SceneError("points", shape, "an even number of rows with tamaas, whose wavenumbers are wrong else")
+            raise SceneError(
+                "points", shape, "an even number of rows with tamaas, whose wavenumbers are wrong otherwise"
+            )
         import tamaas
 
-        class Counter(tamaas.Functional):  # a term that is zero: called once an iteration
+        class Counter(tamaas.Functional):  # zero; called once an iteration
             def __init__(self) -> None:
                 super().__init__()
                 self.iterations = 0
 
             def computeF(self, *_: object) -> float:  # noqa: N802 - tamaas's name
-                """No energy."""
+                """Return no energy."""
                 return 0.0
 
             def computeGradF(self, *_: object) -> None:  # noqa: N802 - tamaas's name
-                """No gradient, but one iteration more."""
+                """Count an iteration, without a gradient."""
                 self.iterations += 1
 
         tamaas.set_log_level(tamaas.LogLevel.error)
@@ -80,7 +93,7 @@ class Tamaas:
         return TamaasState(np.zeros_like(problem.heights), False, method, counter, self.first_error)
 
     def step(self, problem: HardWallProblem, state: TamaasState) -> TamaasState:
-        """Go on to a smaller relative error; the certificate decides whether it was enough."""
+        """Return the solution to a smaller relative error; the certificate decides whether it is good enough."""
         before = state.counter.iterations
         state.method.tolerance = state.error
         state.method.solve(problem.load)

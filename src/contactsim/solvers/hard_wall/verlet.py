@@ -1,10 +1,10 @@
-"""Damped Verlet dynamics of the surface, the thesis's own scheme (Eqs 2.4–2.7), as a baseline.
+"""Damped Verlet dynamics of the surface, the scheme of the thesis (Eqs 2.4–2.7), as a baseline.
 
 With unit mass on every node the position-Verlet update is u⁺ = 2u - u⁻ + δt² F - d (u - u⁻), where F is the elastic
-restoring force plus the applied pressure and d = ηδt²; the sign of the damping term printed in Eq. 2.5 would feed
-energy in. The hard wall is met by clipping the surface at the indenter, which is right only because all masses are
-equal: with masses that depend on the wavevector, clipping does not commute with 1/m and the contact set comes out
-wrong, so those are not offered. The force with which the wall holds the clipped nodes is the pressure.
+restoring force plus the applied pressure and d = ηδt²; the sign of the damping as printed in Eq. 2.5 would feed energy
+in. The surface is cut at the indenter, which is correct only for equal masses: with masses that depend on the
+wavevector, the cut does not commute with 1/m and the contact set is wrong, so there are none. The pressure is the force
+with which the wall holds the cut nodes.
 """
 
 from __future__ import annotations
@@ -31,10 +31,18 @@ class VerletState(State):
 
 @dataclass(frozen=True)
 class HardWallVerlet:
-    """One outer step is a batch of time steps, after which the force outside the contact is looked at.
+    """Damped Verlet dynamics; one outer step is a batch of time steps.
 
-    time_step: δt relative to the stability limit 2/√K_max of the undamped scheme, below 1; damping: relative to the
-    critical damping of the softest wave, the longest on a half-space, so 1 settles that wave fastest.
+    Parameters
+    ----------
+    time_step
+        δt over the stability limit 2/√K_max of the undamped scheme, below 1.
+    damping
+        Over the critical damping of the softest wave (on a half-space the longest), which comes to rest fastest at 1.
+    batch
+        Time steps in an outer step.
+    budget
+        Largest number of outer steps.
     """
 
     time_step: float = 0.7
@@ -51,11 +59,11 @@ class HardWallVerlet:
             raise SceneError("damping", self.damping, "a positive number")
 
     def transforms(self, points: int) -> float:
-        """Real transforms of an iteration on a grid of that size."""
+        """Return the real transforms of a time step."""
         return 2.0
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> VerletState:
-        """At rest and undeformed, the highest point just touching, or deformed by the guess."""
+        """Return the first state, at rest: undeformed with the highest point just touching, or deformed by a guess."""
         symbol = np.zeros_like(problem.compliance.symbol)
         symbol[1:] = 1 / problem.compliance.symbol[1:]
         stiffness = Operator(problem.compliance.grid, symbol, problem.tally)
@@ -66,7 +74,7 @@ class HardWallVerlet:
         return VerletState(np.full_like(surface, problem.load), False, surface, surface, stiffness)
 
     def step(self, problem: HardWallProblem, state: VerletState) -> VerletState:
-        """A batch of time steps, then the reaction of the wall as pressure."""
+        """Return the state after a batch of time steps; its pressure is the reaction of the wall."""
         stiffness = state.stiffness
         square = 4 * self.time_step**2 / stiffness.symbol.max()
         friction = min(2 * self.damping * np.sqrt(stiffness.symbol[1:].min() * square), 1.0)

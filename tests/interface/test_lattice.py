@@ -74,7 +74,7 @@ def test_the_tangent_is_the_derivative_of_the_traction():
     points = 32
     springs = Lattice(2.0).join(LAW, 0.2 * np.sin(np.arange(points) * 2 * np.pi / points), 100.0)
     gap = gaps(points, 1)
-    gap[1] += 0.3  # away from where the window moves on
+    gap[1] += 0.3  # away from where the nearest site changes
     traction, tangent = springs.tangent(gap)
     np.testing.assert_array_equal(traction, springs.traction(gap))
     for column in range(2):
@@ -127,7 +127,7 @@ def test_a_rough_lattice_repeats_itself_after_a_period():
     np.testing.assert_allclose(again, springs.traction(gap), atol=1e-12)
 
 
-def test_a_window_of_the_own_node_is_aligned():
+def test_a_cutoff_of_zero_joins_aligned_points():
     gap = np.stack((np.linspace(-1, 4, 30), np.linspace(-0.9, 0.9, 30)))
     own = Lattice(2.0, tangential_cutoff=0.0).join(LAW, np.zeros(30), 60.0)
     np.testing.assert_array_equal(own.traction(gap), ALIGNED.join(LAW, np.zeros(30), 60.0).traction(gap))
@@ -213,7 +213,7 @@ def test_what_cannot_be_joined_or_slid_is_refused(change, key):
     ]
     + [{"lattice_constant": 2.0, "weight": float("nan")}, {"lattice_constant": True}],
 )
-def test_options_of_a_window_are_checked(options):
+def test_options_of_a_lattice_are_checked(options):
     with pytest.raises(SceneError, match="finite number"):
         Lattice(**options)
 

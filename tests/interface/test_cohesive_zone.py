@@ -1,12 +1,15 @@
-"""What every smooth law promises."""
+"""Cohesive zones and their sum: derivatives, limits, the numbers of the thesis, refusals."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from contactsim.errors import SceneError
+from contactsim.interface.base import potential
 from contactsim.interface.cohesive_zone import MAX_OVERLAP, CohesiveZone, NormalCohesiveZone
 from contactsim.interface.superposition import Superposition, superpose
+from contactsim.traits import Trait
 from support.cases import refusal
 
 LAWS = (
@@ -23,8 +26,9 @@ RNG = np.random.default_rng(5)
 def gaps(law, count=200):
     """Gaps from deep overlap to far apart, over the laws' lengths (reads, n)."""
     normal = RNG.uniform(-1.5 * MAX_OVERLAP, 8.0, count) * law.interaction_range
-    sideways = RNG.uniform(-3.0, 3.0, count) * getattr(law, "tangential_length", 1.0)
-    return np.stack([normal, sideways][: len(law.reads)])
+    if "t" not in law.reads:
+        return normal[None]
+    return np.stack([normal, RNG.uniform(-3.0, 3.0, count) * law.tangential_length])
 
 
 @pytest.mark.parametrize("law", [*LAWS, TWO], ids=repr)
@@ -54,7 +58,7 @@ def test_laws_together_are_their_sum_and_one_law_is_itself():
     assert superpose((mixed,)) is mixed
 
 
-@pytest.mark.parametrize("law", [law for law in LAWS if hasattr(law, "energy")], ids=repr)
+@pytest.mark.parametrize("law", [law for law in LAWS if Trait.NON_CONSERVATIVE not in law.traits], ids=repr)
 def test_the_traction_is_the_derivative_of_the_energy_where_there_is_one(law):
     gap, step = gaps(law), 1e-4
     slope = (law.energy(gap + step) - law.energy(gap - step)) / (2 * step)
@@ -63,6 +67,12 @@ def test_the_traction_is_the_derivative_of_the_energy_where_there_is_one(law):
     far = np.full((1, 1), 800.0 * law.normal_length)
     assert law.energy(far)[0] == 0
     assert law.energy(0 * far)[0] == -law.work_of_separation
+
+
+def test_the_energy_of_a_law_without_a_potential_is_refused():
+    for law in (LAWS[-1], TWO):
+        with pytest.raises(SceneError, match="potential"):
+            potential(law, gaps(law))
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)

@@ -1,0 +1,51 @@
+"""Equilibria of smooth laws: observed orders of convergence, and methods that agree."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from contactsim.contact.loading import approaches, sliding
+from contactsim.contact.scene import Body, Scene
+from contactsim.interface.lattice import Lattice
+from contactsim.surfaces.shapes import Cylinder, Flat
+from support.smooth import LAWS, LAYER, LENGTH, RADIUS, scene_of, walk
+
+PATH = approaches([-2.0, 0.0, 2.0, -2.0, -4.0])
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_the_load_of_a_cylinder_converges_faster_than_the_sixth_order(name):
+    scene = scene_of(LAWS[name], approaches([0.0, 2.0]))
+    loads = [walk(scene, points, tolerance=1e-9).load[-1] for points in (128, 256, 512, 2048)]
+    errors = np.abs(np.subtract(loads[:-1], loads[-1]))
+    assert all(np.log2(coarse / fine) > 6 for coarse, fine in pairwise(errors))
+    assert errors[-1] < 1e-8 * abs(loads[-1])
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_newtons_method_and_damped_dynamics_find_the_same_states(name):
+    scene = scene_of(LAWS[name], PATH)
+    newton, verlet = (walk(scene, 128, method, tolerance=1e-6) for method in ("newton", "mass_weighted_verlet"))
+    for count in range(len(PATH.steps)):
+        assert np.abs(newton.gap(count) - verlet.gap(count)).max() < 1e-4  # 1e-4 of the laws' length
+
+
+def test_the_thesis_scheme_and_energy_minimisation_find_the_states_of_newtons_method():
+    scene = scene_of(LAWS["uncoupled"], approaches([0.0, 2.0]))
+    newton = walk(scene, 64, tolerance=1e-4)
+    for method in ("damped_verlet", "energy_minimisation"):
+        other = walk(scene, 64, method, tolerance=1e-4)
+        assert other.load == pytest.approx(newton.load, rel=1e-3)
+        assert np.abs(other.gap() - newton.gap()).max() < 1e-3
+
+
+def test_newtons_method_and_damped_dynamics_slide_alike_over_a_lattice():
+    surface = Cylinder(length=LENGTH, radius=RADIUS)
+    path = sliding([0.0, 3.0], 0.5, approach=2.0)
+    scene = Scene(Body(Flat.facing(surface)), Body(surface, LAYER), (LAWS["frictional"],), path, Lattice(2.5))
+    newton, verlet = (walk(scene, 128, method, tolerance=1e-6) for method in ("newton", "mass_weighted_verlet"))
+    for count in range(len(path.steps)):
+        assert np.abs(newton.gap(count) - verlet.gap(count)).max() < 1e-4
