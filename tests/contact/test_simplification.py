@@ -15,7 +15,7 @@ from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.elasticity.solids import HalfSpace
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
-from contactsim.observables.adhesion import summarised
+from contactsim.observables.adhesion import summarise_load_curves
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.study import Study
@@ -95,7 +95,7 @@ def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path
     assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
     error = data.pull_off_load_loading_neglect_error
     files = [tmp_path / f"{run.variant}_neglect.nc" for run in study.runs() if run.measures_error]
-    whole = [summarised(dataset.load_dataset(file)).pull_off_load_loading for file in files]
+    whole = [summarise_load_curves(dataset.load_dataset(file)).pull_off_load_loading for file in files]
     assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
     assert (error > 5).all()
 

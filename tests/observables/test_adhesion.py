@@ -22,7 +22,7 @@ from contactsim.observables.adhesion import (
     largest_jumps,
     legs,
     pull_off,
-    summarised,
+    summarise_load_curves,
 )
 from contactsim.simulation import simulate
 from contactsim.study.law_table import tabulated
@@ -77,7 +77,7 @@ def test_states_that_did_not_converge_are_no_pull_off_and_no_last_state():
     numbers = {name: ("step", np.arange(7.0)) for name in {*FINAL.values(), "jump"}}
     data = xr.Dataset(numbers | {"approach": ("step", APPROACH), "line_load": ("step", LOAD)})
     data["status"] = ("step", np.array([0, 1, 0, 1, 0, 0, 0], np.int8))
-    found = summarised(data)
+    found = summarise_load_curves(data)
     assert set(SUMMARY) <= set(found)
     assert float(found.pull_off_load_loading) == 4.5
     assert (float(found.max_jump_loading), float(found.max_jump_unloading)) == (2.0, 6.0)

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim.observables.hysteresis import cycled, dissipated
+from contactsim.observables.hysteresis import dissipated_energy, summarise_cycles
 from contactsim.observables.linearity import (
     AREA_LOAD,
     LEVELS,
+    area_load_numbers,
     curvature,
-    curve_numbers,
-    first_reached,
     nonlinearity,
-    related,
+    summarise_area_load,
+    value_at_level,
 )
 
 AREA = np.linspace(0.01, 0.3, 30)
@@ -48,24 +48,24 @@ def test_too_few_states_and_none_in_contact_tell_nothing():
     assert np.isnan(curvature(0 * AREA, AREA))
 
 
-def test_a_level_is_read_where_it_is_first_reached_and_not_where_it_never_is():
+def test_a_level_is_read_where_it_is_value_at_level_and_not_where_it_never_is():
     area, load = np.array([0.0, 0.1, 0.3, 0.2, 0.4]), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
-    assert first_reached(area, 0.2, load) == pytest.approx(1.5)
-    assert np.isnan(first_reached(area, 0.5, load))
-    assert np.isnan(first_reached(area[1:], 0.05, load[1:]))
+    assert value_at_level(area, 0.2, load) == pytest.approx(1.5)
+    assert np.isnan(value_at_level(area, 0.5, load))
+    assert np.isnan(value_at_level(area[1:], 0.05, load[1:]))
 
 
 def test_a_curve_is_read_on_loading_alone_and_ends_where_a_state_is_unknown():
     deep = np.concatenate((np.linspace(-1.0, 20.0, 22), np.linspace(19.0, -1.0, 21)))
     area = np.maximum(deep, 0.0) / 40 + 0.2 * (np.arange(deep.size) > 21)
-    found = dict(zip(AREA_LOAD, curve_numbers(deep, area, 0.01 * area, np.full(43, 0.1), 0.2), strict=True))
+    found = dict(zip(AREA_LOAD, area_load_numbers(deep, area, 0.01 * area, np.full(43, 0.1), 0.2), strict=True))
     assert found["nonlinearity"] == found["nonlinearity_reduced"] == pytest.approx(0.0, abs=1e-7)
     assert found["area_at_12nm"] == pytest.approx(0.3)
     assert found["pressure_at_12nm"] == pytest.approx(0.003)
     assert found["gradient_ratio_at_area_0_02"] == pytest.approx(0.5)
     assert [found[name] for name in LEVELS] == pytest.approx([0.01 * level for level in LEVELS.values()])
     pressure = np.where(deep == 10.0, np.nan, 0.01 * area)
-    found = dict(zip(AREA_LOAD, curve_numbers(deep, area, pressure, np.full(43, 0.1), 0.2), strict=True))
+    found = dict(zip(AREA_LOAD, area_load_numbers(deep, area, pressure, np.full(43, 0.1), 0.2), strict=True))
     assert np.isnan(found["area_at_12nm"])
     assert found["pressure_at_area_0_1"] == pytest.approx(0.001)
 
@@ -80,33 +80,33 @@ def path(load, jump=None, status=0) -> xr.Dataset:
 
 def test_a_cycle_dissipates_the_area_of_its_loop():
     there = path([0.0, 1.0, 2.0, 3.0, 1.0, -1.0, 0.0])
-    found = cycled(there)
+    found = summarise_cycles(there)
     # up 1 + 3 + 5, down 4 + 0 - 1
     assert float(found.dissipated_energy) == pytest.approx(6.0)
     assert float(found.dissipated_work) == pytest.approx(0.06)
 
 
 def test_what_comes_back_on_the_same_way_is_not_dissipated():
-    assert float(cycled(path([0.0, -1.0, 2.0, 3.0, 2.0, -1.0, 0.0])).dissipated_energy) == pytest.approx(0.0)
+    assert float(summarise_cycles(path([0.0, -1.0, 2.0, 3.0, 2.0, -1.0, 0.0])).dissipated_energy) == pytest.approx(0.0)
 
 
 def test_a_jump_leaves_half_of_its_step_open_and_no_jump_nothing():
     load = [0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0]
-    assert float(cycled(path(load)).dissipated_energy_increment_error) == 0.0
-    found = cycled(path(load, [0.0] * 6 + [0.5]))
+    assert float(summarise_cycles(path(load)).dissipated_energy_increment_error) == 0.0
+    found = summarise_cycles(path(load, [0.0] * 6 + [0.5]))
     assert float(found.dissipated_energy_increment_error) == pytest.approx(2.0)
 
 
 def test_an_open_or_unknown_loop_dissipates_nothing_that_is_known():
     closed = np.array([0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0])
     approach = path(closed).approach.values
-    assert np.isfinite(dissipated(approach, closed, 0 * closed)[0])
+    assert np.isfinite(dissipated_energy(approach, closed, 0 * closed)[0])
     for place, value in ((-1, -1.0), (0, 0.5), (3, np.nan)):
         load = closed.copy()
         load[place] = value
-        assert np.isnan(dissipated(approach, load, 0 * closed)[0])
-    assert np.isnan(dissipated(approach[:4], closed[:4], 0 * closed[:4])[0])
-    assert np.isnan(float(cycled(path(closed, status=1)).dissipated_energy))
+        assert np.isnan(dissipated_energy(approach, load, 0 * closed)[0])
+    assert np.isnan(dissipated_energy(approach[:4], closed[:4], 0 * closed[:4])[0])
+    assert np.isnan(float(summarise_cycles(path(closed, status=1)).dissipated_energy))
 
 
 def test_a_hard_wall_is_read_by_its_own_area_and_approach():
@@ -115,6 +115,8 @@ def test_a_hard_wall_is_read_by_its_own_area_and_approach():
     columns = {"approach": deep - 10, "relative_contact_area": area, "normalised_pressure": area / 50}
     columns |= {"rms_gradient_contact": np.full(22, 0.1), "status": np.zeros(22)}
     data = xr.Dataset({name: ("step", values) for name, values in columns.items()})
-    found = related(data.assign(rms_gradient=0.2, approach_first_touch=-10.0))
+    found = summarise_area_load(
+        data.assign(rms_gradient=0.2, approach_first_touch=-10.0), "relative_contact_area", "rms_gradient_contact"
+    )
     assert float(found.area_at_12nm) == pytest.approx(0.3)
     assert float(found.gradient_ratio_at_area_0_02) == pytest.approx(0.5)

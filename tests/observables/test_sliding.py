@@ -202,7 +202,7 @@ def test_a_slide_to_and_fro_is_antisymmetric_and_dissipates():
     _, _, slides, force = walked(scene, 256)
     first, second = slice(101, 301), slice(301, 501)
     np.testing.assert_allclose(-force[first], force[second], atol=1e-4 * force.max())
-    found = friction.slid(simulate(scene, solver="newton", points=256, tolerance=1e-7))
+    found = friction.summarise_slides(simulate(scene, solver="newton", points=256, tolerance=1e-7))
     assert float(found.loop_energy) > 100 * float(found.loop_energy_increment_error) > 0
     steps = np.diff(slides[first.start - 1 :])
     about = np.sum(steps * (force[first.start - 1 : -1] + force[first.start :]) / 2) * 1000.0
@@ -250,7 +250,7 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     assert np.isnan(sliding_distance[:20]).all()
     np.testing.assert_allclose(sliding_distance[20:], np.linspace(0, 11, 111), atol=1e-9)
     np.testing.assert_allclose(data.snapshot, [0.0, 4.0])
-    found = friction.slid(data)
+    found = friction.summarise_slides(data)
     told = found[[*sliding.EVENT, "event_periods"]].dropna("event")
     assert told.event.size == int(found.slip_count) >= 2
     assert float(found.first_slip_periods) == pytest.approx(1.0, abs=0.15)
@@ -263,7 +263,7 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     before = data.friction_force.values[20:]
     largest = before[: np.flatnonzero(data.jump.values[20:] > 0)[0]].max()
     assert largest <= float(found.static_friction) <= 1.005 * largest
-    finer = friction.slid(dataset_of(0.0125)).static_friction
+    finer = friction.summarise_slides(dataset_of(0.0125)).static_friction
     assert abs(float(found.static_friction - finer)) <= float(found.static_friction_increment_error) < 1e-2 * largest
     assert 0 < float(found.onset_contact_length) < float(found.initial_contact_length)
     assert 0 < float(found.reattached_fraction) <= 1
@@ -296,11 +296,11 @@ def test_edges_lie_between_nodes_and_wrap_around():
 
 def line(
     sliding_distance: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01
-) -> friction.Slide:
+) -> friction.Polyline:
     sliding_distance, force = np.array(sliding_distance, float), np.array(force, float)
     slipped = np.isin(np.arange(sliding_distance.size), after)
     wide = np.where(slipped | np.isin(np.arange(sliding_distance.size), np.array(after, int) - 1), width, 0.0)
-    return friction.Slide(
+    return friction.Polyline(
         sliding_distance, force, np.full(sliding_distance.size, np.nan), slipped, wide, np.arange(sliding_distance.size)
     )
 
@@ -314,31 +314,31 @@ def test_the_onset_is_before_the_first_slip_or_at_the_first_maximum():
 
 def test_what_may_be_missed_beside_a_slip_is_what_its_width_allows():
     slide = line([0, 1, 2, 2, 3], [0, 1, 2, 0.5, 1.5], after=(3,), width=0.01)
-    assert slide.missed(2) == pytest.approx(0.01)
-    assert slide.missed(3) == pytest.approx(0.01)
+    assert slide.extreme_error(2) == pytest.approx(0.01)
+    assert slide.extreme_error(3) == pytest.approx(0.01)
     bent = line([0, 1, 1.5, 1.5], [0, 1, 1.2, 0], after=(3,), width=0.0)
-    assert bent.missed(2) == pytest.approx(0.3)
-    assert bent.blurred(2) == 0.0
-    assert line([0, 1, 2], [0, 1, 0]).missed(1) == pytest.approx(0.25)
+    assert bent.extreme_error(2) == pytest.approx(0.3)
+    assert bent.slip_error(2) == 0.0
+    assert line([0, 1, 2], [0, 1, 0]).extreme_error(1) == pytest.approx(0.25)
 
 
 def test_laws_are_found_where_they_hold():
     force = np.linspace(0, 3, 20)
-    coefficient, agreement = peeling.quadratic_law(force, 100 - 2.5 * force**2)
+    coefficient, agreement = peeling.fit_quadratic_law(force, 100 - 2.5 * force**2)
     assert coefficient == pytest.approx(2.5)
     assert agreement == pytest.approx(1.0)
-    assert np.isnan(peeling.quadratic_law(force[:2], force[:2])).all()
-    slope, offset, agreement = peeling.threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
+    assert np.isnan(peeling.fit_quadratic_law(force[:2], force[:2])).all()
+    slope, offset, agreement = peeling.fit_threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
     assert (slope, offset, agreement) == pytest.approx((2.0, 5.0, 1.0))
-    assert np.isnan(peeling.threshold_law(np.ones(3), np.ones(3))).all()
+    assert np.isnan(peeling.fit_threshold_law(np.ones(3), np.ones(3))).all()
 
 
 def test_peeling_at_one_edge_is_asymmetric():
     trailing, leading = np.array([-5.0, -4.0, -2.0, np.nan]), np.array([5.0, 4.0, 4.0, np.nan])
-    assert peeling.asymmetry(trailing, leading, 1) == 0.0
-    assert peeling.asymmetry(trailing, leading, 2) == pytest.approx(0.5)
-    assert np.isnan(peeling.asymmetry(trailing, leading, 0))
-    assert np.isnan(peeling.asymmetry(trailing, leading, 3))
+    assert peeling.peel_asymmetry(trailing, leading, 1) == 0.0
+    assert peeling.peel_asymmetry(trailing, leading, 2) == pytest.approx(0.5)
+    assert np.isnan(peeling.peel_asymmetry(trailing, leading, 0))
+    assert np.isnan(peeling.peel_asymmetry(trailing, leading, 3))
 
 
 def test_a_force_is_averaged_over_whole_lattice_constants():
@@ -354,7 +354,7 @@ def test_a_force_is_averaged_over_whole_lattice_constants():
 
 
 def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
-    data = friction.slid(dataset_without_slips())
+    data = friction.summarise_slides(dataset_without_slips())
     assert float(data.slip_count) == 0
     assert np.isnan(data.event_sliding_distance).all()
     assert float(data.initial_contact_length) > 0
@@ -375,13 +375,13 @@ def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
 def test_a_fast_smooth_slide_is_no_slip(modulus, slips, increments, increment):
     scene, how = flat(modulus, 0.2, [0.0, 5.0], increment), INCREMENTS[increments]()
     data = simulate(scene, solver="newton", points=16, tolerance=1e-7, increments=how)
-    assert (float(friction.slid(data).slip_count) > 0) == slips
+    assert (float(friction.summarise_slides(data).slip_count) > 0) == slips
 
 
 @pytest.mark.parametrize("increment", [0.1, 0.7, 11.0])
 def test_slips_are_found_one_by_one_whatever_the_increment(increment):
     scene = flat(70.0, 0.2, [0.0, 11.0], increment)
-    found = friction.slid(simulate(scene, solver="newton", points=16, tolerance=1e-7))
+    found = friction.summarise_slides(simulate(scene, solver="newton", points=16, tolerance=1e-7))
     slides = np.linspace(0.0, 11.0, 110001)
     drops = np.flatnonzero(np.diff(exact(70.0, 0.2, slides)) < -0.01)
     np.testing.assert_array_less(np.abs(found.event_sliding_distance - slides[drops + 1]), found.event_width + 2e-4)
@@ -393,12 +393,12 @@ def test_slips_are_found_one_by_one_whatever_the_increment(increment):
 def test_a_solver_without_predictions_sees_slips_in_increments_of_half_a_nanometre():
     scene = probe(path_of(0.0, [0.0, 11.0], 0.5))
     data = simulate(scene, solver="mass_weighted_verlet", points=64, tolerance=1e-6)
-    assert float(friction.slid(data).slip_count) == 2
+    assert float(friction.summarise_slides(data).slip_count) == 2
 
 
 def test_a_frictionless_slide_has_no_force():
     scene = probe(path_of(0.0, [0.0, 3.0], 0.5), CohesiveZone(2.0))
-    data = friction.slid(simulate(scene, solver="newton", points=128, tolerance=1e-7))
+    data = friction.summarise_slides(simulate(scene, solver="newton", points=128, tolerance=1e-7))
     assert (data.friction_force == 0).all()
     assert np.isnan(data.static_friction)
 
@@ -425,5 +425,5 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
 def test_a_slide_is_priced_whole_with_its_slips():
     found = solutions(combine_runs([(dataset(), {"member": 0})]))
     assert found.transforms.item() == dataset().transforms.sum().item()
-    assert found.static_friction.item() == friction.slid(dataset()).static_friction.item()
+    assert found.static_friction.item() == friction.summarise_slides(dataset()).static_friction.item()
     assert "event" not in found.dims

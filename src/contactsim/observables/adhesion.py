@@ -159,7 +159,7 @@ def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
     return {f"max_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts}
 
 
-def summarised(data: xr.Dataset) -> xr.Dataset:
+def summarise_load_curves(data: xr.Dataset) -> xr.Dataset:
     """A study of paths with what its curves amount to (`SUMMARY`); states that did not converge are left out."""
     names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
 

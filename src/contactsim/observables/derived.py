@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from contactsim.observables.adhesion import AREAS, summarised
+from contactsim.observables.adhesion import AREAS, summarise_load_curves
 from contactsim.observables.contact import proportionality
-from contactsim.observables.friction import slid
-from contactsim.observables.hysteresis import cycled
-from contactsim.observables.linearity import related
+from contactsim.observables.friction import SLIDE_INPUTS, summarise_slides
+from contactsim.observables.hysteresis import summarise_cycles
+from contactsim.observables.linearity import summarise_area_load
 
 RUN_ONLY_VARIABLES = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
 """Variables that stay with the single runs."""
@@ -79,14 +79,16 @@ def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
 
 def summarise_approaches(data: xr.Dataset) -> xr.Dataset:
     """Return approaches to a hard wall with their normalised pressure and the summary of their area-load curves."""
-    return related(data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus))
+    data = data.assign(normalised_pressure=data.mean_pressure / data.contact_modulus)
+    return summarise_area_load(data, "relative_contact_area", "rms_gradient_contact")
 
 
 def summarise_paths(data: xr.Dataset) -> xr.Dataset:
     """Return cohesive paths with relative areas, normalised pressures and the summaries of their curves."""
-    data = cycled(summarised(data))
-    data = slid(data) if "sliding_distance" in data else data
+    data = summarise_cycles(summarise_load_curves(data))
+    data = summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     for part in ("repulsive", "interacting"):
         ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
-    return related(data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus}))
+    data = data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus})
+    return summarise_area_load(data, "relative_interacting_area", "rms_gradient_interacting")
