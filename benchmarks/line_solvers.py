@@ -41,7 +41,7 @@ def sweeps(plan: Plan, table: Table, sizes: tuple[int, ...], members: int, round
     for hurst, points, tolerance in itertools.product(study["vary"]["surface.hurst"], sizes, tolerances):
         for member in range(members):
             case = {"part": "sweep", "solver": "active_set", "hurst": hurst, "points": points, "member": member}
-            table.row(case | {"tolerance": tolerance}, lambda case: measure.sweep(plan, case, rounds))
+            table.row(case | {"tolerance": tolerance}, lambda case: measure.measure_sweep(plan, case, rounds))
 
 
 def comparisons(sizes: tuple[int, ...], solvers: tuple[str, ...], hursts: tuple[float, ...]) -> Iterator[dict]:
@@ -60,7 +60,7 @@ def compared(plan: Plan, table: Table, sizes: tuple[int, ...], hursts: tuple[flo
         solvers = solvers[:-1]
     tolerance = plan.studies["rough_line"].settings["tolerance"]
     for case in comparisons(sizes, solvers, hursts):
-        table.row(case | {"tolerance": tolerance}, lambda case: measure.compare(plan, case, rounds))
+        table.row(case | {"tolerance": tolerance}, lambda case: measure.measure_pair(plan, case, rounds))
 
 
 def main() -> None:

@@ -42,8 +42,8 @@ class ByGrid(Tally):
         self.counts[size] += count
 
 
-def posed(plan: Plan, case: dict, loads: list[float], study: str = "rough_line") -> tuple[Scene, Array]:
-    """The scene of a member of a study at reduced pressures `loads`, and its heights (nm)."""
+def pose_case(plan: Plan, case: dict, loads: list[float], study: str = "rough_line") -> tuple[Scene, Array]:
+    """Return the scene of a member of a study at reduced pressures `loads`, and its heights (nm)."""
     study = plan.studies[study]
     wanted = {"hurst": case["hurst"]}
     run = next(run for run in study.runs() if (run.coordinates, run.member) == (wanted, case["member"]))
@@ -53,13 +53,13 @@ def posed(plan: Plan, case: dict, loads: list[float], study: str = "rough_line")
     return scene, scene.heights(case["points"])
 
 
-def worst(certificate: Certificate) -> float:
-    """Largest distance from the solution, in grid steps."""
+def largest_residual(certificate: Certificate) -> float:
+    """Return the largest residual of a solution, in grid steps."""
     return max(certificate.max_contact_gap, certificate.penetration)
 
 
-def replayed(counts: dict[int, float]) -> float:
-    """CPU seconds of that many transforms on grids of that many points and of nothing else."""
+def transform_seconds(counts: dict[int, float]) -> float:
+    """Return the CPU seconds of so many transforms on each grid, and of nothing else."""
     spent = 0.0
     for size, count in counts.items():
         grid, field = Grid((size,), (1.0,)), np.random.default_rng(0).standard_normal(size)
@@ -71,11 +71,11 @@ def replayed(counts: dict[int, float]) -> float:
     return spent
 
 
-def sweep(plan: Plan, case: dict, rounds: int) -> dict:
-    """All loads of Fig. 3.2 with the active set, each followed by as many transforms alone."""
+def measure_sweep(plan: Plan, case: dict, rounds: int) -> dict:
+    """Measure all loads of Fig. 3.2 with the active set, each followed by as many transforms alone."""
     least, largest = plan.figures["fig_3_2"].settings["select"]["reduced_pressure"]
     loads = [p for p in plan.studies["rough_line"].settings["load"]["values"] if least <= p <= largest]
-    scene, heights = posed(plan, case, loads)
+    scene, heights = pose_case(plan, case, loads)
     method, spent, results = make_solver(case["solver"]), np.zeros((rounds, 3)), []
     for row in spent:
         results.clear()
@@ -86,11 +86,11 @@ def sweep(plan: Plan, case: dict, rounds: int) -> dict:
             results.append(solve(method, problem, scale))
             seconds = time.thread_time() - begin
             finest = {heights.size: problem.tally.transforms}
-            row += seconds, replayed(finest), replayed(problem.tally.counts)
+            row += seconds, transform_seconds(finest), transform_seconds(problem.tally.counts)
     unsolved = sum(result.status.name != "CONVERGED" for result in results)
     return {
         "status": f"{unsolved} of {len(results)} not converged" if unsolved else "CONVERGED",
-        "certificate": max(worst(result.record.certificate) for result in results),
+        "certificate": max(largest_residual(result.record.certificate) for result in results),
         "transforms": sum(result.record.transforms for result in results),
         "rounds": rounds,
         **dict(zip(("seconds", "seconds_of_transforms", "seconds_of_replay"), spent.min(axis=0), strict=True)),
@@ -99,25 +99,25 @@ def sweep(plan: Plan, case: dict, rounds: int) -> dict:
     }
 
 
-def single(problem: HardWallProblem, scale: Scale, name: str) -> dict:
-    """One load with one solver, whose only budget is time."""
+def measure_load(problem: HardWallProblem, scale: Scale, name: str) -> dict:
+    """Measure one load with one solver, which only its time limits."""
     result = solve(make_solver(name, budget=10**9), problem, scale)
     return {
         "status": result.status.name,
         "area": result.relative_contact_area,
-        "certificate": worst(result.record.certificate),
+        "certificate": largest_residual(result.record.certificate),
         "transforms": result.record.transforms,
     }
 
 
-def compare(plan: Plan, case: dict, rounds: int) -> dict:
-    """One load with one solver, each time after the active set; in a child process with a cap on its CPU time."""
-    scene, heights = posed(plan, case, [case["reduced_pressure"]])
+def measure_pair(plan: Plan, case: dict, rounds: int) -> dict:
+    """Measure one load with one solver, each time after the active set, in a process with a limit on its CPU time."""
+    scene, heights = pose_case(plan, case, [case["reduced_pressure"]])
 
     def once(name: str) -> dict:
         begin = time.thread_time()
         problem, scale = pose_hard_wall(scene, scene.path.steps[0], heights, case["tolerance"], 1)
-        return single(problem, scale, name) | {"seconds": time.thread_time() - begin}
+        return measure_load(problem, scale, name) | {"seconds": time.thread_time() - begin}
 
     def turns() -> dict:
         once("active_set")
@@ -131,11 +131,11 @@ def compare(plan: Plan, case: dict, rounds: int) -> dict:
         fastest = min((other for _, other in pairs), key=lambda row: row["seconds"])
         return fastest | {"per_active_set": ratio, "rounds": len(pairs)}
 
-    return in_child(turns) or {"status": f"not finished in {CAP} s", "seconds": CAP}
+    return run_in_child(turns) or {"status": f"not finished in {CAP} s", "seconds": CAP}
 
 
-def in_child(task: Callable[[], dict]) -> dict | None:
-    """What the task returns in a process of its own; None if it spends its CPU time before."""
+def run_in_child(task: Callable[[], dict]) -> dict | None:
+    """Return the result of a task in a process of its own; None if it exceeds its CPU time."""
     receive, send = get_context("fork").Pipe(duplex=False)
     child = get_context("fork").Process(target=lambda: send.send(task()))
     child.start()

@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 import peers
-from measure import CAP, LONG, in_child, posed, worst
+from measure import CAP, LONG, run_in_child, pose_case, largest_residual
 from scipy.fft import rfft2
 
 from contactsim.contact.hard_wall import HardWallProblem, Scale, pose_hard_wall
@@ -31,8 +31,8 @@ Posing = Callable[[], tuple[HardWallProblem, Scale]]
 
 
 def surface(plan: Plan, case: dict) -> tuple[Posing, Array]:
-    """What poses the case anew, and its heights (nm)."""
-    scene, heights = posed(plan, case, [case["reduced_pressure"]], "rough_surface")
+    """Return a function that poses the case anew, and the heights of its surface (nm)."""
+    scene, heights = pose_case(plan, case, [case["reduced_pressure"]], "rough_surface")
     return lambda: pose_hard_wall(scene, scene.path.steps[0], heights, case["tolerance"], 1), heights
 
 
@@ -43,24 +43,24 @@ def search(plan: Plan, case: dict, rung: int) -> dict:
 
 
 def compare(plan: Plan, case: dict, rounds: int, settings: str) -> dict:
-    """Ours and the peer's in turns, in a child process with a cap on its CPU time."""
+    """Measure our solver and the peer's in turns, in a process with a limit on its CPU time."""
     posing, heights = surface(plan, case)
     solve(make_solver(OURS), *posing())  # compiles
-    measured = in_child(lambda: turns(posing, heights, case["solver"], settings, rounds))
+    measured = run_in_child(lambda: measure_in_turns(posing, heights, case["solver"], settings, rounds))
     return measured or {"status": f"not finished in {CAP} s", "seconds": CAP, "load_average": os.getloadavg()[0]}
 
 
-def turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int) -> dict:
-    """Ours, then the peer's, in each round; ratios are medians over the rounds, times the best."""
+def measure_in_turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int) -> dict:
+    """Measure ours, then the peer's, in each round; return medians of the ratios and the best times."""
     cap = int(time.process_time()) + CAP
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_CPU, (cap, resource.RLIM_INFINITY))
     spent: list[tuple[float, float, float]] = []
     while len(spent) < rounds and (not spent or spent[-1][2] < LONG):
-        unit = transform(heights)
+        unit = transform_seconds(heights)
         problem, scale = posing()
-        own, own_seconds = timed(lambda: solve(make_solver(OURS), *posing()))
-        (pressure, transforms), seconds = timed(lambda: solved(posing, name, settings))
+        own, own_seconds = time_task(lambda: solve(make_solver(OURS), *posing()))
+        (pressure, transforms), seconds = time_task(lambda: solve_with_peer(posing, name, settings))
         spent.append((unit, own_seconds, seconds))
     units, ours, theirs = np.array(spent).T
     certificate, gap = problem.certify(problem.project(pressure))
@@ -70,12 +70,12 @@ def turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int)
         "status": "CONVERGED" if certificate.met(problem.tolerance) else "MAX_ITERATIONS",
         "settings": settings,
         "area": (pressure > 0).mean(),
-        "certificate": worst(certificate),
+        "certificate": largest_residual(certificate),
         "transforms": transforms,
         "seconds": theirs.min(),
         "per_transform": np.median(theirs / units),
         "own_area": own.relative_contact_area,
-        "own_certificate": worst(own_certificate),
+        "own_certificate": largest_residual(own_certificate),
         "own_transforms": own.record.transforms,
         "own_seconds": ours.min(),
         "own_per_transform": np.median(ours / units),
@@ -83,16 +83,16 @@ def turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int)
         "transform_seconds": units.min(),
         "rounds": len(spent),
         "load_average": os.getloadavg()[0],
-    } | differences(*both, problem.tolerance)
+    } | contact_differences(*both, problem.tolerance)
 
 
-def timed(task: Callable) -> tuple:
-    """What a task returns, and the CPU seconds it takes."""
+def time_task(task: Callable) -> tuple:
+    """Return the result of a task and the CPU seconds that it takes."""
     begin = time.process_time()
     return task(), time.process_time() - begin
 
 
-def transform(heights: Array) -> float:
+def transform_seconds(heights: Array) -> float:
     """CPU seconds of a real transform by scipy: mean over so many that the clock's ticks, of some ms, do not show."""
     begin, count, spent = time.process_time(), 0, 0.0
     while spent < TICKS:
@@ -101,8 +101,8 @@ def transform(heights: Array) -> float:
     return spent / count
 
 
-def solved(posing: Posing, name: str, settings: str) -> tuple[Array, float]:
-    """A peer's pressure, without units, and its transforms."""
+def solve_with_peer(posing: Posing, name: str, settings: str) -> tuple[Array, float]:
+    """Return the pressure of a peer, without units, and its transforms."""
     problem, scale = posing()
     if name == "aspher":
         return peers.pressed(problem, peers.Settings.read(settings))
@@ -110,8 +110,8 @@ def solved(posing: Posing, name: str, settings: str) -> tuple[Array, float]:
     return result.pressure / scale.pressure, result.record.transforms
 
 
-def differences(ours: tuple[Array, Array], theirs: tuple[Array, Array], tolerance: float) -> dict:
-    """How many points only one of the solutions has in contact, and whether these are undecided.
+def contact_differences(ours: tuple[Array, Array], theirs: tuple[Array, Array], tolerance: float) -> dict:
+    """Return how many points only one of the solutions has in contact, and whether these are undecided.
 
     ours, theirs: pressure in E*·step/spacing and gap in grid steps. Undecided is a point whose pressures and gaps, of
     both, are within the tolerance: about the pressure that moves its own point by as many steps. The largest ones
