@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 import peers
-from measure import CAP, LONG, run_in_child, pose_case, largest_residual
+from measure import CAP, LONG, largest_residual, pose_case, run_in_child
 from scipy.fft import rfft2
 
 from contactsim.contact.hard_wall import HardWallProblem, Scale, pose_hard_wall
