@@ -265,7 +265,7 @@ class CohesiveProblem:
         )
 
 
-def check_tolerance(tolerance: object, name: str = "tolerance") -> None:
+def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
     """Refuse a tolerance that is no positive number, or so large that the undeformed state would meet it."""
     if not (is_number(tolerance) and 0 < tolerance <= MAX_TOLERANCE):
         raise SceneError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")

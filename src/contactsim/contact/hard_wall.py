@@ -91,8 +91,8 @@ def _differences(heights: Array, scale: float) -> Array:
     if heights.ndim == 1 or heights.size < 2 * SAMPLE_SIZE:
         here = heights / scale
         differences = np.empty((heights.ndim, *here.shape))
-        for place, axis in zip(range(heights.ndim), (-1, 0), strict=False):
-            np.subtract(here, np.roll(here, 1, axis), out=differences[place])
+        for row, axis in zip(range(heights.ndim), (-1, 0), strict=False):
+            np.subtract(here, np.roll(here, 1, axis), out=differences[row])
         return differences
     count = np.arange(1, SAMPLE_SIZE + 1, dtype=np.uint64)
     place = (count * (count + 1) // 2 * GOLDEN_FRACTION >> 32) * heights.size >> 32

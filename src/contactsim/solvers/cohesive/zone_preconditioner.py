@@ -69,6 +69,9 @@ class ZonePreconditioner:
         self._low = min(self._nodes // 2, problem.unknowns[1])
         before = before if before is not None and before._nodes == self._nodes else None
         self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=MIN_TANGENTIAL_SHIFT * problem.law_stiffness)
+        self._high: Symbol
+        self._compliance: Symbol
+        self._responses: list[Array]
         self._set_short_waves(shift, before)
         self._set_long_waves(shift, before)
         self._factor(values)
@@ -80,15 +83,15 @@ class ZonePreconditioner:
             return
         problem = self._problem
         extra = shift + SHORT_WAVE_SHIFT * np.array([problem.law_stiffness, self._sideways][: problem.unknowns[0]])
-        self._high: Symbol = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
+        self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
 
     def _set_long_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
         """Invert the stiffness of long waves, or share it with another preconditioner."""
         if before is not None:
             self._compliance, self._responses = before._compliance, before._responses
             return
-        self._compliance: Symbol = self._problem.regularised_stiffness.modes(slice(0, self._low)).inverse(shift)
-        self._responses: list[Array] = [self._response(row) for row in range(self._problem.unknowns[0])]
+        self._compliance = self._problem.regularised_stiffness.modes(slice(0, self._low)).inverse(shift)
+        self._responses = [self._response(row) for row in range(self._problem.unknowns[0])]
 
     def _acting(self, values: Array) -> Array:
         """Return the nodes where the tangent is not negligible, bool."""

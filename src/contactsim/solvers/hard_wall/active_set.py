@@ -81,7 +81,7 @@ class ActiveSet:
         pressure = np.zeros_like(problem.heights) if guess is None else problem.project(guess)
         contact = pressure > 0
         if not contact.any():
-            contact = problem.heights > (-np.inf if problem.load is not None else -problem.approach)
+            contact = problem.heights > (-np.inf if problem.approach is None else -problem.approach)
             pressure[contact] = problem.load or 0.0
         stiffness = BlockStiffness(problem.compliance, uniform=problem.load is not None)
         preconditioner = NegativeGapPreconditioner(_solvable(problem, contact), stiffness)
@@ -115,7 +115,7 @@ class ActiveSet:
         gap -= problem.heights
         residual, approach = _residual(problem, gap[index])
         target = max(reduction * np.max(np.abs(residual)), 0.3 * problem.tolerance)
-        direction, energy = 0.0, 1.0
+        direction, energy = np.zeros(len(index)), 1.0
         for _ in range(self.inner_budget):
             if np.max(np.abs(residual)) <= target:
                 break
