@@ -156,7 +156,7 @@ def _reached(data: xr.Dataset) -> str:
     whole = form_of(data).derive(combine_runs([(data, {"member": 0})])) if form_of(data).is_path else data
     errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
     met, found = (
-        "reached" if data.reached else "not reached",
+        "reached" if data.accuracy_reached else "not reached",
         ", ".join(f"{name} to {one:.2g}" for name, one in errors.items()),
     )
     return f"relative error {float(data.accuracy):g} {met} on {int(data.points)} points: {found}, as estimated"

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import pose_cohesive
-from contactsim.contact.loading import LoadStep, approaches
+from contactsim.contact.loading import approaches
+from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

@@ -329,7 +329,7 @@ def test_what_lies_ahead_is_told_with_what_is_not_known(tmp_path):
     wave = {"kind": "sinusoid", "length": 100.0, "amplitude": 0.1}
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}
     other = study(plain, surface=wave, points=64, tolerance=1e-3).runs()[0]
-    text = told([(known, "none.json"), (other, "none.json")], ["aggregate", "trial"], 2)
+    text = told([(known, "none.json"), (other, "none.json")], ["aggregate", "solve_trial"], 2)
     assert "2 runs and 2 other jobs" in text
     assert "2 jobs of which no time is known" in text
     (tmp_path / "costs.json").write_text('{"cpu_seconds_of_last_run": 7200}')

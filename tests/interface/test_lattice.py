@@ -9,8 +9,9 @@ import pytest
 
 from contactsim import reference
 from contactsim.contact.cohesive import pose_cohesive
-from contactsim.contact.loading import LoadPath, LoadStep, Slide, approaches, pressures, sweep
+from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
 from contactsim.contact.scene import Body, Scene
+from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.solids import Layer
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

@@ -11,8 +11,9 @@ import xarray as xr
 
 from contactsim import reference
 from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
-from contactsim.contact.loading import LoadPath, LoadStep, Slide, sweep
+from contactsim.contact.loading import LoadPath, sweep
 from contactsim.contact.scene import Body, Scene
+from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.evaluation.work_precision.knobs import solutions
 from contactsim.interface.cohesive_zone import CohesiveZone

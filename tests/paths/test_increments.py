@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import pose_cohesive
-from contactsim.contact.loading import LoadPath, LoadStep, approaches, pressures, sweep
+from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
+from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

@@ -7,8 +7,9 @@ import pytest
 
 from contactsim.contact import loading
 from contactsim.contact.cohesive import pose_cohesive
-from contactsim.contact.loading import LoadPath, LoadStep
+from contactsim.contact.loading import LoadPath
 from contactsim.contact.scene import Body, Scene
+from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import SceneError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

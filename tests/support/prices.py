@@ -36,7 +36,10 @@ def study(members: int = 3, points: int = 64) -> xr.Dataset:
         "transforms": (dims, spent),
         "status": (dims, np.zeros(shape, np.int8)),
         "points": points,
+        "contact_modulus": 1.0,
     }
+    inputs = ("relative_contact_area", "mean_pressure", "rms_gradient_contact", "rms_gradient_contact_pairs")
+    variables |= {name: (dims, np.ones(shape)) for name in inputs}
     return xr.Dataset(variables, {"member": range(members), "reduced_pressure": LOADS}, WALL)
 
 

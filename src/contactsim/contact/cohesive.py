@@ -26,8 +26,8 @@ from functools import cached_property
 import ducc0
 import numpy as np
 
-from contactsim.contact.loading import LoadStep
 from contactsim.contact.scene import Scene
+from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import relative_compliance
 from contactsim.elasticity.symbol import Symbol
 from contactsim.errors import SceneError, is_number

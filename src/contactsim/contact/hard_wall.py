@@ -18,8 +18,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.contact.loading import LoadStep
 from contactsim.contact.scene import Scene
+from contactsim.contact.steps import LoadStep
 from contactsim.errors import SceneError, is_number
 from contactsim.grid import Array, Grid, Operator, Tally
 from contactsim.traits import Trait

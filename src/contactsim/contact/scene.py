@@ -102,9 +102,10 @@ class Scene:
             object.__setattr__(self, name, value)  # a frozen dataclass
         self._check_parts()
         self._check_sliding()
+        self._check_surfaces()
 
     def _check_parts(self) -> None:
-        """Raise InputError for bodies, effects or loads that are missing or do not go together."""
+        """Raise InputError for bodies, effects or loads that are missing or impossible."""
         if not self.elasticities:
             raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not self.effects:
@@ -112,10 +113,6 @@ class Scene:
         for step in self.path.steps if Trait.WALL in self.traits else ():
             if step.control is Trait.MEAN_PRESSURE and step.value < 0:
                 raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
-        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
-        lengths = self.lower.surface.lengths, self.upper.surface.lengths
-        if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
-            raise SceneError("length", lengths, "the same periods for both surfaces")
 
     def _check_sliding(self) -> None:
         """Raise InputError for tangential displacements that nothing determines."""
@@ -126,6 +123,13 @@ class Scene:
                 raise SceneError("poisson_ratio", None, allowed)
         if self.sliding and "t" not in self.components:
             raise SceneError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
+
+    def _check_surfaces(self) -> None:
+        """Raise InputError for surfaces that the pairing cannot join, or of different periods."""
+        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
+        lengths = self.lower.surface.lengths, self.upper.surface.lengths
+        if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
+            raise SceneError("length", lengths, "the same periods for both surfaces")
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.loading import LoadStep
+from contactsim.contact.steps import LoadStep
 from contactsim.errors import SceneError, is_number
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.segments import Segment

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.loading import LoadStep
+from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import History
 from contactsim.paths.state import Jump, PathState

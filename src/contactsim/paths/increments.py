@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.loading import LoadStep
+from contactsim.contact.steps import LoadStep
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.nested import Nested

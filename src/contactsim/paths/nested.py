@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, check_tolerance
-from contactsim.contact.loading import LoadStep
+from contactsim.contact.steps import LoadStep
 from contactsim.errors import SceneError
 from contactsim.grid import Array
 from contactsim.paths.continuation import Continuation

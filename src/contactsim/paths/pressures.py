@@ -20,8 +20,8 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.hard_wall import WarmStart, pose_hard_wall
-from contactsim.contact.loading import LoadStep
 from contactsim.contact.scene import Scene
+from contactsim.contact.steps import LoadStep
 from contactsim.errors import SceneError
 from contactsim.grid import Array, Grid
 from contactsim.observables.contact import KEPT, wall_observables

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.loading import LoadStep
+from contactsim.contact.steps import LoadStep
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import TOUCHING, slide_observables
 from contactsim.paths.state import Jump

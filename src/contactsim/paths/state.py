@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.loading import LoadStep
+from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.status import Status

@@ -10,9 +10,10 @@ from functools import lru_cache
 import numpy as np
 
 from contactsim import reference
-from contactsim.contact.loading import LoadPath, LoadStep, Slide, pressures, sweep
+from contactsim.contact.loading import LoadPath, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.simplification import simplify
+from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.solids import ELASTICITIES, Elasticity
 from contactsim.errors import SceneError
 from contactsim.grid import Grid

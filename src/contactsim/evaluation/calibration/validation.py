@@ -103,7 +103,7 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     }
     coordinates = {"scene": [f"{kind} {count}"], "kind": ("scene", [kind])}
     data = xr.Dataset({name: ("scene", [value]) for name, value in row.items()}, coordinates)
-    data = data.assign(description=("scene", [_words(run)]))
+    data = data.assign(description=("scene", [_words(run.settings)]))
     spent = {"predicted": expected.seconds, "seconds": result.seconds, "least": least.seconds if least else math.nan}
     return dataset.described(data), spent
 

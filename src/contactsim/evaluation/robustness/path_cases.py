@@ -16,8 +16,9 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from contactsim.contact.cohesive import MAX_TOLERANCE, CohesiveProblem, pose_cohesive
-from contactsim.contact.loading import LoadPath, LoadStep
+from contactsim.contact.loading import LoadPath
 from contactsim.contact.scene import Scene
+from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
 from contactsim.grid import Array
 from contactsim.interface.base import Law
