@@ -52,21 +52,22 @@ UNREACHED = (*CYCLE, *AREA_LOAD, *ONSET)
 
 
 class DatasetForm(Protocol):
-    """A form of datasets.
+    """A form of datasets."""
 
-    Attributes
-    ----------
-    averaged
-        Numbers of a state that are averaged over members.
-    is_path
-        True if each state starts from the one before, so that summaries of the whole path exist.
-    compares_one_member
-        True if changes of the averaged numbers are measured for one member too.
-    """
+    @property
+    def averaged(self) -> tuple[str, ...]:
+        """Numbers of a state that are averaged over members."""
+        ...
 
-    averaged: tuple[str, ...]
-    is_path: bool
-    compares_one_member: bool
+    @property
+    def is_path(self) -> bool:
+        """True if summaries of the whole path exist."""
+        ...
+
+    @property
+    def compares_one_member(self) -> bool:
+        """True if changes of the averaged numbers are measured for one member too."""
+        ...
 
     def derive(self, data: xr.Dataset) -> xr.Dataset:
         """Return the dataset with the numbers derived from its states."""

@@ -81,14 +81,13 @@ class Polyline:
             """Return values before slips, after slips and at states in the order of the line."""
             return np.concatenate((at_before, at_after, at_states))[order]
 
-        forces, lengths = (
-            [events[f"event_{name}_{side}"][slips] for side in ("before", "after")] for name in ("force", "length")
-        )
         zeros, no_slip = np.zeros(count), np.zeros(slips.size, bool)
         return cls(
             ordered(before, after, distance),
-            ordered(*forces, states["friction_force"]),
-            ordered(*lengths, states["contact_length"]),
+            ordered(events["event_force_before"][slips], events["event_force_after"][slips], states["friction_force"]),
+            ordered(
+                events["event_length_before"][slips], events["event_length_after"][slips], states["contact_length"]
+            ),
             ordered(no_slip, ~no_slip, zeros.astype(bool)),
             ordered(width, width, zeros),
             ordered(following - 1, following - 1, np.arange(count)),

@@ -7,6 +7,7 @@ interpolated traction.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -56,7 +57,7 @@ class IncrementController:
         distance = end - parameter
         if abs(distance) <= self.increment * (1 + ROUNDING):
             return end
-        return parameter + np.copysign(min(self.increment, abs(distance) / 2), distance)
+        return parameter + math.copysign(min(self.increment, abs(distance) / 2), distance)
 
     def rejects(self, error: float) -> bool:
         """Return True if a prediction with that error (nm) asks for a shorter increment, and there is one."""
@@ -202,7 +203,8 @@ class Adaptive:
             leg.segments[0].add(parameter, path.current[1])
         while parameter != last.value:
             goal = first.value if parameter is None else controller.propose(parameter, last.value)
-            state, jumps = path.continue_to(replace(first, value=goal)), ()
+            jumps: tuple[Jump, ...] = ()
+            state = path.continue_to(replace(first, value=goal))
             leg.iterations += state.iterations
             order = path.history.order
             error = state.largest_change if state.is_stable and path.history.parameters else np.inf

@@ -143,9 +143,9 @@ class Continuation:
         parameter = self.parameter(step)
         increment = np.inf if parameter is None else abs(step.value - parameter)
         smooth = self._largest_smooth_motion(step, parameter, increment)
-        jump = (
-            Jump(*self.current, step, state, state.largest_change) if flowed and state.largest_change > smooth else None
-        )
+        jump = None
+        if flowed and self.current is not None and state.largest_change > smooth:
+            jump = Jump(*self.current, step, state, state.largest_change)
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < increment < np.inf:
             self._pace = largest_change(self.problem, state.displacement - self.displacement) / increment
         if jump:
@@ -184,13 +184,15 @@ class Continuation:
         goals, divides, jumps, iterations = [step.value], self._divides, [], 0
         while True:
             goal = replace(step, value=goals[-1])
-            state = self.continue_to(goal) if self.solver.uses_guess else None
-            iterations += state.iterations if state else 0
-            flowed = state is None or not self.is_on_branch(state)
+            flowed = True
+            if self.solver.uses_guess:
+                state = self.continue_to(goal)
+                iterations += state.iterations
+                flowed = not self.is_on_branch(state)
             if flowed:
                 parameter = self.parameter(step)
-                divisible = divides and len(goals) <= MAX_HALVINGS and parameter is not None
-                if divisible and self._length(goal, abs(goals[-1] - parameter)) > self._smallest_division:
+                divisible = divides and len(goals) <= MAX_HALVINGS
+                if parameter is not None and divisible and self._is_long(goal, abs(goals[-1] - parameter)):
                     goals.append((parameter + goals[-1]) / 2)
                     continue
                 state = self.flow_to(goal)
@@ -209,10 +211,10 @@ class Continuation:
         """True if the surfaces slide over a lattice, where smooth motion may be fast."""
         return bool(np.isfinite(self.problem.lattice_constant))
 
-    @property
-    def _smallest_division(self) -> float:
-        """Length of a step (nm) that needs no division, because smooth motion during it is not taken for a jump."""
-        return JUMP_LENGTH * self.problem.interaction_range / (SLIP_RATIO if self.has_lattice else JUMP_RATIO)
+    def _is_long(self, step: LoadStep, increment: float) -> bool:
+        """Return True if smooth motion during a step might be taken for a jump, so that the step is divided."""
+        ratio = SLIP_RATIO if self.has_lattice else JUMP_RATIO
+        return self._length(step, increment) > JUMP_LENGTH * self.problem.interaction_range / ratio
 
     def _length(self, step: LoadStep, increment: float) -> float:
         """Return the distance (nm) that a step moves the surface without a jump; infinite if unknown."""
