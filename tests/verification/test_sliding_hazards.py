@@ -60,7 +60,7 @@ def test_a_state_a_cell_further_on_is_found():
     moved[1, 0] += LATTICE
     found = make_solver("newton").flow_from(problem.at(last.step), moved)
     assert found.is_stable
-    wrong = [*states[:-1], replace(last, displacement=found.displacement, found=found)]
+    wrong = [*states[:-1], replace(last, displacement=found.displacement, solution=found)]
     assert "smaller increments" in path_faults(case, problem, wrong)
 
 
