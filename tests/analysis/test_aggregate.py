@@ -190,7 +190,7 @@ def test_what_did_not_converge_stays_in_the_dataset_with_its_status(runs):
     one = data.sel(hurst=0.2, member=1).isel(reduced_pressure=0)
     assert one.status.item() == MAX_ITERATIONS
     assert one.mean_gap.item() == numbers(0.2, 1)["mean_gap"][0]
-    assert data.status.attrs["flag_meanings"].startswith("converged budget non_finite ")
+    assert data.status.attrs["flag_meanings"].startswith("converged max_iterations non_finite ")
 
 
 def test_one_converged_member_has_a_mean_but_no_error_and_none_has_neither(runs):
