@@ -189,7 +189,7 @@ def cost_scene(options: argparse.Namespace) -> None:
     setups = [run.setup for run in runs]
     try:
         if options.accuracy is not None:
-            wanted = Accuracy(options.accuracy, tuple((study.settings["accuracy"] or {"of": ()})["of"]))
+            wanted = Accuracy(options.accuracy, tuple((study.settings["accuracy"] or {"quantities": ()})["quantities"]))
             setups = [
                 choose_options(setup, wanted.error, wanted.quantities).with_options(accuracy=wanted) for setup in setups
             ]

@@ -24,7 +24,16 @@ from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
 from contactsim.study.claim_plan import CLAIM_KEYS, CONDITION_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS
-from contactsim.study.keys import ACCURACY_KEYS, AUTO_KEYS, ERROR_RUNS, KINDS, MODULI, PATH_KEYS, SLIDE_KEYS, STUDY_KEYS
+from contactsim.study.keys import (
+    ACCURACY_KEYS,
+    ERROR_RUNS,
+    MODULI,
+    NEGLECT_KEYS,
+    PATH_KEYS,
+    SECTION_KINDS,
+    SLIDE_KEYS,
+    STUDY_KEYS,
+)
 from contactsim.study.law_table import LAW_KEYS
 from contactsim.study.plan import CONFIG_KEYS, TIER_KEYS, Plan
 from contactsim.study.reading import REQUIRED, keys_of
@@ -140,7 +149,7 @@ def test_what_the_readme_asks_of_a_study_is_understood():
     assert len(asked) == 2
     both = Study.read("one", scene | law | asked[0] | asked[1], "README.md", 1)
     assert both.settings["accuracy"]["error"] == 0.01
-    assert both.settings["auto"]["within"] == 0.05
+    assert both.settings["auto"]["neglect_within"] == 0.05
 
 
 def test_every_command_names_a_target_or_an_option_that_exists():
@@ -199,7 +208,7 @@ def test_every_link_leads_somewhere():
             STABILITY_KEYS,
             dict.fromkeys(LOADS),
         ),
-        *(ACCURACY_KEYS, AUTO_KEYS, sampling.KEYS, sampling.DRAW_KEYS, *sampling.RANGES.values()),
+        *(ACCURACY_KEYS, NEGLECT_KEYS, sampling.KEYS, sampling.DRAW_KEYS, *sampling.RANGES.values()),
         *(survey.KEYS, survey.MAP_KEYS, survey.AXIS_KEYS, survey.PANEL_KEYS),
         *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     ],
@@ -225,9 +234,9 @@ def test_every_option_of_an_effect_is_explained_with_its_default(effect):
         assert default == ("required" if key.default is REQUIRED else f"{key.default:g}"), name
 
 
-@pytest.mark.parametrize("section", [section for section in KINDS if section != "counter_body"])  # as `body`
+@pytest.mark.parametrize("section", [section for section in SECTION_KINDS if section != "counter_body"])  # as `body`
 def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
-    known, class_of = KINDS[section]
+    known, class_of = SECTION_KINDS[section]
     for kind in known:
         part = KEYS[KEYS.index(f"### `{section}`") :]
         block = part[part.index(f"| `{kind}` |") :].split("\n\n")[0]
@@ -254,12 +263,12 @@ def test_the_settings_reference_explains_no_key_that_is_gone():
         *EFFECTS,
         *MODULI,
         *ACCURACY_KEYS,
-        *AUTO_KEYS,
+        *NEGLECT_KEYS,
         *sampling.KEYS,
         *survey.KEYS,
     }
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
-    for classes, class_of in KINDS.values():
+    for classes, class_of in SECTION_KINDS.values():
         for kind in classes:
             known |= {kind, *keys_of(class_of(kind))}
     for name in re.findall(r"^\| (?:`\w+` )?\|? ?`(\w+)` \|", KEYS, re.MULTILINE):

@@ -147,8 +147,8 @@ def test_what_was_not_measured_is_refused():
     wave = LINE_SCENE | {"surface": {"kind": "sinusoid", "length": 1.0, "amplitude": 0.1}}
     with refused("surface", "were not measured"):
         study(wave)
-    with refused("accuracy.of", "relative_contact_area"):
-        study(LINE_SCENE, accuracy={"error": 0.1, "of": ["pull_off_load_loading"]})
+    with refused("accuracy.quantities", "relative_contact_area"):
+        study(LINE_SCENE, accuracy={"error": 0.1, "quantities": ["pull_off_load_loading"]})
     with refused("accuracy", "grid points are enough"):
         study(LINE_SCENE, accuracy=1e-16)
     with refused("path", "loads"):
@@ -173,7 +173,7 @@ def test_what_follows_from_an_accuracy_cannot_be_given(key, value):
         study(ASPERITY, **{key: value})
 
 
-@pytest.mark.parametrize("value", [0.0, 1.0, -1.0, "fine", {"of": []}, {"error": 0.1, "off": []}])
+@pytest.mark.parametrize("value", [0.0, 1.0, -1.0, "fine", {"quantities": []}, {"error": 0.1, "off": []}])
 def test_an_accuracy_is_a_relative_error(value):
     with pytest.raises(SceneError, match="accuracy"):
         study(LINE_SCENE, accuracy=value)
@@ -283,7 +283,7 @@ def test_each_variant_gets_the_grid_that_its_own_scene_needs():
     runs = study(LINE_SCENE, vary={"surface.shortest_wavelength": [8.0, 32.0]}).runs()
     points = {run.settings["surface"]["shortest_wavelength"]: run.settings["points"] for run in runs}
     assert points[8.0] > 3 * points[32.0]
-    assert all(run.settings["accuracy"] == {"error": 0.02, "of": []} for run in runs)
+    assert all(run.settings["accuracy"] == {"error": 0.02, "quantities": []} for run in runs)
 
 
 @pytest.mark.parametrize("family", [LINE, PATH])

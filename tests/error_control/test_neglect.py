@@ -29,7 +29,7 @@ ASPERITY = {
     "title": "Asperity",
     "surface": {"kind": "cylinder", "radius": 25000.0, "length": 10000.0},
     "body": {"kind": "layer", "youngs_modulus": 70.0, "poisson_ratio": 0.3, "thickness": 5000.0},
-    "effects": {"auto": ["cohesive_zone"], "within": 0.05, "of": ["pull_off_load_loading"]},
+    "effects": {"list": ["cohesive_zone"], "neglect_within": 0.05, "quantities": ["pull_off_load_loading"]},
     "cohesive_zone": {"work_of_separation": 2.0, "work_ratio": 0.1},
     "path": {"approach": [-10.0, 4.0], "increment": 0.5},
     "points": 512,
@@ -233,15 +233,23 @@ def test_chapter_5_leaves_the_coupling_out_where_it_is_negligible_and_simulates_
 @pytest.mark.parametrize(
     ("section", "key", "allowed"),
     [
-        ({"effects": {"auto": ["glue"], "within": 0.1, "of": ["final_load"]}}, "effects.auto", "a list from"),
-        ({"effects": {"auto": ["cohesive_zone"], "within": 2.0, "of": ["final_load"]}}, "effects.within", "below 1"),
-        ({"effects": {"auto": ["cohesive_zone"], "within": 0.1}}, "effects.of", "missing"),
         (
-            {"effects": {"auto": ["cohesive_zone"], "within": 0.1, "of": ["final_load"], "sample": 3}},
+            {"effects": {"list": ["glue"], "neglect_within": 0.1, "quantities": ["final_load"]}},
+            "effects.list",
+            "a list from",
+        ),
+        (
+            {"effects": {"list": ["cohesive_zone"], "neglect_within": 2.0, "quantities": ["final_load"]}},
+            "effects.neglect_within",
+            "below 1",
+        ),
+        ({"effects": {"list": ["cohesive_zone"], "neglect_within": 0.1}}, "effects.quantities", "missing"),
+        (
+            {"effects": {"list": ["cohesive_zone"], "neglect_within": 0.1, "quantities": ["final_load"], "sample": 3}},
             "effects.sample",
             "at most 1",
         ),
-        ({"neglect": ["friction"]}, "neglect", "left out anyway"),
+        ({"neglect": ["friction"]}, "neglect", "neglected anyway"),
     ],
 )
 def test_what_cannot_be_left_out_by_itself_is_refused(section, key, allowed):

@@ -20,7 +20,16 @@ from contactsim.evaluation.robustness.cases import Case, made
 from contactsim.evaluation.robustness.judge_loads import faults
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.registry import HAZARDS
-from contactsim.evaluation.robustness.survey import gather, judge, read_settings, survey
+from contactsim.evaluation.robustness.survey import (
+    gather,
+    job_settings,
+    judge,
+    map_figure,
+    map_settings,
+    read_settings,
+    read_stability,
+    survey,
+)
 from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, taken
 from contactsim.figures.layout import render
 from contactsim.solvers.base import State
@@ -73,8 +82,8 @@ def solved(case):
         (replace(CASE, exact=None), "active_set", Outcome.CERTIFIED, ""),
         (replace(CASE, mean_pressure=-1.0), "active_set", Outcome.REFUSED, "nothing can pull"),
         (replace(CASE, mean_pressure=None, approach=0.0), "verlet", Outcome.REFUSED, "APPROACH"),
-        (CASE, make_solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "budget"),
-        (CASE, Stuck(1.0), Outcome.FAILED, "budget"),
+        (CASE, make_solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "number of iterations"),
+        (CASE, Stuck(1.0), Outcome.FAILED, "number of iterations"),
         (CASE, "conjugate_gradients", Outcome.REFUSED, "LINE"),
         (SURFACE, "conjugate_gradients", Outcome.RIGHT, ""),
         (SURFACE, "polonsky_keer", Outcome.RIGHT, ""),
@@ -192,7 +201,7 @@ def test_a_missing_setting_is_refused():
 
 
 def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
-    settings = Plan.read(ROOT / "config").stability
+    settings = read_stability(ROOT / "config", Plan.read(ROOT / "config"))
     assert settings["hazards"] == list(HAZARDS)
     assert set(settings["solvers"]) == {*ALL, *ON_SURFACES, *ON_PATHS}
     assert settings["solvers"]["verlet"]["budget"] == make_solver("verlet").budget
@@ -201,24 +210,26 @@ def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
 def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         (tmp_path / file.name).write_bytes(file.read_bytes())
-    assert Plan.read(tmp_path, "quick").stability["severities"] == [0, 50, 100]
-    assert Plan.read(tmp_path, "standard").stability["severities"] == list(range(0, 101, 5))
+    quick, standard = (Plan.read(tmp_path, tier) for tier in ("quick", "standard"))
+    assert read_stability(tmp_path, quick)["severities"] == [0, 50, 100]
+    assert read_stability(tmp_path, standard)["severities"] == list(range(0, 101, 5))
     (tmp_path / "stability.yaml").unlink()
-    assert Plan.read(tmp_path, "standard").stability is None
+    assert read_stability(tmp_path, standard) is None
     with pytest.raises(SceneError, match=r"quick\.stability"):
-        Plan.read(tmp_path, "quick")
+        read_stability(tmp_path, quick)
 
 
 def test_jobs_change_with_what_they_depend_on_and_nothing_else():
     plan = Plan.read(ROOT / "config", "quick")
-    job, whole, drawn = plan.hazard_settings("flat"), plan.map_settings(), plan.map_figure()
-    assert "flat" not in json.dumps(plan.hazard_settings("units"))
-    plan.stability["caption"] = "Other."
-    assert (job, whole) == (plan.hazard_settings("flat"), plan.map_settings())
-    assert drawn != plan.map_figure()
-    plan.stability["severities"] = [0.0]
-    assert job != plan.hazard_settings("flat")
-    assert drawn["data"] != plan.map_figure()["data"]
+    settings = read_stability(ROOT / "config", plan)
+    job, whole, drawn = job_settings(settings, "flat"), map_settings(settings, plan), map_figure(settings, plan)
+    assert "flat" not in json.dumps(job_settings(settings, "units"))
+    settings["caption"] = "Other."
+    assert (job, whole) == (job_settings(settings, "flat"), map_settings(settings, plan))
+    assert drawn != map_figure(settings, plan)
+    settings["severities"] = [0.0]
+    assert job != job_settings(settings, "flat")
+    assert drawn["data"] != map_figure(settings, plan)["data"]
 
 
 # --- the dataset and the figure -------------------------------------------------------------------------------------
@@ -229,15 +240,16 @@ def drawn(tmp_path_factory):
     """A small map: its files in a folder, and the surveys that it was made of."""
     folder = tmp_path_factory.mktemp("map")
     plan = Plan.read(ROOT / "config", "quick")
-    plan.stability.update(hazards=["tension", "nearly_full_rough", "low_spike"], severities=[0.0, 20.0, 100.0])
+    hazards = ["tension", "nearly_full_rough", "low_spike"]
+    settings = read_stability(ROOT / "config", plan) | {"hazards": hazards, "severities": [0.0, 20.0, 100.0]}
     parts = []
-    for hazard in plan.stability["hazards"]:
-        dataset.write(survey(**json.loads(json.dumps(plan.hazard_settings(hazard)))), folder / f"{hazard}.nc")
+    for hazard in hazards:
+        dataset.write(survey(**json.loads(json.dumps(job_settings(settings, hazard)))), folder / f"{hazard}.nc")
         parts.append(dataset.load_dataset(folder / f"{hazard}.nc"))
-    settings = plan.map_settings()
-    dataset.write(gather(parts, settings["settings"], settings["source"]), folder / "stability.nc")
+    whole = map_settings(settings, plan)
+    dataset.write(gather(parts, whole["settings"], whole["source"]), folder / "stability.nc")
     targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
-    render(json.loads(json.dumps(plan.map_figure())), [folder / "stability.nc"], [], targets)
+    render(json.loads(json.dumps(map_figure(settings, plan))), [folder / "stability.nc"], [], targets)
     return folder
 
 

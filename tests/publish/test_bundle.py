@@ -22,7 +22,7 @@ from contactsim import dataset
 from contactsim.analysis import aggregate, costs
 from contactsim.errors import SceneError
 from contactsim.publish import bundle
-from contactsim.study.execute import run
+from contactsim.study.execute import RunFiles, run
 from support.places import ROOT
 from support.project import CYLINDER, Project, figure
 from support.small_studies import PROJECT, SMALL, small
@@ -39,7 +39,7 @@ def results(tmp_path_factory):
             study, listed = small(chapter, name), []
             for one in study.runs():
                 path, cost = (str(folder / f"runs/{one.stem}.{ending}") for ending in ("nc", "json"))
-                run(one.settings, one.source, path, cost)
+                run(one.settings, one.source, RunFiles(path, cost))
                 place = {"coordinates": one.coordinates, "member": one.member, "measures_error": False, "error": "grid"}
                 listed.append({"path": path, "costs": cost} | place)
             made = aggregate.aggregate(listed, study.settings | {"name": name, "tier": "small"}, "abc")

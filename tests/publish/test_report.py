@@ -15,6 +15,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.claims import CONDITION, NOT_REPRODUCED, REPRODUCED
+from contactsim.evaluation.robustness.survey import read_stability
 from contactsim.figures.diagnostics.claims import rounded
 from contactsim.publish import report
 from contactsim.publish.gallery import VERDICTS
@@ -93,7 +94,9 @@ def page(made, plan):
 
 
 def asked(plan, rules="rule all:"):
-    return report.settings(plan, {"stability": {"stability": plan.stability}, "effects": {}}, rules)
+    return report.settings(
+        plan, {"stability": {"stability": read_stability(ROOT / "config", plan)}, "effects": {}}, rules
+    )
 
 
 @pytest.fixture(scope="module")

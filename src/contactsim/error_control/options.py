@@ -196,7 +196,7 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
     for name in names:
         if name not in family.errors["points"]:
-            raise SceneError("accuracy.of", name, f"some of {', '.join(family.errors['points'])}")
+            raise SceneError("accuracy.quantities", name, f"some of {', '.join(family.errors['points'])}")
     knobs = KNOBS[scene.kind]
     setup = knobs.choose_increment(setup, family, names, error)
     scene = setup.scene

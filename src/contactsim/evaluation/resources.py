@@ -53,7 +53,7 @@ def _forecast(text: str) -> Forecast | None:
     settings = json.loads(text)
     setup = build_setup(settings)
     if "auto" in settings:
-        setup = neglect_effects(setup, expected_neglect(setup.scene, settings["auto"]["within"]))
+        setup = neglect_effects(setup, expected_neglect(setup.scene, settings["auto"]["neglect_within"]))
     try:
         return forecast_run(setup)
     except SceneError:

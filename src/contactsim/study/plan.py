@@ -180,7 +180,7 @@ class Plan:
         for study in self.studies.values():
             for run in study.runs() if study.settings["auto"] else ():
                 if "auto" in run.settings:
-                    effects = expected_neglect(run.setup.scene, study.settings["auto"]["within"])
+                    effects = expected_neglect(run.setup.scene, study.settings["auto"]["neglect_within"])
                     key = study.name, run.member, run.error, neglect_effects(run.setup, effects).fingerprint
                     if effects and first.setdefault(key, run) is not run:
                         twins[run.stem] = first[key]

@@ -48,7 +48,7 @@ def build_setup(settings: Mapping, threads: int = 1) -> Setup:
         tolerance=settings["tolerance"],
         solver=make_solver(**settings["solver"]),
         threads=threads,
-        accuracy=None if accuracy is None else Accuracy(accuracy["error"], tuple(accuracy["of"])),
+        accuracy=None if accuracy is None else Accuracy(accuracy["error"], tuple(accuracy["quantities"])),
         **study_kind(settings).options(settings),
     )
     return Setup(build_scene(settings), options)

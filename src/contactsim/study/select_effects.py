@@ -18,7 +18,7 @@ def select_effects(settings: dict) -> Decision:
     """
     auto = settings["auto"]
     samples = [build_setup(settings | {"member": member}) for member in range(auto["sample"])]
-    return decide_neglect(samples, auto["within"], auto["of"])
+    return decide_neglect(samples, auto["neglect_within"], auto["quantities"])
 
 
 def selection_digest() -> str:

@@ -23,23 +23,19 @@ from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import solver_module
-from contactsim.study.keys import (
-    BODIES,
-    ERROR_RUNS,
-    KINDS,
-    MODULI,
-    RIGID,
-    STUDY_KEYS,
-    acting,
-    default_solver,
-    read_load,
-    read_slide,
-    settled,
-    slide_part,
-)
+from contactsim.study.keys import BODIES, ERROR_RUNS, MODULI, RIGID, SECTION_KINDS, STUDY_KEYS
 from contactsim.study.kinds import STUDY_KINDS, study_kind
 from contactsim.study.reading import Key, choice, keys_of, read
 from contactsim.study.scenes import build_scene, build_setup, updated_settings
+from contactsim.study.sections import (
+    default_solver_kind,
+    read_accuracy,
+    read_effects,
+    read_error_run,
+    read_load,
+    read_slide,
+    read_slide_section,
+)
 from contactsim.study.stages import computing_stage_digest
 
 
@@ -129,16 +125,16 @@ class Study:
         """Check a section of a chapter's config, down to the scene of every variant."""
         prefix = f"studies.{name}"
         settings = read(section, STUDY_KEYS, file, prefix)
-        settings = settled(section, settings | acting(settings, file, prefix), file, prefix)
+        settings = read_accuracy(section, settings | read_effects(settings, file, prefix), file, prefix)
         settings["load"] = read_load(settings, file, prefix)
         settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
             raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
-        settings["solver"] = {"kind": default_solver(settings)} | settings["solver"]
+        settings["solver"] = {"kind": default_solver_kind(settings)} | settings["solver"]
         _refuse_unused(section, settings, file, prefix)
         for part in ERROR_RUNS:
             if settings[part] is not None:
-                settings[part] = _read_error_run(part, settings, file, prefix)
+                settings[part] = read_error_run(part, settings, file, prefix)
         study = cls(name, settings, str(file), seed)
         for run in study.runs():
             if run.member == 0:
@@ -256,7 +252,7 @@ class Study:
         """Return a run's settings with the grid, tolerance and increments that it begins with for its accuracy."""
         accuracy = self.settings["accuracy"]
         try:
-            setup = choose_options(build_setup(settings), accuracy["error"], accuracy["of"])
+            setup = choose_options(build_setup(settings), accuracy["error"], accuracy["quantities"])
         except SceneError as error:
             raise error.within(self.file, f"studies.{self.name}") from error
         return updated_settings(settings, setup) | {"accuracy": accuracy}
@@ -286,8 +282,8 @@ class Study:
         if name in EFFECTS:
             return read(section, keys_of(EFFECTS[name]), self.file, prefix)
         if name == "slide":
-            return slide_part(section, self.file, prefix)
-        kinds, class_of = KINDS[name]
+            return read_slide_section(section, self.file, prefix)
+        kinds, class_of = SECTION_KINDS[name]
         key = Key(choice(kinds), f"one of {', '.join(sorted(kinds))}")
         own = {"kind": section["kind"]} if "kind" in section else {}
         kind = read(own, {"kind": key}, self.file, prefix)["kind"]
@@ -314,23 +310,6 @@ class Study:
         except SceneError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.within(self.file, f"studies.{self.name}{section}") from error
-
-
-def _read_error_run(part: str, settings: dict, file: object, prefix: str) -> dict:
-    """Return the section of a study for runs that measure an error, checked."""
-    knob, _, keys = ERROR_RUNS[part]
-    given = read(settings[part], keys, file, f"{prefix}.{part}")
-    if knob in settings["vary"]:
-        raise SceneError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)
-    if given["members"] > settings["members"]:
-        allowed = f"at most {settings['members']}, the study's members"
-        raise SceneError(f"{prefix}.{part}.members", given["members"], allowed, file)
-    if knob not in keys and not (settings[knob] or settings["auto"]):
-        raise SceneError(f"{prefix}.{part}", given, f"none, for the study has no {knob}", file)
-    if knob in keys and (settings[knob] is None or given[knob] >= settings[knob]):
-        allowed = f"below the study's {knob}, {settings[knob]}"
-        raise SceneError(f"{prefix}.{part}.{knob}", given[knob], allowed, file)
-    return given
 
 
 def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:

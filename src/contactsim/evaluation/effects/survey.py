@@ -23,7 +23,7 @@ from contactsim.grid import Array
 from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
-from contactsim.study.keys import some_of
+from contactsim.study.keys import any_of
 from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, keys_of, listed, mapping, number, pair, read, size, text, tiered
 from contactsim.study.study import Study
@@ -37,7 +37,7 @@ KEYS = {
 }
 MAP_KEYS = {
     "title": Key(text, "a line of text"),
-    "neglect": Key(some_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}"),
+    "neglect": Key(any_of(SIMPLIFICATIONS), f"a list from {', '.join(SIMPLIFICATIONS)}"),
     "of": Key(listed(text), "a list of quantities"),
     "scene": Key(mapping, "the keys of a study with one run"),
     "axes": Key(mapping, "a mapping from names to a key of the scene and its values"),
