@@ -15,7 +15,7 @@ from contactsim.dataset import SETTINGS, described, settings_of, stamped
 from contactsim.errors import SceneError
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.status import Status
-from contactsim.study.keys import KINDS
+from contactsim.study.keys import SECTION_KINDS
 from contactsim.study.reading import keys_of
 from contactsim.variables import SUFFIXES, VARIABLES
 
@@ -92,7 +92,7 @@ def test_the_limit_of_a_fit_is_no_limit_on_finer_grids():
 
 def test_every_key_that_can_be_varied_gets_a_dimension_that_no_result_has_with_its_unit():
     dimensions = {}
-    for section, (known, class_of) in KINDS.items():
+    for section, (known, class_of) in SECTION_KINDS.items():
         for kind in known:
             for key in ["kind", *keys_of(class_of(kind))]:
                 dimensions[section, key] = dataset.dimension(f"{section}.{key}")
