@@ -12,7 +12,7 @@ import xarray as xr
 import contactsim
 from contactsim import dataset, provenance
 from contactsim.dataset import SETTINGS, described, settings_of, stamped
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.status import Status
 from contactsim.study.keys import SECTION_KINDS
@@ -189,7 +189,7 @@ def test_a_truncated_file_is_an_error_that_names_it(data, tmp_path, share):
     dataset.write(data, path)
     content = path.read_bytes()
     path.write_bytes(content[: int(share * len(content))])
-    with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc.*allowed: a readable netCDF file"):
+    with pytest.raises(InputError, match=r"^dataset: got .*data\.nc.*allowed: a readable netCDF file"):
         dataset.load_dataset(path)
 
 
@@ -202,7 +202,7 @@ def test_damage_to_the_numbers_is_an_error_whether_they_are_compressed_or_not(tm
     place = len(content) * 6 // 10 if length > 2048 else content.index(numbers[250].tobytes())
     content[place] ^= 0xFF
     path.write_bytes(content)
-    with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc"):
+    with pytest.raises(InputError, match=r"^dataset: got .*data\.nc"):
         dataset.load_dataset(path)
 
 
@@ -211,7 +211,7 @@ def test_what_is_no_dataset_is_an_error_that_names_it(tmp_path, content):
     path = tmp_path / "data.nc"
     if content is not None:
         path.write_bytes(content)
-    with pytest.raises(SceneError, match=r"^dataset: got .*data\.nc"):
+    with pytest.raises(InputError, match=r"^dataset: got .*data\.nc"):
         dataset.load_dataset(path)
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Grid, Operator, Tally
 
 SIZES = (2, 3, 8, 101, 1024)
@@ -62,6 +62,6 @@ def test_the_number_of_threads_does_not_change_a_transform():
     ],
 )
 def test_an_impossible_grid_is_refused_by_key(shape, lengths, threads, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         Grid(shape, lengths, threads)
     assert caught.value.key == key

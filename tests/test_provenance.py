@@ -79,7 +79,7 @@ def test_imports_of_every_form_and_at_any_depth_are_found(package):
     write(
         package,
         one="import contactsim.grid\nimport numpy.linalg\nx = contactsim.grid\n",
-        two="from contactsim import one, SceneError\nfrom contactsim.solvers import base\nx = one, base\n",
+        two="from contactsim import one, InputError\nfrom contactsim.solvers import base\nx = one, base\n",
         three="def f():\n    if True:\n        from contactsim.two import x as other\n",
     )
     assert imports_of("contactsim.one") == {"contactsim.grid"}

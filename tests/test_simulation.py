@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import contactsim
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 GOOD = {"heights": np.array([0.0, 1.0, 0.5, -1.0]), "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1}
 
@@ -55,7 +55,7 @@ def test_the_given_heights_are_left_alone():
     ],
 )
 def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         contactsim.press(**GOOD | change)
     assert caught.value.key == key
     assert allowed in caught.value.allowed
@@ -66,13 +66,13 @@ def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed)
     [((1, 2, 3), "(1, 2, 3)"), ((1, -2), "-2"), (np.array([0, 1]), "0"), (np.float64(-1.5), "-1.5"), ("a", "'a'")],
 )
 def test_a_bad_spacing_of_a_surface_is_blamed_and_told_in_plain_numbers(spacing, value):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         contactsim.press(np.eye(4), spacing=spacing, contact_modulus=1.0, mean_pressure=0.1)
     assert str(caught.value).startswith(f"spacing: got {value}; allowed: a positive finite number")
 
 
 def test_numbers_of_numpy_within_others_are_told_plainly():
-    with pytest.raises(SceneError, match=r"got \{'mean_pressure': 0.5, 'approach': 2.0\};"):
+    with pytest.raises(InputError, match=r"got \{'mean_pressure': 0.5, 'approach': 2.0\};"):
         contactsim.press(**GOOD | {"mean_pressure": np.float64(0.5), "approach": np.float64(2.0)})
 
 
@@ -92,14 +92,14 @@ def test_a_record_tells_cost_and_certificate():
     ],
 )
 def test_heights_that_are_no_row_of_numbers_or_partly_masked_are_refused(heights, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=0.1)
     assert caught.value.key == key
 
 
 @pytest.mark.parametrize("method", [3, dict])
 def test_what_is_no_solver_is_refused(method):
-    with pytest.raises(SceneError, match="the name of a solver"):
+    with pytest.raises(InputError, match="the name of a solver"):
         contactsim.press([0.0, 1.0], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, solver=method)
 
 
@@ -115,5 +115,5 @@ def test_what_is_no_solver_is_refused(method):
 )
 def test_units_beyond_floating_point_are_refused(change):
     given = {"heights": [0.0, 1.0, 0.5], "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1} | change
-    with pytest.raises(SceneError, match="range of floating point"):
+    with pytest.raises(InputError, match="range of floating point"):
         contactsim.press(given.pop("heights"), **given)

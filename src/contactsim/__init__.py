@@ -37,7 +37,7 @@ PUBLIC = {
     "Nested": "paths.nested",
     "Result": "solvers.base",
     "Status": "status",
-    "SceneError": "errors",
+    "InputError": "errors",
     "load_dataset": "dataset",
     "plot": "figures.plot",
 }

@@ -23,7 +23,7 @@ from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.options import choose_options
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation import budget
 from contactsim.explanation import explain_setup
 from contactsim.observables.derived import combine_runs
@@ -50,32 +50,32 @@ def read_scene(path: str, accuracy: float | None = None) -> Study:
         section["accuracy"] = accuracy
     for key in ("vary", "members", *ERROR_RUNS, "fit_limits", "same_surfaces_as", "snapshot_members"):
         if key in section:
-            raise SceneError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
+            raise InputError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
     seed = section.pop("seed", 0)
     try:
         whole(0)(seed)
     except ValueError as error:
-        raise SceneError("seed", seed, "a whole number, 0 or more", path) from error
+        raise InputError("seed", seed, "a whole number, 0 or more", path) from error
     name = Path(path).stem
     try:
         return Study.read(name, {"title": name} | section, path, seed)
-    except SceneError as error:  # in a scene file the keys stand at the top
-        raise SceneError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
+    except InputError as error:  # in a scene file the keys stand at the top
+        raise InputError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
 
 
 def named(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
     """A study, from a scene file or by its name in ./config; accuracy: see `read_scene`."""
     if accuracy is not None and not 0 < accuracy < 1:
-        raise SceneError("--accuracy", accuracy, "a relative error, above 0 and below 1")
+        raise InputError("--accuracy", accuracy, "a relative error, above 0 and below 1")
     if Path(scene).suffix:
         if tier is not None:
-            raise SceneError("--tier", tier, "none with a scene file: tiers belong to studies")
+            raise InputError("--tier", tier, "none with a scene file: tiers belong to studies")
         return read_scene(scene, accuracy)
     if not Path("config").is_dir():
-        raise SceneError("scene", scene, "a scene file, or a study's name where there is a folder config")
+        raise InputError("scene", scene, "a scene file, or a study's name where there is a folder config")
     studies = Plan.read("config", tier).studies
     if scene not in studies:
-        raise SceneError("scene", scene, f"a .yaml file or one of {', '.join(studies)}")
+        raise InputError("scene", scene, f"a .yaml file or one of {', '.join(studies)}")
     return studies[scene]
 
 
@@ -100,7 +100,7 @@ NARROW = 17
 def explain_scene(options: argparse.Namespace) -> None:
     """Print what a scene does and costs; draw it if asked to."""
     if options.draw and Path(options.draw).suffix not in DRAWN:
-        raise SceneError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
+        raise InputError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
     study = named(options.scene, options.tier)
     setup, runs = study.runs()[0].setup, len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
@@ -116,7 +116,7 @@ def run_scene(options: argparse.Namespace) -> None:
     study = read_scene(options.scene)
     target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
     if Path(target).is_dir():
-        raise SceneError("--output", target, "the name of a file; this is a folder")
+        raise InputError("--output", target, "the name of a file; this is a folder")
     data, settings = _simulated(study, options.threads)
     data = _as_of_a_study(data, settings)
     source = study.runs()[0].source
@@ -181,7 +181,7 @@ def cost_scene(options: argparse.Namespace) -> None:
     """Print what a scene, each run of a study or every figure is expected to cost, as it is or to an accuracy."""
     if options.scene is None:
         if options.accuracy is not None:
-            raise SceneError("--accuracy", options.accuracy, "none without a scene or a study")
+            raise InputError("--accuracy", options.accuracy, "none without a scene or a study")
         sys.stdout.write(budget.table("config", Plan.read("config", options.tier)))
         return
     study = named(options.scene, options.tier, options.accuracy)
@@ -196,8 +196,8 @@ def cost_scene(options: argparse.Namespace) -> None:
         text = describe_forecasts(setups, [forecast_run(setup) for setup in setups])
         note = "with all effects: what is negligible is found out by the run\n"
         sys.stdout.write(text + note * ("auto" in runs[0].settings))
-    except SceneError as error:
-        raise error.within(study.file) from error
+    except InputError as error:
+        raise error.located(study.file) from error
 
 
 def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -> str:
@@ -271,7 +271,7 @@ def main(arguments: list[str] | None = None) -> None:
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
     try:
         options.call(options)
-    except SceneError as error:
+    except InputError as error:
         sys.exit(f"Error: {error}")
     except OSError as error:
         sys.exit(f"Error: {error.filename}: {error.strerror}")

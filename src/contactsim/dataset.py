@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.files import write_atomically
 from contactsim.provenance import canonical, versions
 from contactsim.status import FLAGS, Status
@@ -133,7 +133,7 @@ def load_dataset(path: str | Path) -> xr.Dataset:
     try:
         return xr.load_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError, ValueError) as error:
-        raise SceneError("dataset", Path(path), f"a readable netCDF file ({error})") from error
+        raise InputError("dataset", Path(path), f"a readable netCDF file ({error})") from error
 
 
 def settings_of(data: xr.Dataset) -> dict:

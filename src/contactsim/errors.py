@@ -1,7 +1,7 @@
-"""The one error a user meets: bad input, said so that it can be mended.
+"""The error that a user meets: an input that has to be mended.
 
-A `SceneError` names the file (where there is one), the key, the value and what is allowed.
-Numerical failure is not an error but a `Status` stored with the result.
+An `InputError` names the file, if there is one, the key, its value and what is allowed. Numerical failure is not an
+error: it is a `Status`, stored with the result.
 """
 
 from __future__ import annotations
@@ -12,41 +12,54 @@ from pathlib import PurePath
 
 import numpy as np
 
+MAX_VALUE_LENGTH = 80
 
-class SceneError(ValueError):
-    """Input that cannot be simulated.
 
-    key: name of the offending setting; value: what was given; allowed: what would have been accepted;
-    file: where it was read, if anywhere.
+class InputError(ValueError):
+    """An input that cannot be used, with what would be accepted.
+
+    Parameters
+    ----------
+    key : str
+        Name of the setting.
+    value : object
+        Its value.
+    allowed : str
+        The values that are accepted, in words.
+    file : path or str, optional
+        File that holds the setting.
     """
 
     def __init__(self, key: str, value: object, allowed: str, file: object = None) -> None:
         self.key, self.value, self.allowed, self.file = key, value, allowed, file
-        where = f"{file}: " if file is not None else ""
-        super().__init__(f"{where}{key}: got {shown(value)}; allowed: {allowed}")
+        place = f"{file}: " if file is not None else ""
+        super().__init__(f"{place}{key}: got {_value_text(value)}; allowed: {allowed}")
 
-    def __reduce__(self) -> tuple:
-        """So that it can leave a process that it came up in."""
-        return SceneError, (self.key, self.value, self.allowed, self.file)
+    def __reduce__(self) -> tuple[type[InputError], tuple[str, object, str, object]]:
+        """Return what another process needs to make the same error."""
+        return InputError, (self.key, self.value, self.allowed, self.file)
 
-    def within(self, file: object, prefix: str = "") -> SceneError:
-        """Return the same error with the file, and the section of it, in which the key was read."""
-        key = f"{prefix}.{self.key}" if prefix else self.key
-        return SceneError(key, self.value, self.allowed, self.file if self.file is not None else file)
+    def located(self, file: object, section: str = "") -> InputError:
+        """Return the same error with its file and the section that holds the key.
+
+        A file that is known already is kept.
+        """
+        key = f"{section}.{self.key}" if section else self.key
+        return InputError(key, self.value, self.allowed, self.file if self.file is not None else file)
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is one finite real number; text, booleans and arrays are not."""
+    """Return True for one finite real number; text, booleans and arrays are none."""
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def shown(value: object) -> str:
-    """A short form of any value for a message: long ones but paths are cut, arrays give their shape."""
+def _value_text(value: object) -> str:
+    """Return a value as short text: long text is cut, an array gives its shape."""
     if isinstance(value, PurePath):
         return repr(str(value))
     shape = getattr(value, "shape", None)
     if shape:
         return f"array of shape {tuple(shape)}"
-    with np.printoptions(legacy="1.25"):  # numbers of numpy as plain ones, also within lists
+    with np.printoptions(legacy="1.25"):  # a number of numpy as a plain one, also within lists
         text = repr(value)
-    return text if len(text) <= 80 else text[:77] + "..."
+    return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 3] + "..."

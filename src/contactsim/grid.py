@@ -15,7 +15,7 @@ from functools import cached_property
 import ducc0
 import numpy as np
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 Array = np.ndarray
 
@@ -42,11 +42,11 @@ class Grid:
 
     def __post_init__(self) -> None:
         if any(not isinstance(n, int | np.integer) or n < 2 for n in self.shape):
-            raise SceneError("points", self.shape, "at least 2 points in each direction")
+            raise InputError("points", self.shape, "at least 2 points in each direction")
         if any(not (np.isfinite(length) and length > 0) for length in self.lengths):
-            raise SceneError("length", self.lengths, "a positive, finite period in nm")
+            raise InputError("length", self.lengths, "a positive, finite period in nm")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int | np.integer) or self.threads < 1:
-            raise SceneError("threads", self.threads, "a whole number, 1 or more")
+            raise InputError("threads", self.threads, "a whole number, 1 or more")
 
     @cached_property
     def size(self) -> int:

@@ -13,7 +13,7 @@ from functools import cache
 from importlib import metadata
 from pathlib import Path
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.source.normal_form import SourceCode, read_source
 
 PACKAGE = "contactsim"
@@ -41,7 +41,7 @@ def source_of(name: str) -> SourceCode:
     """Return the source of a module of this package in its normal form."""
     path = module_path(name)
     if path is None:
-        raise SceneError("module", name, f"a module of {PACKAGE}")
+        raise InputError("module", name, f"a module of {PACKAGE}")
     return read_source(path.read_text(encoding="utf-8"))
 
 

@@ -16,7 +16,7 @@ from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import Decision, decide_neglect
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.explanation import Explanation, explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.driver import follow_path
@@ -62,22 +62,22 @@ def press(
     Units are free but consistent: lengths in one, pressures in that of E*.
 
     Returns pressure, never negative, gap and contact, each shaped as heights; relative_contact_area; approach; status;
-    record with transforms and the certificate. A `SceneError` says what is wrong with the input.
+    record with transforms and the certificate. A `InputError` says what is wrong with the input.
     """
     if np.ma.is_masked(heights):
-        raise SceneError("heights", heights, "finite numbers, none missing; these are masked in part")
+        raise InputError("heights", heights, "finite numbers, none missing; these are masked in part")
     try:
         given = np.asarray(heights)
         plane = given.ndim > 1
         profile = Topography(given, spacing, None) if plane else Profile(given, spacing, None)
-    except SceneError:
+    except InputError:
         raise
     except ValueError as error:
-        raise SceneError("heights", heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
+        raise InputError("heights", heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
     surface = Sampled(profile)
     if (mean_pressure is None) == (approach is None):
         given = {"mean_pressure": mean_pressure, "approach": approach}
-        raise SceneError("load", given, "exactly one of mean_pressure and approach")
+        raise InputError("load", given, "exactly one of mean_pressure and approach")
     path = pressures([mean_pressure]) if approach is None else approaches([approach])
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), path)
@@ -90,7 +90,7 @@ def _elasticity(contact_modulus: float, thickness: float | None, poisson_ratio: 
     if thickness is not None:
         return Layer(contact_modulus, poisson_ratio, thickness)
     if poisson_ratio is not None:
-        raise SceneError("poisson_ratio", poisson_ratio, "none without a thickness: a half-space has only its E*")
+        raise InputError("poisson_ratio", poisson_ratio, "none without a thickness: a half-space has only its E*")
     return HalfSpace(contact_modulus)
 
 
@@ -163,11 +163,11 @@ def simulate(
     setup = Setup(scene, options)
     if accuracy is None:
         if quantities:
-            raise SceneError("quantities", list(quantities), "none without an accuracy")
+            raise InputError("quantities", list(quantities), "none without an accuracy")
         return follow_path(setup)
     for name, value in {"points": points, "tolerance": tolerance, "increments": increments}.items():
         if value is not None:
-            raise SceneError(name, value, "left out, for it follows from the accuracy")
+            raise InputError(name, value, "left out, for it follows from the accuracy")
     wanted = Accuracy(accuracy, tuple(quantities))
     return solve_to_error(setup, wanted.error, wanted.quantities).data
 

@@ -11,7 +11,7 @@ from contactsim import dataset, reference, variables
 from contactsim.analysis import aggregate
 from contactsim.analysis.ensemble import departure, relative_change, unconverged
 from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fits
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.observables import derived
 from contactsim.observables.forms import AVERAGED, load_dimension
 from contactsim.status import Status
@@ -346,12 +346,12 @@ def test_a_load_that_never_converged_is_passed_over():
 
 
 def test_without_a_spread_nothing_is_significant_and_that_is_said():
-    with pytest.raises(SceneError, match=r"members: got 1; allowed: 2 or more"):
+    with pytest.raises(InputError, match=r"members: got 1; allowed: 2 or more"):
         departure(ensemble(np.ones((2, 1, 2))), "kappa", "hurst")
 
 
 def test_without_two_values_there_is_no_difference_and_that_is_said():
-    with pytest.raises(SceneError, match=r"hurst.*2 or more"):
+    with pytest.raises(InputError, match=r"hurst.*2 or more"):
         departure(ensemble(np.random.default_rng(5).random((1, 4, 2))), "kappa", "hurst")
 
 

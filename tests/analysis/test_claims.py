@@ -13,7 +13,7 @@ from contactsim import dataset
 from contactsim.analysis import aggregate, claims, reductions
 from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.uncertainty import Estimate, estimate
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.figures.diagnostics.claims import COLOURS, COLUMNS, drawn
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
@@ -136,7 +136,7 @@ def test_where_one_mean_has_no_limit_the_claim_is_not_decidable():
 
 
 def test_a_limit_needs_three_grids():
-    with pytest.raises(SceneError, match="kappa_r_limit"):
+    with pytest.raises(InputError, match="kappa_r_limit"):
         claim(quantity="kappa_r_limit")
 
 
@@ -519,7 +519,7 @@ BAD = {
 
 @pytest.mark.parametrize(("changes", "key", "value", "allowed"), BAD.values(), ids=BAD)
 def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes, key, value, allowed):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         claim(**changes)
     error = caught.value
     assert (error.file, error.value) == ("ch3.yaml", value)
@@ -532,6 +532,6 @@ def test_the_plan_refuses_a_bad_claim(tmp_path):
         text = file.read_text(encoding="utf-8")
         (tmp_path / file.name).write_text(text.replace("    reduce: fall\n", "    reduce: sink\n", 1), encoding="utf-8")
     with pytest.raises(
-        SceneError, match=r"ch3.yaml: claims.kappa_not_constant.reduce: got 'sink'; allowed: one of mean"
+        InputError, match=r"ch3.yaml: claims.kappa_not_constant.reduce: got 'sink'; allowed: one of mean"
     ):
         Plan.read(tmp_path)

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from contactsim.analysis.grid_convergence import extrapolated, is_doubled, jackknifed
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 
 def on_grids(*values, points=(1024, 2048, 4096), dims=("points",)):
@@ -51,7 +51,7 @@ def test_what_no_longer_changes_is_its_own_limit():
 def test_other_than_three_doubled_grids_are_refused(points):
     values = on_grids(*range(len(points)), points=points)
     assert not is_doubled(values.points)
-    with pytest.raises(SceneError, match="each twice as fine"):
+    with pytest.raises(InputError, match="each twice as fine"):
         extrapolated(values)
 
 

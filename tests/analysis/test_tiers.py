@@ -8,7 +8,7 @@ import pytest
 
 from contactsim import cli, dataset
 from contactsim.analysis.tiers import FIT_DIMENSIONS, difference_text, differences, is_within, join_rows
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.study.plan import Plan
 from contactsim.study.tier_comparison import compare_tiers
 from support.places import ROOT
@@ -38,7 +38,7 @@ def test_words_and_whole_numbers_are_keys_too():
 
 @pytest.mark.parametrize("keys", [["hurst"], []])
 def test_keys_that_do_not_tell_rows_apart_are_refused(keys):
-    with pytest.raises(SceneError, match="tell all rows apart"):
+    with pytest.raises(InputError, match="tell all rows apart"):
         join_rows(COARSE, FINE, keys)
 
 

@@ -11,7 +11,7 @@ from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import approaches
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Flat
@@ -200,8 +200,8 @@ def test_a_tolerance_that_is_not_positive_is_refused(value):
     def pose():
         try:
             pose_cohesive(scene, scene.heights(16), value)
-        except SceneError as error:
-            raise error.within("scene.yaml") from None
+        except InputError as error:
+            raise error.located("scene.yaml") from None
 
     assert refusal("tolerance", "scene.yaml", pose).value is value
 

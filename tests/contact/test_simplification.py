@@ -13,7 +13,7 @@ from contactsim import cli, dataset
 from contactsim.analysis.aggregate import aggregate
 from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.elasticity.solids import HalfSpace
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import summarise_load_curves
 from contactsim.study import execute
@@ -65,7 +65,7 @@ def test_an_effect_that_no_variant_has_is_refused_and_one_that_some_have_is_not(
     for names in (["friction", "coupling"], ["coupling", "friction"]):
         assert Study.read("asperity", ASPERITY | {"neglect": names}, "ch9.yaml", 1).runs()
     deep = {"body": {"kind": "half_space", "youngs_modulus": 70.0, "poisson_ratio": 0.1}, "neglect": ["height"]}
-    with pytest.raises(SceneError, match=r"neglect: got 'height'; allowed: effects that the study has"):
+    with pytest.raises(InputError, match=r"neglect: got 'height'; allowed: effects that the study has"):
         Study.read("asperity", ASPERITY | deep, "ch9.yaml", 1)
 
 
@@ -102,7 +102,7 @@ def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path
 
 def test_runs_with_nothing_left_out_measure_nothing_where_nothing_is():
     section = {name: value for name, value in ASPERITY.items() if name != "neglect"}
-    with pytest.raises(SceneError, match=r"full_model: got .*; allowed: none, for the study has no neglect"):
+    with pytest.raises(InputError, match=r"full_model: got .*; allowed: none, for the study has no neglect"):
         Study.read("asperity", section, "ch9.yaml", 1)
 
 
@@ -131,6 +131,6 @@ def _aggregated(study, folder):
     ],
 )
 def test_what_cannot_be_left_out_is_refused_with_its_key(changes, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         Study.read("asperity", ASPERITY | changes, "ch9.yaml", 1)
     assert (caught.value.file, caught.value.key) == ("ch9.yaml", f"studies.asperity.{key}")

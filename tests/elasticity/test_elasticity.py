@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from contactsim.elasticity.solids import ELASTICITIES, HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import layer_response
 from contactsim.traits import Trait
 
@@ -100,7 +100,7 @@ def test_the_answers_for_hazards_come_from_another_formula_and_are_the_same(rati
     ],
 )
 def test_what_is_no_layer_is_refused(change, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         ELASTICITIES["layer"](**{"contact_modulus": 1.0, "poisson_ratio": 0.3, "thickness": 1.0} | change)
     assert caught.value.key == key
 

@@ -7,7 +7,7 @@ import pytest
 
 from contactsim.elasticity.solids import HalfSpace, Layer, relative_compliance
 from contactsim.elasticity.symbol import Coupled, Normal
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Grid
 
 BOTH, ONE = ("n", "t"), ("n",)
@@ -132,8 +132,8 @@ def test_surfaces_have_a_normal_component_alone():
     area, body = Grid((8, 8), (5.0, 5.0)), HalfSpace(1.0, 0.3)
     assert np.allclose(relative_compliance(body, None, area, ONE).diagonal[0], body.compliance(area.wavenumber))
     assert relative_compliance(body, None, area, ONE).inverse().diagonal[0, 0, 0] == 0
-    with pytest.raises(SceneError, match="surfaces are not modelled") as caught:
+    with pytest.raises(InputError, match="surfaces are not modelled") as caught:
         relative_compliance(body, None, area, BOTH)
     assert caught.value.key == "components"
-    with pytest.raises(SceneError, match="at least one of the two"):
+    with pytest.raises(InputError, match="at least one of the two"):
         relative_compliance(None, None, LINE, ONE).inverse()

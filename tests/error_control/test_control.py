@@ -35,7 +35,7 @@ from contactsim.error_control.scaling import (
     scaling_relations,
     scene_family,
 )
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw, read_draws
 from contactsim.evaluation.resources import told
 from contactsim.paths.increments import Adaptive
@@ -175,7 +175,7 @@ def test_what_follows_from_an_accuracy_cannot_be_given(key, value):
 
 @pytest.mark.parametrize("value", [0.0, 1.0, -1.0, "fine", {"quantities": []}, {"error": 0.1, "off": []}])
 def test_an_accuracy_is_a_relative_error(value):
-    with pytest.raises(SceneError, match="accuracy"):
+    with pytest.raises(InputError, match="accuracy"):
         study(LINE_SCENE, accuracy=value)
 
 

@@ -14,7 +14,7 @@ from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.explanation import Explanation, explain_setup
 from contactsim.figures.sketch import save_sketch
 from contactsim.interface.hard_wall import HardWall
@@ -49,17 +49,17 @@ def test_a_wall_alone_has_one_component():
 
 
 def test_a_scene_in_which_nothing_resists_overlap_is_refused():
-    with pytest.raises(SceneError, match="resists overlap"):
+    with pytest.raises(InputError, match="resists overlap"):
         scene(effects=())
 
 
 def test_a_scene_in_which_nothing_gives_way_is_refused():
-    with pytest.raises(SceneError, match="elastic body"):
+    with pytest.raises(InputError, match="elastic body"):
         scene(lower=Body(Flat(64.0)))
 
 
 def test_bodies_of_different_period_are_refused():
-    with pytest.raises(SceneError, match="the same periods"):
+    with pytest.raises(InputError, match="the same periods"):
         scene(upper=Body(Flat(65.0)))
 
 

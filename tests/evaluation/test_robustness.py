@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset, press
 from contactsim.contact import hard_wall
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case, made
 from contactsim.evaluation.robustness.judge_loads import faults
 from contactsim.evaluation.robustness.outcome import Outcome
@@ -189,14 +189,14 @@ def test_iterations_without_a_load_are_found():
     ],
 )
 def test_a_bad_setting_is_refused_with_file_key_value_and_what_is_allowed(change, key, value, allowed):
-    with pytest.raises(SceneError, match=r"stability\.yaml") as caught:
+    with pytest.raises(InputError, match=r"stability\.yaml") as caught:
         read_settings(deepcopy(SETTINGS) | change, "stability.yaml")
     assert (caught.value.key, caught.value.value) == (key, value)
     assert allowed in str(caught.value)
 
 
 def test_a_missing_setting_is_refused():
-    with pytest.raises(SceneError, match="severities"):
+    with pytest.raises(InputError, match="severities"):
         read_settings({key: value for key, value in SETTINGS.items() if key != "severities"}, "stability.yaml")
 
 
@@ -215,7 +215,7 @@ def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp
     assert read_stability(tmp_path, standard)["severities"] == list(range(0, 101, 5))
     (tmp_path / "stability.yaml").unlink()
     assert read_stability(tmp_path, standard) is None
-    with pytest.raises(SceneError, match=r"quick\.stability"):
+    with pytest.raises(InputError, match=r"quick\.stability"):
         read_stability(tmp_path, quick)
 
 

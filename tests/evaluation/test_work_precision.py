@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 import yaml
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.work_precision import case_config, cases, error_cost
 from contactsim.simulation import simulate
 from contactsim.solvers import registry as solver_registry
@@ -173,7 +173,7 @@ def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
 def test_a_case_cannot_have_a_name_that_is_no_target_or_that_of_another(tmp_path, name):
     plan = replace(PLAN, studies=PLAN.studies | {"accuracy_taken": PLAN.studies["smooth_line"]})
     (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {name: CASE}}))
-    with pytest.raises(SceneError, match="letters, digits and underscores; with accuracy_ before it no") as caught:
+    with pytest.raises(InputError, match="letters, digits and underscores; with accuracy_ before it no") as caught:
         case_config.read_cases(tmp_path, plan)
     assert (caught.value.key, caught.value.value) == ("quick", name)
 
@@ -186,7 +186,7 @@ def test_a_case_cannot_have_a_name_that_is_no_target_or_that_of_another(tmp_path
     ],
 )
 def test_grids_that_miss_the_shortest_wave_are_refused_before_any_job(tmp_path, changes, key):
-    with pytest.raises(SceneError, match="more than 8190: two points per shortest wavelength") as caught:
+    with pytest.raises(InputError, match="more than 8190: two points per shortest wavelength") as caught:
         case(tmp_path, **ROUGH_CASE | changes)
     assert (caught.value.key, caught.value.value) == (f"quick.case.{key}", 8190)
 
@@ -330,7 +330,7 @@ NO_INCREMENTS = "loads are solved on their own, without increments"
     ],
 )
 def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path, changes, key, allowed):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         case(tmp_path, **changes)
     assert caught.value.key == key
     assert allowed in caught.value.allowed
@@ -366,7 +366,7 @@ def test_a_bad_case_is_refused_with_file_key_value_and_what_is_allowed(tmp_path,
     ],
 )
 def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowed):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         case(tmp_path, PATH_CASE, **changes)
     assert caught.value.key == key
     assert allowed in caught.value.allowed

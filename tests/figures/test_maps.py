@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import contactsim
 from contactsim import dataset
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.figures import ch3, maps
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
@@ -37,7 +37,7 @@ def drawn(figure):
 
 
 def refusal(call):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         call()
     return caught.value
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset
 from contactsim.analysis import aggregate
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.figures import ch3, style
 from contactsim.figures.parts import resolution
 from contactsim.observables.forms import AVERAGED
@@ -99,7 +99,7 @@ def test_ratios_are_taken_at_equal_points_per_wavelength():
 
 def test_ratios_of_ensembles_on_unequal_grids_are_refused():
     lines = made([512, 1024, 2048], scale=0.9, surface=SURFACE | {"length": 128.0})
-    with pytest.raises(SceneError, match=r"points: got \[4.0, 8.0, 16.0\]; allowed: .*\[8.0, 16.0, 32.0\]"):
+    with pytest.raises(InputError, match=r"points: got \[4.0, 8.0, 16.0\]; allowed: .*\[8.0, 16.0, 32.0\]"):
         resolution.ratios(lines, COARSER)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.base import potential
 from contactsim.interface.cohesive_zone import MAX_OVERLAP, CohesiveZone, NormalCohesiveZone
 from contactsim.interface.superposition import Superposition, superpose
@@ -71,7 +71,7 @@ def test_the_traction_is_the_derivative_of_the_energy_where_there_is_one(law):
 
 def test_the_energy_of_a_law_without_a_potential_is_refused():
     for law in (LAWS[-1], TWO):
-        with pytest.raises(SceneError, match="potential"):
+        with pytest.raises(InputError, match="potential"):
             potential(law, gaps(law))
 
 
@@ -161,4 +161,4 @@ def _read(kind, given):
     try:
         return kind(**({"work_of_separation": 2.0} | given))
     except ValueError as error:
-        raise error.within("scene.yaml") from None
+        raise error.located("scene.yaml") from None

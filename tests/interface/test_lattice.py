@@ -13,7 +13,7 @@ from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.solids import Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
@@ -201,7 +201,7 @@ def sliding(lower: object = None, upper: object = BODY, law: object = LAW, pairi
     ],
 )
 def test_what_cannot_be_joined_or_slid_is_refused(change, key):
-    with pytest.raises(SceneError, match=key):
+    with pytest.raises(InputError, match=key):
         sliding(**change)
 
 
@@ -215,16 +215,16 @@ def test_what_cannot_be_joined_or_slid_is_refused(change, key):
     + [{"lattice_constant": 2.0, "weight": float("nan")}, {"lattice_constant": True}],
 )
 def test_options_of_a_lattice_are_checked(options):
-    with pytest.raises(SceneError, match="finite number"):
+    with pytest.raises(InputError, match="finite number"):
         Lattice(**options)
 
 
 def test_a_slide_needs_something_held_and_comes_last():
-    with pytest.raises(SceneError, match="held"):
+    with pytest.raises(InputError, match="held"):
         LoadStep(Trait.SLIDE, 1.0)
-    with pytest.raises(SceneError, match="held"):
+    with pytest.raises(InputError, match="held"):
         LoadStep(Trait.APPROACH, 1.0, held=HELD)
-    with pytest.raises(SceneError, match="presses first"):
+    with pytest.raises(InputError, match="presses first"):
         LoadPath((Slide((0.0, 1.0), 1.0, HELD),)) >> approaches([1.0])
 
 

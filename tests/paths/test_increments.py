@@ -11,7 +11,7 @@ from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.paths.increments import Adaptive
 from contactsim.solvers.cohesive.base import SEPARATION
@@ -250,7 +250,7 @@ def test_work_is_counted_in_transforms():
 
 
 def test_adaptive_increments_need_a_solver_that_predicts():
-    with pytest.raises(SceneError, match=r"^increments: got 'adaptive'; allowed: requested"):
+    with pytest.raises(InputError, match=r"^increments: got 'adaptive'; allowed: requested"):
         walk(scene_of(LAWS["uncoupled"], JUMP), method="damped_verlet", increments=Adaptive())
 
 
@@ -258,7 +258,7 @@ def test_adaptive_increments_need_a_solver_that_predicts():
     "options", [{"error": 0.0}, {"least": -1.0}, {"most": float("nan")}, {"least": 2.0, "most": 1.0}]
 )
 def test_increments_out_of_range_are_refused(options):
-    with pytest.raises(SceneError, match=rf"^{next(iter(options))}: got .*; allowed: "):
+    with pytest.raises(InputError, match=rf"^{next(iter(options))}: got .*; allowed: "):
         Adaptive(**options)
 
 

@@ -11,7 +11,7 @@ from contactsim.contact.loading import LoadPath
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.continuation import Continuation
@@ -117,7 +117,7 @@ def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_th
 
 
 def test_parts_of_a_path_count_from_the_same_place():
-    with pytest.raises(SceneError, match="from_touch") as caught:
+    with pytest.raises(InputError, match="from_touch") as caught:
         loading.approaches([1.0]) >> LoadPath(loading.approaches([2.0]).steps, from_touch=True)
     assert caught.value.key == "from_touch"
 
@@ -132,7 +132,7 @@ def test_parts_of_a_path_count_from_the_same_place():
     ],
 )
 def test_impossible_options_are_refused(options, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         Nested([0.0], **options)
     assert caught.value.key == key
 
@@ -140,20 +140,20 @@ def test_impossible_options_are_refused(options, key):
 def test_a_ratio_that_leaves_no_even_grid_is_refused():
     scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
     problem = pose_cohesive(scene, scene.heights(72), 1e-7)
-    with pytest.raises(SceneError, match="half the grid's 72 points"):
+    with pytest.raises(InputError, match="half the grid's 72 points"):
         list(Nested([0.0]).follow(problem, make_solver("newton"), scene.path.steps))
 
 
 def test_a_value_for_the_full_grid_that_is_no_step_is_refused():
     scene = rough_scene(ROUGH_LAWS["normal"])
-    with pytest.raises(SceneError, match="steps of the path") as caught:
+    with pytest.raises(InputError, match="steps of the path") as caught:
         walk(scene, points=4096, increments=Nested([0.0, 0.3]))
     assert (caught.value.key, caught.value.value) == ("full_grid_at", [0.3])
 
 
 def test_a_tolerance_that_doing_nothing_would_meet_is_refused():
     scene = scene_of(LAWS["uncoupled"], along(0, 1, 1))
-    with pytest.raises(SceneError, match=r"at most 0[.]1") as caught:
+    with pytest.raises(InputError, match=r"at most 0[.]1") as caught:
         pose_cohesive(scene, scene.heights(64), 10.0)
     assert caught.value.key == "tolerance"
 

@@ -20,7 +20,7 @@ from scipy.stats import linregress
 
 from contactsim import dataset
 from contactsim.analysis import aggregate, costs
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.publish import bundle
 from contactsim.study.execute import RunFiles, run
 from support.places import ROOT
@@ -188,7 +188,7 @@ def test_what_is_missing_or_damaged_is_named_and_leaves_no_half_bundle(plan, res
     older = tmp_path / "bundle"
     older.mkdir()
     (older / "LICENSE").touch()
-    with pytest.raises(SceneError) as refused:
+    with pytest.raises(InputError) as refused:
         bundle.make(plan, results | {place: spoiled}, older)
     assert refused.value.key == key
     assert Path(place).name in str(refused.value)

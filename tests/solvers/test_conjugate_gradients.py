@@ -12,7 +12,7 @@ from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
@@ -257,13 +257,13 @@ def test_any_heights_under_any_load_are_certified_or_fail_honestly(ny, nx, load,
 
 
 def test_a_line_is_refused():
-    with pytest.raises(SceneError, match="LINE"):
+    with pytest.raises(InputError, match="LINE"):
         press_line(np.arange(8.0), 0.1, solver="conjugate_gradients")
 
 
 @pytest.mark.parametrize("options", [{"wavelength": 0.0}, {"coarsest": 1}, {"coarse_tolerance": 0.0}])
 def test_bad_options_are_refused(options):
-    with pytest.raises(SceneError, match=next(iter(options))):
+    with pytest.raises(InputError, match=next(iter(options))):
         NestedConjugateGradients(**options)
 
 
@@ -289,5 +289,5 @@ def test_tamaas_finds_the_same_solution_of_a_surface_whatever_its_shape():
 
 def test_tamaas_is_refused_where_its_wavenumbers_are_wrong():
     pytest.importorskip("tamaas")
-    with pytest.raises(SceneError, match="an even number of rows"):
+    with pytest.raises(InputError, match="an even number of rows"):
         contactsim.press(rough(64)[:45], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, solver="tamaas")

@@ -14,7 +14,7 @@ from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.explanation import explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
@@ -158,12 +158,12 @@ def test_before_first_touch_nothing_is_solved():
 
 @pytest.mark.parametrize("solver", ["polonsky_keer", "verlet"])
 def test_a_solver_that_cannot_take_an_approach_says_so(solver):
-    with pytest.raises(SceneError, match=r"accepts APPROACH \(load step given by an approach\)"):
+    with pytest.raises(InputError, match=r"accepts APPROACH \(load step given by an approach\)"):
         contactsim.press(rough(64), spacing=1.0, contact_modulus=1.0, approach=0.0, solver=solver)
 
 
 def test_an_approach_beyond_full_contact_is_refused():
-    with pytest.raises(SceneError, match="full contact") as caught:
+    with pytest.raises(InputError, match="full contact") as caught:
         contactsim.press(wave(64), spacing=1.0, contact_modulus=1.0, approach=0.1)
     assert caught.value.key == "approach"
 
@@ -181,7 +181,7 @@ def test_each_solver_accepts_every_trait_it_claims_and_refuses_the_rest(name):
         if trait in method.accepts:
             check_solver(method, scene)
         else:
-            with pytest.raises(SceneError, match=trait.name):
+            with pytest.raises(InputError, match=trait.name):
                 check_solver(method, scene)
 
 
@@ -198,13 +198,13 @@ def test_polonsky_keer_finds_the_same_contact_of_a_surface(pressure, thickness):
 
 
 def test_an_unknown_solver_is_refused_with_those_that_exist():
-    with pytest.raises(SceneError, match=", ".join(sorted(SOLVERS))):
+    with pytest.raises(InputError, match=", ".join(sorted(SOLVERS))):
         press(rough(64), 0.1, "conjugate_dreams")
 
 
 @pytest.mark.parametrize(("options", "key"), [({"time_step": 1.0}, "time_step"), ({"damping": 0.0}, "damping")])
 def test_verlet_refuses_options_that_blow_up_or_never_settle(options, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         make_solver("verlet", **options)
     assert caught.value.key == key
 
@@ -342,7 +342,7 @@ def test_tamaas_finds_the_same_solution_and_its_transforms_are_counted(load):
 
 def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypatch):
     monkeypatch.setattr("contactsim.solvers.registry.find_spec", lambda name: None)
-    with pytest.raises(SceneError, match="pip install tamaas"):
+    with pytest.raises(InputError, match="pip install tamaas"):
         make_solver("tamaas")
     scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.pressures([1.0]))
     assert "tamaas: is not installed" in explain_setup(Setup(scene, RunOptions(64))).text

@@ -116,7 +116,7 @@ def _require(kind, scene):
     try:
         check_solver(make_solver(kind), scene)
     except ValueError as error:
-        raise error.within("None") from None
+        raise error.located("None") from None
 
 
 @pytest.mark.parametrize(

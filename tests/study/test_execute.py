@@ -12,7 +12,7 @@ import contactsim
 from contactsim import dataset
 from contactsim.analysis import costs
 from contactsim.contact import loading
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.paths import pressures
 from contactsim.status import Status
 from contactsim.study import execute
@@ -409,11 +409,11 @@ def test_the_time_left_is_that_of_steps_still_to_be_solved(place, caplog, monkey
     ],
 )
 def test_what_a_hard_wall_has_no_use_for_is_refused(options, refused):
-    with pytest.raises(SceneError, match=refused):
+    with pytest.raises(InputError, match=refused):
         contactsim.simulate(build_setup(settings_of()).scene, points=256, **options)
 
 
 def test_what_a_smooth_law_has_no_use_for_is_refused():
     scene = smooth.scene_of(smooth.LAWS["uncoupled"], loading.approaches([-9.0]))
-    with pytest.raises(SceneError, match=r"keep: got .*contact.*; allowed: none with smooth laws"):
+    with pytest.raises(InputError, match=r"keep: got .*contact.*; allowed: none with smooth laws"):
         contactsim.simulate(scene, points=64, keep=["contact"])

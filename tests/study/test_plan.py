@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
 
@@ -74,7 +74,7 @@ def folder(tmp_path):
 
 
 def refusal(folder, tier=None):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         Plan.read(folder, tier)
     return caught.value
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 import yaml
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.study.reading import (
     Key,
     choice,
@@ -36,7 +36,7 @@ KEYS = {
 
 def refusal(section, keys=KEYS):
     """The error of reading a section that stands at `part` in a file."""
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         read(section, keys, "file.yaml", "part")
     return caught.value
 
@@ -68,7 +68,7 @@ def test_a_missing_key_is_refused_with_what_it_wants():
 
 
 def test_at_the_top_of_a_file_keys_have_no_prefix():
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         read({}, KEYS, "file.yaml")
     assert caught.value.key == "length"
 
@@ -181,7 +181,7 @@ def written(tmp_path):
 
 
 def file_refusal(path):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         load_yaml(path)
     return caught.value
 
@@ -263,6 +263,6 @@ def test_null_takes_out_a_key_that_there_is():
 
 
 def test_an_error_stays_what_it_is_on_its_way_between_processes():
-    error = pickle.loads(pickle.dumps(SceneError("points", 3, "more", "file.yaml")))
+    error = pickle.loads(pickle.dumps(InputError("points", 3, "more", "file.yaml")))
     assert (error.key, error.value, error.allowed, error.file) == ("points", 3, "more", "file.yaml")
     assert str(error) == "file.yaml: points: got 3; allowed: more"

@@ -8,7 +8,7 @@ import pytest
 
 from contactsim import dataset
 from contactsim.analysis import aggregate
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.provenance import canonical
 from contactsim.solvers.hard_wall.active_set import NestedActiveSet
 from contactsim.study import execute
@@ -68,7 +68,7 @@ def smooth(kind, load, **changes):
 
 
 def refusal(changes):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         study(changes)
     return caught.value
 
@@ -251,7 +251,7 @@ def test_a_path_that_cannot_be_walked_is_refused_when_the_study_is_read(changes,
 
 @pytest.mark.parametrize("section", [None, [], "a study"])
 def test_a_study_that_is_no_mapping_is_refused(section):
-    with pytest.raises(SceneError, match=r"^ch9\.yaml: studies\.rough: got "):
+    with pytest.raises(InputError, match=r"^ch9\.yaml: studies\.rough: got "):
         Study.read("rough", section, "ch9.yaml", 1)
 
 
@@ -263,7 +263,7 @@ def test_a_solver_that_does_not_accept_the_scene_is_refused_with_the_trait(monke
 
 
 def test_reduced_pressures_on_a_flat_surface_are_refused():
-    with pytest.raises(SceneError, match=r"load.*reduced_pressure.*allowed"):
+    with pytest.raises(InputError, match=r"load.*reduced_pressure.*allowed"):
         smooth("flat", {"reduced_pressure": [0.1]})
 
 
@@ -593,7 +593,7 @@ def test_tight_runs_come_after_all_others_and_differ_in_the_tolerance_alone():
     ],
 )
 def test_a_bad_tight_companion_is_refused(tight, key, allowed):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         study({"tight_tolerance": tight})
     assert caught.value.key == f"studies.rough.tight_tolerance.{key}"
     assert allowed in caught.value.allowed
@@ -631,7 +631,7 @@ def test_a_run_on_a_varied_grid_is_that_of_a_study_with_this_grid():
     ],
 )
 def test_grids_that_cannot_be_varied_are_refused(changes, key, allowed):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         study(FINER | changes)
     assert caught.value.key == f"studies.rough.{key}"
     assert allowed in caught.value.allowed

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import contactsim
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.solvers.base import Result
 from contactsim.solvers.registry import REQUIRED_PACKAGES, SOLVERS, solver_class
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
@@ -26,9 +26,9 @@ FAST = ("active_set", "polonsky_keer")
 
 
 @contextmanager
-def refused(key: str, allowed: str) -> Iterator[pytest.ExceptionInfo[SceneError]]:
-    """Expect a SceneError whose key ends so, and whose allowed values say so."""
-    with pytest.raises(SceneError) as caught:
+def refused(key: str, allowed: str) -> Iterator[pytest.ExceptionInfo[InputError]]:
+    """Expect a InputError whose key ends so, and whose allowed values say so."""
+    with pytest.raises(InputError) as caught:
         yield caught
     assert caught.value.key.endswith(key)
     assert allowed in caught.value.allowed
@@ -60,9 +60,9 @@ def compliance(points: int) -> np.ndarray:
     return first[(index[:, None] - index) % points]
 
 
-def refusal(key: str, file: object, call: Callable[[], object]) -> SceneError:
+def refusal(key: str, file: object, call: Callable[[], object]) -> InputError:
     """Return the error of a call, after checking that it names file, key, value and what is allowed."""
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         call()
     error = caught.value
     assert error.key == key

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.surfaces.io import UNITS
 from contactsim.surfaces.profile import DETREND, PERIODIC, Profile, prepare, read_profile
 from support.cases import refusal
@@ -373,7 +373,7 @@ def test_a_missing_file_is_refused(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("path", [None, 3, ["p.csv"]])
 def test_a_path_that_is_none_is_refused(path: object) -> None:
-    with pytest.raises(SceneError, match=r"path: got .*; allowed: an existing file") as caught:
+    with pytest.raises(InputError, match=r"path: got .*; allowed: an existing file") as caught:
         read_profile(path)
     assert caught.value.value == path
 
@@ -716,5 +716,5 @@ def test_unknown_kinds_are_refused_with_the_known_ones(kind: object) -> None:
 
 @pytest.mark.parametrize("heights", [[1.0], [], [1.0, np.nan], [[1.0, 2.0]], ["a", "b"], 3.0])
 def test_heights_that_are_no_profile_are_refused(heights: object) -> None:
-    with pytest.raises(SceneError, match=r"^mine: heights: got "):
+    with pytest.raises(InputError, match=r"^mine: heights: got "):
         Profile(heights, SPACING, "mine")

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.surfaces.measured import Measured, Sampled
 from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
@@ -139,7 +139,7 @@ def test_smooth_surfaces_have_their_shape():
     ],
 )
 def test_an_impossible_surface_is_refused_by_key(build, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         build()
     assert caught.value.key == key
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_pairs, rms_height, spectrum
 
 
@@ -60,5 +60,5 @@ def test_the_spectrum_integrates_to_the_variance(points):
 
 
 def test_the_spectrum_of_a_surface_is_refused():
-    with pytest.raises(SceneError, match="one dimension"):
+    with pytest.raises(InputError, match="one dimension"):
         spectrum(np.zeros((4, 4)), 1.0)

@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from contactsim import dataset
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.status import Status
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
@@ -405,7 +405,7 @@ def test_a_diagonal_of_points_is_refused_without_the_memory_of_its_square(tmp_pa
 
 @pytest.mark.parametrize("path", [None, 3, "none.npy", "none.tif"])
 def test_a_missing_file_is_refused(path: object) -> None:
-    with pytest.raises(SceneError, match=r"path: got .*; allowed: an existing file"):
+    with pytest.raises(InputError, match=r"path: got .*; allowed: an existing file"):
         read_topography(path, spacing=1)
 
 
@@ -759,7 +759,7 @@ def test_a_measured_surface_has_its_own_points_and_periods_in_both_directions(tm
     surface = MeasuredSurface(str(write_nc(tmp_path)), "none", "none")
     assert (surface.points, surface.lengths, surface.modes) == (NX, (NY * DY, NX * DX), None)
     np.testing.assert_array_equal(surface.heights(NX), HEIGHTS)
-    with pytest.raises(SceneError, match=rf"points: got {NY}; allowed: {NX}, the number of points"):
+    with pytest.raises(InputError, match=rf"points: got {NY}; allowed: {NX}, the number of points"):
         surface.heights(NY)
 
 
@@ -780,7 +780,7 @@ def test_a_measured_surface_can_be_configured() -> None:
         assert read({"file": "t.npy", "spacing": spacing}, keys, "ch9.yaml")["spacing"] == spacing
     for spacing in (0, [1.0], [1.0, -1.0], [1, 2, 3], "2", "1e-6", True, {}):
         with pytest.raises(
-            SceneError, match=r"ch9.yaml: surface.spacing: got .*; allowed: a positive number or a list"
+            InputError, match=r"ch9.yaml: surface.spacing: got .*; allowed: a positive number or a list"
         ):
             read({"file": "t.npy", "spacing": spacing}, keys, "ch9.yaml", "surface")
 

@@ -10,7 +10,7 @@ from scipy.optimize import nnls
 
 import contactsim
 from contactsim import reference
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.cases import Case, alone, complete, made, mirrored, on_top
 from contactsim.evaluation.robustness.lines import LINES
@@ -266,7 +266,7 @@ def test_zero_load_touches_without_iterating(name):
 
 @pytest.mark.parametrize("name", ALL)
 def test_tension_is_refused(name):
-    with pytest.raises(SceneError, match="nothing can pull") as caught:
+    with pytest.raises(InputError, match="nothing can pull") as caught:
         press(rough(64), -1e-3, name)
     assert (caught.value.key, caught.value.value) == ("mean_pressure", -1e-3)
 

@@ -16,7 +16,7 @@ from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case, layer_response
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.survey import judge
@@ -200,7 +200,7 @@ def test_an_incompressible_layer_keeps_its_volume():
     heights = rough(256) + 2.0
     result = pressed(heights, ratio=0.5, thickness=20.0, mean_pressure=0.05, tolerance=1e-8)
     assert result.gap.mean() == pytest.approx(-result.approach - heights.mean(), abs=1e-9)
-    with pytest.raises(SceneError, match="an incompressible layer keeps its volume") as caught:
+    with pytest.raises(InputError, match="an incompressible layer keeps its volume") as caught:
         pressed(heights, ratio=0.5, thickness=20.0, approach=-1.99)
     assert caught.value.key == "approach"
     deep = pressed(heights, ratio=0.5, thickness=20.0, approach=-2.0 - 1e-3, tolerance=1e-8)
@@ -250,7 +250,7 @@ def test_a_solver_that_knows_half_spaces_alone_refuses_a_layer():
     class Elder(ActiveSet):
         accepts = ActiveSet.accepts - {Trait.LAYER}
 
-    with pytest.raises(SceneError, match=r"accepts LAYER \(layer on a rigid base"):
+    with pytest.raises(InputError, match=r"accepts LAYER \(layer on a rigid base"):
         check_solver(Elder(), scene(Layer(1.0, 0.3, 1.0)))
 
 
@@ -345,10 +345,10 @@ def test_a_layer_is_drawn_to_scale_where_that_can_be_seen_and_says_so_where_not(
 
 def test_a_ratio_without_a_thickness_and_a_thickness_without_a_ratio_are_refused():
     given_load = {"spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1}
-    with pytest.raises(SceneError, match="none without a thickness") as caught:
+    with pytest.raises(InputError, match="none without a thickness") as caught:
         contactsim.press([0.0, 1.0], poisson_ratio=0.3, **given_load)
     assert caught.value.key == "poisson_ratio"
-    with pytest.raises(SceneError, match=r"at most 0\.5") as caught:
+    with pytest.raises(InputError, match=r"at most 0\.5") as caught:
         contactsim.press([0.0, 1.0], thickness=1.0, **given_load)
     assert caught.value.key == "poisson_ratio"
 
@@ -361,7 +361,7 @@ def test_a_study_may_have_a_layer_but_not_ask_it_for_the_load_of_a_half_space():
         "load": {"name": "mean_pressure", "values": [0.01]},
     }
     assert build_scene(section).elasticities == (Layer(1.0, 0.4, 50.0),)
-    with pytest.raises(SceneError, match=r"Eq. 3.5 holds on a half-space"):
+    with pytest.raises(InputError, match=r"Eq. 3.5 holds on a half-space"):
         build_scene(section | {"load": {"name": "contact_ratio", "values": [0.1]}})
 
 

@@ -9,7 +9,7 @@ import pytest
 from contactsim.elasticity.plane_strain import bonded_stiffness, both_faces
 from contactsim.elasticity.solids import FreeLayer, HalfSpace, Layer
 from contactsim.elasticity.symbol import Coupled
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from support.cases import navier
 
 RATIOS = (-0.9, 0.0, 0.25, 0.3, 0.49999, 0.5)
@@ -200,8 +200,8 @@ def test_neither_a_stretched_unit_of_length_nor_of_modulus_matters():
 
 
 def test_a_half_space_without_a_ratio_is_refused_where_it_matters():
-    with pytest.raises(SceneError, match=r"poisson_ratio: got None; .* along x") as caught:
+    with pytest.raises(InputError, match=r"poisson_ratio: got None; .* along x") as caught:
         HalfSpace(1.0).coupled_compliance(np.ones(1))
     assert caught.value.key == "poisson_ratio"
-    with pytest.raises(SceneError, match=r"at most 0\.5"):
+    with pytest.raises(InputError, match=r"at most 0\.5"):
         HalfSpace(1.0, 0.6)

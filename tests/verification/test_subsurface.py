@@ -12,7 +12,7 @@ import pytest
 from contactsim import reference
 from contactsim.elasticity.solids import FreeLayer, HalfSpace, Layer, relative_compliance
 from contactsim.elasticity.subsurface import Fields, inside
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.figures.parts import stress
 from contactsim.grid import Grid
 from support.cases import navier
@@ -193,14 +193,14 @@ def test_the_largest_shear_below_a_cylinder_is_where_it_should_be():
     ],
 )
 def test_what_is_not_inside_or_no_traction_is_refused(traction, depths, key):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(InputError) as caught:
         inside(Layer(1.0, 0.3, 7.0), LINE, traction, depths)
     assert caught.value.key == key
 
 
 def test_bodies_without_a_ratio_or_a_base_are_refused():
     for body, key in ((HalfSpace(1.0), "poisson_ratio"), (FreeLayer(1.0, 0.3, 7.0), "body")):
-        with pytest.raises(SceneError) as caught:
+        with pytest.raises(InputError) as caught:
             inside(body, LINE, np.zeros((1, 96)), [1.0])
         assert caught.value.key == key
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.calibration import sampling
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.effects import survey as effect_survey
@@ -66,12 +66,12 @@ class Products:
 
         Raises
         ------
-        SceneError
+        InputError
             Where a key or value is wrong.
         """
         unknown = sorted(set(options) - {"tier"})
         if unknown:
-            raise SceneError("--config", unknown, "tier=NAME")
+            raise InputError("--config", unknown, "tier=NAME")
         plan = Plan.read(config, options.get("tier"))
         cases = case_config.read_cases(config, plan)
         return cls(

@@ -6,7 +6,7 @@ from pathlib import Path
 ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT / "workflow/lib"))
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from jobs import EvaluationJobs, ResultJobs, RunJobs, code_digest, group_on_cluster, timed_threads
 from library import share_library
 from lock import lock_folder
@@ -17,7 +17,7 @@ CONFIG = ROOT / "config"
 share_library()
 try:
     PRODUCTS = Products.read(CONFIG, config)
-except SceneError as error:
+except InputError as error:
     sys.exit(f"Error: {error}")
 PLAN, RESULTS = PRODUCTS.plan, PRODUCTS.results
 RUN_JOBS, RESULT_JOBS, EVALUATION_JOBS, PAGES = RunJobs(PLAN), ResultJobs(PLAN), EvaluationJobs(PRODUCTS), Pages(PRODUCTS)

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.analysis import grid_convergence
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.status import is_solved
 
 ROUNDING = 1e-9
@@ -44,12 +44,12 @@ def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:
 def ratio_limits(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
     """The mean of a quantity over that in another, independent ensemble, on three grids and extrapolated.
 
-    `points` of both count the same points per wavelength: SceneError if not. Returns `ratio` along `points` and, with
+    `points` of both count the same points per wavelength: InputError if not. Returns `ratio` along `points` and, with
     both means extrapolated, `limit` and its `spread`: less that of first order; each with its standard error.
     """
     grids, others = one.points.values, two.points.values
     if grids.shape != others.shape or not np.allclose(grids, others, rtol=1e-9, atol=0):
-        raise SceneError("points", others.tolist(), f"per wavelength those of the other ensemble, {grids.tolist()}")
+        raise InputError("points", others.tolist(), f"per wavelength those of the other ensemble, {grids.tolist()}")
     two = two.assign_coords(points=grids)
 
     def ratios(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
@@ -88,9 +88,9 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
     taken member by member there; different Hurst exponents are independent. Needs two members or more.
     """
     if data.member.size < 2:
-        raise SceneError("members", data.member.size, "2 or more: without a spread nothing is significant")
+        raise InputError("members", data.member.size, "2 or more: without a spread nothing is significant")
     if data[along].size < 2:
-        raise SceneError(along, data[along].size, "2 or more values: a difference needs two")
+        raise InputError(along, data[along].size, "2 or more values: a difference needs two")
     values = converged(data[name], data)
     others = [dim for dim in values.dims if dim not in ("member", along)]
     best = None

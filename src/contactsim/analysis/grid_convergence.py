@@ -17,7 +17,7 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 GRIDS = 3
 """Grids that an extrapolation takes."""
@@ -36,7 +36,7 @@ def extrapolated(values: xr.DataArray) -> xr.Dataset:
     changes turn round or do not shrink; values that no longer change are their own limit.
     """
     if not is_doubled(values.points):
-        raise SceneError("points", values.points.values.tolist(), f"{GRIDS} grids, each twice as fine as the last")
+        raise InputError("points", values.points.values.tolist(), f"{GRIDS} grids, each twice as fine as the last")
     coarse, medium, fine = (values.isel(points=place, drop=True) for place in range(GRIDS))
     before, last = medium - coarse, fine - medium
     shrinks = (before * last >= 0) & (abs(before) > abs(last))

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from pandas.api.types import is_numeric_dtype
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 
 SAME = 1e-6
@@ -38,14 +38,14 @@ def join_rows(first: pd.DataFrame, second: pd.DataFrame, keys: list[str]) -> pd.
 
     Raises
     ------
-    SceneError
+    InputError
         If the keys do not identify the rows.
     """
     numeric = [key for key in keys if is_numeric_dtype(first[key]) and is_numeric_dtype(second[key])]
     second = second.assign(**{key: _snap(second[key].to_numpy(), first[key].unique()) for key in numeric})
     for table in (first, second):
         if not keys or table.duplicated(keys).any():
-            raise SceneError("key columns", keys, "columns that tell all rows apart")
+            raise InputError("key columns", keys, "columns that tell all rows apart")
     return pd.concat({"first": first.set_index(keys), "second": second.set_index(keys)}, axis=1, join="inner")
 
 

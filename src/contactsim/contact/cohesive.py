@@ -30,7 +30,7 @@ from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import relative_compliance
 from contactsim.elasticity.symbol import Symbol
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, Tally
 from contactsim.interface.base import Law, is_law, potential
 from contactsim.interface.pairing import Pairing
@@ -268,7 +268,7 @@ class CohesiveProblem:
 def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
     """Refuse a tolerance that is no positive number, or so large that the undeformed state would meet it."""
     if not (is_number(tolerance) and 0 < tolerance <= MAX_TOLERANCE):
-        raise SceneError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")
+        raise InputError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")
 
 
 def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:
@@ -287,7 +287,7 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
 
     Raises
     ------
-    SceneError
+    InputError
         If the tolerance or the grid is not allowed.
     """
     check_tolerance(tolerance)

@@ -20,7 +20,7 @@ import numpy as np
 
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, Operator, Tally
 from contactsim.traits import Trait
 
@@ -248,7 +248,7 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
     if not (np.isfinite(extents).all() and flexibility > 0 and positive):
         values = f"{grid.spacing[-1]:g}, {scene.contact_modulus:g}, {np.abs(heights).max():g}, {pressure:g}"
         allowed = "units in which heights, pressures and their ratios stay within the range of floating point"
-        raise SceneError("spacing, contact_modulus, heights, mean_pressure", values, allowed)
+        raise InputError("spacing, contact_modulus, heights, mean_pressure", values, allowed)
     return symbol
 
 
@@ -279,12 +279,12 @@ def pose_hard_wall(
 
     Raises
     ------
-    SceneError
+    InputError
         If the tolerance is not positive, the approach is beyond full contact of a body whose mean displacement is zero,
         or the units leave the range of floating point.
     """
     if not (is_number(tolerance) and tolerance > 0):
-        raise SceneError("tolerance", tolerance, "a positive number of grid steps")
+        raise InputError("tolerance", tolerance, "a positive number of grid steps")
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     value = step.value + scene.path.origin(heights)
@@ -316,4 +316,4 @@ def _check_full_contact(scene: Scene, heights: Array, value: float, overlap: flo
     if uniform == 0 and overlap > 0 and value >= -heights.mean():
         limit = 0.0 if abs(heights.mean()) < 1e-12 * np.abs(heights).max() else -heights.mean()
         allowed = f"below {limit:.17g}, full contact: the mean displacement is zero, {_zero_mean_reason(scene)}"
-        raise SceneError("approach", value, allowed)
+        raise InputError("approach", value, allowed)

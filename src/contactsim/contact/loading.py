@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.contact.steps import LoadStep, PathPart, Slide, Sweep
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -40,7 +40,7 @@ class LoadPath:
     def __post_init__(self) -> None:
         sliding = [part.slides for part in self.parts]
         if sliding != sorted(sliding):
-            raise SceneError("path", "pressed after sliding", "a path that presses first, then slides")
+            raise InputError("path", "pressed after sliding", "a path that presses first, then slides")
 
     @cached_property
     def steps(self) -> tuple[LoadStep, ...]:
@@ -50,7 +50,7 @@ class LoadPath:
     def __rshift__(self, later: LoadPath) -> LoadPath:
         """Return this path followed by another."""
         if later.from_touch is not self.from_touch:
-            raise SceneError("from_touch", later.from_touch, "the same for all parts of a path")
+            raise InputError("from_touch", later.from_touch, "the same for all parts of a path")
         return LoadPath(self.parts + later.parts, self.from_touch)
 
     @property
@@ -98,7 +98,7 @@ class LoadPath:
 
         Raises
         ------
-        SceneError
+        InputError
             Where the path passes no step that near.
         """
         values = self._values
@@ -106,7 +106,7 @@ class LoadPath:
         beside = np.abs(values[max(place - 1, 0) : place + 2] - values[place])
         beside = beside[np.isfinite(beside)]
         if abs(values[place] - value) > beside.max(initial=0.0) / 2 + 1e-9:
-            raise SceneError("snapshots", value, f"values near steps of the path; the nearest is {values[place]:g}")
+            raise InputError("snapshots", value, f"values near steps of the path; the nearest is {values[place]:g}")
         return place
 
     @cached_property
@@ -183,7 +183,7 @@ def sliding(
     """
     if (approach is None) == (mean_pressure is None):
         values = {"approach": approach, "mean_pressure": mean_pressure}
-        raise SceneError("held", values, "exactly one of approach and mean_pressure")
+        raise InputError("held", values, "exactly one of approach and mean_pressure")
     held = LoadStep(Trait.MEAN_PRESSURE, mean_pressure) if approach is None else LoadStep(Trait.APPROACH, approach)
     return LoadPath((Slide(tuple(turning_points), increment, held),), from_touch)
 

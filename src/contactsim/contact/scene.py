@@ -16,7 +16,7 @@ import numpy as np
 
 from contactsim.contact.loading import LoadPath
 from contactsim.elasticity.solids import Elasticity
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, is_coupled
 from contactsim.interface.pairing import ALIGNED, Pairing
@@ -76,7 +76,7 @@ class Scene:
 
     Raises
     ------
-    SceneError
+    InputError
         For bodies, effects and paths that do not go together.
     """
 
@@ -107,12 +107,12 @@ class Scene:
     def _check_parts(self) -> None:
         """Raise InputError for bodies, effects or loads that are missing or impossible."""
         if not self.elasticities:
-            raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
+            raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not self.effects:
-            raise SceneError("effects", self.effects, "at least one, which resists overlap")
+            raise InputError("effects", self.effects, "at least one, which resists overlap")
         for step in self.path.steps if Trait.WALL in self.traits else ():
             if step.control is Trait.MEAN_PRESSURE and step.value < 0:
-                raise SceneError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
+                raise InputError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
 
     def _check_sliding(self) -> None:
         """Raise InputError for tangential displacements that nothing determines."""
@@ -120,16 +120,16 @@ class Scene:
             elasticity = body.elasticity
             if "t" in self.components and elasticity is not None and elasticity.poisson_ratio is None:
                 allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
-                raise SceneError("poisson_ratio", None, allowed)
+                raise InputError("poisson_ratio", None, allowed)
         if self.sliding and "t" not in self.components:
-            raise SceneError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
+            raise InputError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
 
     def _check_surfaces(self) -> None:
         """Raise InputError for surfaces that the pairing cannot join, or of different periods."""
         self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
-            raise SceneError("length", lengths, "the same periods for both surfaces")
+            raise InputError("length", lengths, "the same periods for both surfaces")
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:

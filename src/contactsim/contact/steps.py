@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Protocol
 
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.traits import Trait
 
 MAX_STEPS = 1_000_000
@@ -70,9 +70,9 @@ class LoadStep:
 
     def __post_init__(self) -> None:
         if not is_number(self.value):
-            raise SceneError(self.control.name.lower(), self.value, "a finite number")
+            raise InputError(self.control.name.lower(), self.value, "a finite number")
         if (self.held is not None) != (self.control is Trait.SLIDE):
-            raise SceneError("held", self.held, "an approach or a mean pressure while sliding, and only then")
+            raise InputError("held", self.held, "an approach or a mean pressure while sliding, and only then")
 
     @property
     def normal(self) -> LoadStep:
@@ -191,5 +191,5 @@ def _leg(begin: float, end: float, increment: float) -> list[float]:
     """Return values from one, exclusive, to another, inclusive, in equal increments of about that size."""
     count = max(round(abs(end - begin) / increment), 1)
     if count > MAX_STEPS:
-        raise SceneError("increment", increment, f"one of at most {MAX_STEPS} steps from {begin:g} to {end:g}")
+        raise InputError("increment", increment, f"one of at most {MAX_STEPS} steps from {begin:g} to {end:g}")
     return [begin + (end - begin) * k / count for k in range(1, count + 1)]

@@ -37,7 +37,7 @@ import numpy as np
 from contactsim.elasticity import plane_strain
 from contactsim.elasticity.plane_strain import DEEP, bonded_denominator, sinh_less_argument
 from contactsim.elasticity.symbol import Coupled, Normal, Symbol
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid
 from contactsim.traits import Trait
 
@@ -71,12 +71,12 @@ class Elasticity(Protocol):
 
 def _check_modulus(contact_modulus: float) -> None:
     if not (is_number(contact_modulus) and contact_modulus > 0):
-        raise SceneError("contact_modulus", contact_modulus, "a positive, finite number in GPa")
+        raise InputError("contact_modulus", contact_modulus, "a positive, finite number in GPa")
 
 
 def _check_ratio(poisson_ratio: float) -> None:
     if not (is_number(poisson_ratio) and -1 < poisson_ratio <= 0.5):
-        raise SceneError("poisson_ratio", poisson_ratio, "a number above -1 and at most 0.5")
+        raise InputError("poisson_ratio", poisson_ratio, "a number above -1 and at most 0.5")
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ class Layer:
         _check_modulus(self.contact_modulus)
         _check_ratio(self.poisson_ratio)
         if not (is_number(self.thickness) and self.thickness > 0):
-            raise SceneError("thickness", self.thickness, "a positive, finite number in nm")
+            raise InputError("thickness", self.thickness, "a positive, finite number in nm")
 
     @property
     def youngs_modulus(self) -> float | None:
@@ -217,7 +217,7 @@ class FreeLayer(Layer):
     @property
     def base_depth(self) -> float:
         """There is no base."""
-        raise SceneError("body", type(self).__name__, "a half-space or a layer on a rigid base, to have fields inside")
+        raise InputError("body", type(self).__name__, "a half-space or a layer on a rigid base, to have fields inside")
 
     def compliance(self, wavenumber: Array) -> Array:
         """Normal compliance without surface shear; h/C11 at q = 0, nm/GPa."""
@@ -237,7 +237,7 @@ class FreeLayer(Layer):
 
 def _known_ratio(body: HalfSpace) -> float:
     if body.poisson_ratio is None:
-        raise SceneError("poisson_ratio", None, "a number above -1 and at most 0.5, where displacements along x exist")
+        raise InputError("poisson_ratio", None, "a number above -1 and at most 0.5, where displacements along x exist")
     return body.poisson_ratio
 
 
@@ -251,7 +251,7 @@ def relative_compliance(
     bodies = [(lower, False), (upper, True)]
     symbols = [_symbol(body, grid, components, turned) for body, turned in bodies if body is not None]
     if not symbols:
-        raise SceneError("elasticity", None, "an elastic body: at least one of the two must give way")
+        raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
     return reduce(operator.add, symbols)
 
 
@@ -261,7 +261,7 @@ def _symbol(body: Elasticity, grid: Grid, components: tuple[str, ...], turned: b
         return Normal(body.compliance(grid.wavenumber)[None])
     if components != Coupled.components or len(grid.shape) != 1:
         allowed = "('n',), or on a line ('n', 't'): displacements along x of surfaces are not modelled"
-        raise SceneError("components", components, allowed)
+        raise InputError("components", components, allowed)
     symbol = body.coupled_compliance(grid.wavenumber)
     if grid.shape[0] % 2 == 0:
         symbol.coupling[-1] = 0.0

@@ -29,7 +29,7 @@ import numpy as np
 
 from contactsim.elasticity.plane_strain import DEEP, cosh_less_sinh, determinant
 from contactsim.elasticity.solids import Elasticity, relative_compliance
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
 
 THIN = 1.0
@@ -70,9 +70,9 @@ def inside(body: Elasticity, grid: Grid, traction: Array, depths: Array) -> Fiel
     """
     depths, traction = np.atleast_1d(np.asarray(depths, float)), np.asarray(traction, float)
     if not (depths >= 0).all() or not (depths <= body.base_depth).all():
-        raise SceneError("depths", depths, f"from 0 to {body.base_depth:g} nm")
+        raise InputError("depths", depths, f"from 0 to {body.base_depth:g} nm")
     if traction.ndim != 2 or traction.shape[0] > 2 or traction.shape[1:] != grid.shape:
-        raise SceneError("traction", traction, f"(1, {grid.shape[0]}) or (2, {grid.shape[0]}): components on this line")
+        raise InputError("traction", traction, f"(1, {grid.shape[0]}) or (2, {grid.shape[0]}): components on this line")
     both = np.zeros((2, *grid.shape))
     both[: len(traction)] = traction
     tractions = np.stack([grid.forward(row) for row in both])

@@ -16,7 +16,7 @@ import numpy as np
 
 from contactsim.error_control.options import PATH_TOLERANCE, choose_options, coarsen, expect_error, grid_features
 from contactsim.error_control.scaling import QUANTITIES, scaling_relations, scene_family
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
@@ -70,7 +70,7 @@ def forecast_run(setup: Setup) -> Forecast:
 
     Raises
     ------
-    SceneError
+    InputError
         For scenes and solvers whose costs were not measured.
     """
     accuracy = setup.options.accuracy
@@ -85,7 +85,7 @@ def forecast_setup(setup: Setup, quantities: Sequence[str] = ()) -> Forecast:
     name_of_family, default = scene_family(scene), default_solver_name(scene)
     if options.solver is not None and type(options.solver) is not solver_class(default):
         allowed = f"{default}: the costs of others were not measured"
-        raise SceneError("solver.kind", type(options.solver).__name__, allowed)
+        raise InputError("solver.kind", type(options.solver).__name__, allowed)
     relations = scaling_relations()
     family = relations.families[name_of_family]
     size, steps = setup.size, len(scene.path.steps)

@@ -21,7 +21,7 @@ from contactsim.error_control.control import Solution
 from contactsim.error_control.effect_maps import FILE, change_without, expected_change
 from contactsim.error_control.options import coarsen
 from contactsim.error_control.scaling import shortest_range, total_strength
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 from contactsim.provenance import computing_digest, digest
 from contactsim.status import LIMITS, process_zone
@@ -86,7 +86,7 @@ def _simplifies(scene: Scene, simplify: Callable[[Scene], Scene]) -> bool:
     """Return True where a scene has an effect, and is a scene without it."""
     try:
         return simplify(scene) != scene
-    except SceneError:
+    except InputError:
         return False
 
 

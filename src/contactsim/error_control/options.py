@@ -29,7 +29,7 @@ from contactsim.error_control.scaling import (
     scene_family,
     shortest_range,
 )
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.increments import Increments, Requested
 from contactsim.paths.nested import Nested
@@ -137,8 +137,8 @@ class PathKnobs:
         increment = float(f"{shortest_range(scene) * math.exp(min([*logarithms, math.log(MAX_INCREMENT)])):.2g}")
         try:
             setup = setup.with_increment(increment, pressing=max(increment, MIN_PRESSING_INCREMENT))
-        except SceneError as too_many:
-            raise SceneError("accuracy", error, f"an error for which increments are {too_many.allowed}") from too_many
+        except InputError as too_many:
+            raise InputError("accuracy", error, f"an error for which increments are {too_many.allowed}") from too_many
         return setup.with_options(tolerance=min(PATH_TOLERANCE, error * PATH_TOLERANCE / 1e-2))
 
     def scale_increment(self, setup: Setup, factor: float) -> Setup:
@@ -188,7 +188,7 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
 
     Raises
     ------
-    SceneError
+    InputError
         For a quantity or a scene without a relation, or where no affordable grid is fine enough.
     """
     scene = setup.scene
@@ -196,7 +196,7 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
     for name in names:
         if name not in family.errors["points"]:
-            raise SceneError("accuracy.quantities", name, f"some of {', '.join(family.errors['points'])}")
+            raise InputError("accuracy.quantities", name, f"some of {', '.join(family.errors['points'])}")
     knobs = KNOBS[scene.kind]
     setup = knobs.choose_increment(setup, family, names, error)
     scene = setup.scene
@@ -224,13 +224,13 @@ def choose_grid(scene: Scene, points: float, error: float) -> int:
 
     Raises
     ------
-    SceneError
+    InputError
         Where it has more than `MAX_POINTS` points in all; `error` is named as the cause.
     """
     surface = scene.upper.surface
     points = max(points, POINTS_PER_WAVE * scene.length / surface.finest)
     if not math.prod(surface.shape(round_grid(min(points, MAX_POINTS)))) <= MAX_POINTS or points > MAX_POINTS:
-        raise SceneError("accuracy", error, f"an error for which {MAX_POINTS:.2g} grid points are enough")
+        raise InputError("accuracy", error, f"an error for which {MAX_POINTS:.2g} grid points are enough")
     return round_grid(points)
 
 

@@ -20,7 +20,7 @@ import yaml
 
 from contactsim import reference
 from contactsim.contact.scene import Scene
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.status import process_zone
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Sphere
@@ -147,23 +147,23 @@ def scene_family(scene: Scene) -> str:
 
     Raises
     ------
-    SceneError
+    InputError
         For a scene whose errors and costs were not measured.
     """
     surface, traits = scene.upper.surface, scene.traits
     rough = isinstance(surface, SelfAffine)
     if not (rough or isinstance(surface, Cylinder | Sphere)):
         allowed = "a cylinder, sphere or self-affine surface: others were not measured"
-        raise SceneError("surface", type(surface).__name__, allowed)
+        raise InputError("surface", type(surface).__name__, allowed)
     if Trait.WALL in traits:
         if Trait.APPROACH in traits:
-            raise SceneError("path", "approach", "loads: walls at given approaches were not measured")
+            raise InputError("path", "approach", "loads: walls at given approaches were not measured")
         return SURFACE if Trait.SURFACE in traits else LINE
     if Trait.MEAN_PRESSURE in traits:
-        raise SceneError("path", "mean_pressure", "approaches: paths under given loads were not measured")
+        raise InputError("path", "mean_pressure", "approaches: paths under given loads were not measured")
     if scene.sliding:
         if rough:
-            raise SceneError("slide", type(surface).__name__, "a slide of a cylinder: rough ones were not measured")
+            raise InputError("slide", type(surface).__name__, "a slide of a cylinder: rough ones were not measured")
         return SLIDE
     return ROUGH_PATH if rough else PATH
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import expected_neglect
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.provenance import canonical
 from contactsim.study.scenes import build_setup
 from contactsim.study.study import Run
@@ -56,7 +56,7 @@ def _forecast(text: str) -> Forecast | None:
         setup = neglect_effects(setup, expected_neglect(setup.scene, settings["auto"]["neglect_within"]))
     try:
         return forecast_run(setup)
-    except SceneError:
+    except InputError:
         return None
 
 

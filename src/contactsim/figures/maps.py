@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.figures import style
 from contactsim.grid import Array
 from contactsim.observables.contact import touching
@@ -77,12 +77,12 @@ def draw(
     solution: what `contactsim.press` returned for a surface, together with the spacing of its points, one number or
     those along y and x; or one load of a dataset that keeps `fields`, as `data.isel(step=-1)`, which has its own.
     length_unit, pressure_unit: of a result's numbers; those made of m and Pa are shown with the prefix that fits.
-    size: width and height, inches. SceneError for a line, for several loads, and for what did not converge.
+    size: width and height, inches. InputError for a line, for several loads, and for what did not converge.
     """
     if isinstance(solution, Result):
         solved = _of_result(solution, spacing, length_unit, pressure_unit)
     elif (spacing, length_unit, pressure_unit) != (None, "nm", "GPa"):
-        raise SceneError("spacing, length_unit, pressure_unit", spacing, "none with a dataset: it has its own")
+        raise InputError("spacing, length_unit, pressure_unit", spacing, "none with a dataset: it has its own")
     else:
         solved = of_dataset(solution)
     figure = Figure(figsize=size, layout="constrained")
@@ -95,7 +95,7 @@ def _of_result(result: Result, spacing: object, length_unit: str, pressure_unit:
     _require_converged(result.status)
     both = [spacing] * 2 if np.ndim(spacing) == 0 else list(spacing)
     if len(both) != 2 or not all(is_number(step) and step > 0 for step in both):
-        raise SceneError("spacing", spacing, "the spacing that the surface was pressed with: a positive number or two")
+        raise InputError("spacing", spacing, "the spacing that the surface was pressed with: a positive number or two")
     lengths = tuple(float(step) * count for step, count in zip(both, result.pressure.shape, strict=True))
     return Solved(result.pressure, result.gap, lengths, length_unit, pressure_unit)
 
@@ -105,11 +105,11 @@ def of_dataset(data: xr.Dataset) -> Solved:
     _require_surface(2 if "length_y" in data else 1)
     if not {"pressure", "gap"} <= set(data):
         allowed = "a dataset with pressure and gap: of a study or a simulation that keeps `fields`"
-        raise SceneError("keep", sorted(map(str, data)), allowed)
+        raise InputError("keep", sorted(map(str, data)), allowed)
     places = [name for name in data.pressure.dims if name not in ("y", "x")]
     for name in places:
         if data.sizes[name] > 1:
-            raise SceneError(str(name), data.sizes[name], "one value, since a map shows one: choose with .sel or .isel")
+            raise InputError(str(name), data.sizes[name], "one value, since a map shows one: choose with .sel or .isel")
     one = data.squeeze(places)
     _require_converged(next(status for status in Status if status.value[0] == one.status))
     return Solved(one.pressure.values, one.gap.values, (float(one.length_y), float(one.length)))
@@ -117,12 +117,12 @@ def of_dataset(data: xr.Dataset) -> Solved:
 
 def _require_surface(dimensions: int) -> None:
     if dimensions != 2:
-        raise SceneError("dimensions", dimensions, "2: maps are of surfaces, and this is a line")
+        raise InputError("dimensions", dimensions, "2: maps are of surfaces, and this is a line")
 
 
 def _require_converged(status: Status) -> None:
     if status is not Status.CONVERGED:
-        raise SceneError("status", status.sentence, "a solution that converged")
+        raise InputError("status", status.sentence, "a solution that converged")
 
 
 def panels(solved: Solved, axes: list[Axes]) -> pd.DataFrame:

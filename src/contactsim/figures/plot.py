@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 QUANTITIES = {
     "hard_wall": ("mean_pressure", "relative_contact_area"),
@@ -35,7 +35,7 @@ def plot(data: xr.Dataset, axes: Axes | None = None, *, across: str | None = Non
     names = across or default_across, up or default_up
     for name in names:
         if name not in data.variables:
-            raise SceneError("plot", name, f"a variable of the dataset: {', '.join(sorted(map(str, data.variables)))}")
+            raise InputError("plot", name, f"a variable of the dataset: {', '.join(sorted(map(str, data.variables)))}")
     if axes is None:
         import matplotlib.pyplot as plt  # sets up a window system, which importing this package must not
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Protocol, TypeGuard, cast
 
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -88,11 +88,11 @@ def potential(law: Law, gap: Array) -> Array:
 
     Raises
     ------
-    SceneError
+    InputError
         If the law has no potential.
     """
     if Trait.NON_CONSERVATIVE in law.traits:
-        raise SceneError("effects", law, "laws with a potential, where an energy is asked for")
+        raise InputError("effects", law, "laws with a potential, where an energy is asked for")
     return cast(ConservativeLaw, law).energy(gap)
 
 
@@ -100,4 +100,4 @@ def check_positive(unit: str, **values: float) -> None:
     """Refuse parameters of a law that are not positive, finite numbers; the unit is quoted."""
     for name, value in values.items():
         if not (is_number(value) and value > 0):
-            raise SceneError(name, value, f"a positive, finite number in {unit}")
+            raise InputError(name, value, f"a positive, finite number in {unit}")

@@ -17,7 +17,7 @@ from math import inf
 
 import numpy as np
 
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.traits import Trait
@@ -59,7 +59,7 @@ class CohesiveZone:
         check_positive("N/m", work_of_separation=self.work_of_separation)
         check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
         if not (is_number(self.work_ratio) and self.work_ratio >= 0):
-            raise SceneError("work_ratio", self.work_ratio, "0 or a positive number")
+            raise InputError("work_ratio", self.work_ratio, "0 or a positive number")
 
     @property
     def tangential_work(self) -> float:

@@ -19,7 +19,7 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.elasticity.solids import Elasticity
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.base import Law, potential
 from contactsim.traits import Trait
@@ -203,20 +203,20 @@ class Lattice:
     def __post_init__(self) -> None:
         if not (is_number(self.tangential_cutoff) and self.tangential_cutoff >= 0):
             allowed = "a finite number 0 or more, in tangential lengths"
-            raise SceneError("tangential_cutoff", self.tangential_cutoff, allowed)
+            raise InputError("tangential_cutoff", self.tangential_cutoff, allowed)
         units = {"lattice_constant": "nm", "normal_cutoff": "normal lengths", "weight": "parts"}
         values = {name: value for name, value in vars(self).items() if name in units}
         for name, value in values.items():
             if not (is_number(value) and value > 0):
-                raise SceneError(name, value, f"a finite number above 0, in {units[name]}")
+                raise InputError(name, value, f"a finite number above 0, in {units[name]}")
 
     def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
-        """Raise a `SceneError` unless the lower body is rigid, the contact a line and the laws smooth."""
+        """Raise a `InputError` unless the lower body is rigid, the contact a line and the laws smooth."""
         if lower is not None:
             allowed = "a rigid lower body: sites that are displaced on both sides are not modelled"
-            raise SceneError("pairing", "lattice", allowed)
+            raise InputError("pairing", "lattice", allowed)
         if not {Trait.LINE, Trait.SMOOTH} <= traits or Trait.WALL in traits:
-            raise SceneError("pairing", "lattice", "aligned, or smooth laws on a line: springs are laws between sites")
+            raise InputError("pairing", "lattice", "aligned, or smooth laws on a line: springs are laws between sites")
 
     def join(self, law: Law, lower: Array, length: float) -> LatticeInteraction:
         """Return the springs as one law; see `Pairing.join`."""
@@ -224,7 +224,7 @@ class Lattice:
         sites = math.ceil(self.tangential_cutoff * unit / self.lattice_constant)
         if sites > MAX_SITES:
             allowed = f"one of at most {MAX_SITES} sites on each side, not {sites}"
-            raise SceneError("tangential_cutoff", self.tangential_cutoff, allowed)
+            raise InputError("tangential_cutoff", self.tangential_cutoff, allowed)
         offsets = np.arange(-sites, sites + 1.0)
         heights = None if np.ptp(lower) == 0 else lower
         max_gap = self.normal_cutoff * law.interaction_range

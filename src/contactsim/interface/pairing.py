@@ -20,7 +20,7 @@ class Pairing(Protocol):
         """Distance along x after which the interaction repeats itself, nm; infinite if it never does."""
 
     def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
-        """Raise a `SceneError` for bodies (None is rigid) or effects that cannot be paired so."""
+        """Raise a `InputError` for bodies (None is rigid) or effects that cannot be paired so."""
 
     def join(self, law: Law, lower: Array, length: float) -> Law:
         """Return the law between two surfaces.

@@ -15,7 +15,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.segments import Segment
 from contactsim.paths.state import Jump, PathState
@@ -128,7 +128,7 @@ class Adaptive:
 
     Raises
     ------
-    SceneError
+    InputError
         If a value is not positive, or `least` exceeds `most`.
     """
 
@@ -140,17 +140,17 @@ class Adaptive:
         for name in ("error", "least", "most"):
             value = getattr(self, name)
             if value is not None and not (is_number(value) and value > 0):
-                raise SceneError(name, value, "a positive number")
+                raise InputError(name, value, "a positive number")
         if self.least is not None and self.most is not None and self.least > self.most:
-            raise SceneError("least", self.least, f"at most the longest increment, {self.most:g}")
+            raise InputError("least", self.least, f"at most the longest increment, {self.most:g}")
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """Raise SceneError for a solver without predictions, and for a mean pressure without bounds."""
+        """Raise InputError for a solver without predictions, and for a mean pressure without bounds."""
         if not solver.uses_guess:
-            raise SceneError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
+            raise InputError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
         bounds = {"least": self.least, "most": self.most}
         if None in bounds.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
-            raise SceneError("least", bounds, "least and most in GPa, where a mean pressure is prescribed")
+            raise InputError("least", bounds, "least and most in GPa, where a mean pressure is prescribed")
 
     def coarsened(self, factor: int) -> Adaptive:
         """Return the same increments: they do not depend on the grid."""

@@ -10,7 +10,7 @@ import xarray as xr
 from threadpoolctl import threadpool_limits
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.observables.contact import KEPT
 from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
@@ -110,14 +110,14 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
 
     Raises
     ------
-    SceneError
+    InputError
         For an option that such a scene has no use for, or a solver that does not accept it.
     """
     scene, options = setup.scene, setup.options
     driver = DRIVERS[scene.kind]
     for name in {name for other in DRIVERS.values() for name in other.options} - set(driver.options):
         if getattr(options, name) is not None:
-            raise SceneError(name, getattr(options, name), f"none with {driver.words}")
+            raise InputError(name, getattr(options, name), f"none with {driver.words}")
     solver = default_solver(scene) if options.solver is None else options.solver
     check_solver(solver, scene)
     # more threads of dense algebra would only wait for each other, and change the last digits of a result

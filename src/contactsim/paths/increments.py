@@ -19,7 +19,7 @@ class Increments(Protocol):
     """A way to choose the increments of a path."""
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """Raise SceneError for a grid, a path or a solver that these increments do not suit."""
+        """Raise InputError for a grid, a path or a solver that these increments do not suit."""
         ...
 
     def coarsened(self, factor: int) -> Increments:

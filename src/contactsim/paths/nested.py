@@ -13,7 +13,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, check_tolerance
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.state import PathState
@@ -41,7 +41,7 @@ class Nested:
 
     Raises
     ------
-    SceneError
+    InputError
         If a ratio is not a power of two, or the intermediate grid is coarser than the coarse one.
     """
 
@@ -57,22 +57,22 @@ class Nested:
         for name in ("coarse_ratio", "intermediate_ratio"):
             value = getattr(self, name)
             if value < 1 or value & (value - 1):
-                raise SceneError(name, value, "a power of two")
+                raise InputError(name, value, "a power of two")
         if self.intermediate_ratio > self.coarse_ratio:
             allowed = f"at most the ratio of the coarse grid, {self.coarse_ratio}"
-            raise SceneError("intermediate_ratio", self.intermediate_ratio, allowed)
+            raise InputError("intermediate_ratio", self.intermediate_ratio, allowed)
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
-        """Raise SceneError for slides, for a grid that cannot be coarsened, and for values that are no steps."""
+        """Raise InputError for slides, for a grid that cannot be coarsened, and for values that are no steps."""
         if any(step.held is not None for step in steps):
-            raise SceneError("increments", "nested", "requested or adaptive, as the path slides")
+            raise InputError("increments", "nested", "requested or adaptive, as the path slides")
         if points % (2 * self.coarse_ratio):
             allowed = f"such that it divides half the grid's {points} points"
-            raise SceneError("coarse_ratio", self.coarse_ratio, allowed)
+            raise InputError("coarse_ratio", self.coarse_ratio, allowed)
         distances = np.abs(np.subtract.outer(self.full_grid_at, [step.value for step in steps])).min(1)
         missing = [value for value, far in zip(self.full_grid_at, distances > ROUNDING, strict=True) if far]
         if missing:
-            raise SceneError("full_grid_at", missing, "steps of the path, which these are not")
+            raise InputError("full_grid_at", missing, "steps of the path, which these are not")
 
     def coarsened(self, factor: int) -> Nested:
         """Return the same increments for a full grid that many times coarser."""

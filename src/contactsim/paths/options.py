@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from contactsim.contact.scene import Scene
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.paths.increments import Increments
 from contactsim.provenance import digest
 from contactsim.solvers.base import HardWallSolver
@@ -32,7 +32,7 @@ class Accuracy:
 
     def __post_init__(self) -> None:
         if not 0 < self.error < 1:
-            raise SceneError("accuracy", self.error, "a relative error, above 0 and below 1")
+            raise InputError("accuracy", self.error, "a relative error, above 0 and below 1")
 
 
 @dataclass(frozen=True)
@@ -85,12 +85,12 @@ class Setup:
 
         Raises
         ------
-        SceneError
+        InputError
             Without a number of points, unless the surface comes with its own.
         """
         points = self.options.points or self.scene.upper.surface.points
         if points is None:
-            raise SceneError("points", None, "a whole number: only a measured surface comes with its own")
+            raise InputError("points", None, "a whole number: only a measured surface comes with its own")
         return points
 
     @property

@@ -22,7 +22,7 @@ from contactsim import dataset
 from contactsim.contact.hard_wall import WarmStart, pose_hard_wall
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
 from contactsim.observables.contact import KEPT, wall_observables
 from contactsim.solvers.base import HardWallSolver, Result, solve
@@ -59,7 +59,7 @@ def simulate_loads(
     """
     for name in keep:
         if name not in KEPT:
-            raise SceneError("keep", name, f"some of {', '.join(KEPT)}")
+            raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
 
     def solved(step: LoadStep) -> Point:
@@ -179,6 +179,6 @@ def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
                 arrays["contact_pressure"] = data.contact_pressure.values[end - data.contact_points.values[row] : end]
             found[name] = Point(numbers, arrays, seconds.get(name, float("nan")))
         return found
-    except (SceneError, AttributeError, KeyError, TypeError, ValueError) as error:
+    except (InputError, AttributeError, KeyError, TypeError, ValueError) as error:
         logger.warning("%s cannot be reused and is computed anew: %s", target, error)
         return {}

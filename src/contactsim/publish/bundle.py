@@ -19,7 +19,7 @@ from pathlib import Path
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.provenance import digest
 from contactsim.publish.ro_crate import CITATION, RO_CRATE, author_name, crate, read_citation
 
@@ -105,7 +105,7 @@ def _copy(path: Path, place: Path) -> None:
     try:
         shutil.copyfile(path, place)
     except OSError as error:
-        raise SceneError("bundle", path, f"a file that can be read ({error.strerror})") from error
+        raise InputError("bundle", path, f"a file that can be read ({error.strerror})") from error
 
 
 def _describe(plan: Mapping, places: Sequence[str], folder: Path) -> None:

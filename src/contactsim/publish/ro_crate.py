@@ -13,7 +13,7 @@ from pathlib import Path
 from rocrate.model.contextentity import ContextEntity
 from rocrate.rocrate import ROCrate
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.study.reading import load_yaml
 
 CITATION = "CITATION.cff"
@@ -37,15 +37,15 @@ FORMATS = {
 
 
 def read_citation(file: Path) -> dict:
-    """A CITATION.cff that says all that a crate needs; SceneError where it is not there."""
+    """A CITATION.cff that says all that a crate needs; InputError where it is not there."""
     citation = load_yaml(file)
     for key in ("title", "authors", "license", "version", "date-released"):
         if not citation.get(key):
-            raise SceneError(key, citation.get(key), "given, as it is part of what is deposited", file)
+            raise InputError(key, citation.get(key), "given, as it is part of what is deposited", file)
     try:
         day = date.fromisoformat(str(citation["date-released"]))
     except ValueError as error:
-        raise SceneError("date-released", citation["date-released"], "a date as 2019-10-31", file) from error
+        raise InputError("date-released", citation["date-released"], "a date as 2019-10-31", file) from error
     return citation | {"date-released": day.isoformat()}
 
 

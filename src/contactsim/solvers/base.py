@@ -16,7 +16,7 @@ import numpy as np
 
 from contactsim.contact.hard_wall import Certificate, HardWallProblem, Scale
 from contactsim.contact.scene import Scene
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -122,12 +122,12 @@ class Result:
 
 
 def check_solver(solver: Solver, scene: Scene) -> None:
-    """Raise a `SceneError` if an object is no solver, or if a scene has a trait that the solver does not accept."""
+    """Raise a `InputError` if an object is no solver, or if a scene has a trait that the solver does not accept."""
     if isinstance(solver, type) or not hasattr(solver, "accepts"):  # a user's argument may be anything
-        raise SceneError("solver", solver, "the name of a solver, or a solver made with its options")
+        raise InputError("solver", solver, "the name of a solver, or a solver made with its options")
     for trait in sorted(scene.traits - solver.accepts, key=lambda trait: trait.name):
         accepted = ", ".join(sorted(accepted.name for accepted in solver.accepts))
-        raise SceneError(
+        raise InputError(
             "solver",
             type(solver).__name__,
             f"one that accepts {trait.name} ({trait.value}); this one accepts {accepted}",
@@ -143,11 +143,11 @@ def coarser_level(problem: HardWallProblem, coarsest: int, tolerance: float) -> 
 
 
 def check_cascade(coarsest: int, coarse_tolerance: float) -> None:
-    """Raise a `SceneError` for options of a cascade of grids that are out of range."""
+    """Raise a `InputError` for options of a cascade of grids that are out of range."""
     if not coarse_tolerance > 0:
-        raise SceneError("coarse_tolerance", coarse_tolerance, "a positive number of grid steps")
+        raise InputError("coarse_tolerance", coarse_tolerance, "a positive number of grid steps")
     if coarsest < 2:
-        raise SceneError("coarsest", coarsest, "a whole number of points, 2 or more")
+        raise InputError("coarsest", coarsest, "a whole number of points, 2 or more")
 
 
 def iterate(solver: HardWallSolver, problem: HardWallProblem, state: State, budget: int) -> tuple[State, int, bool]:

@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from contactsim.contact.scene import ProblemKind, Scene
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 SOLVERS = {
     "active_set": "contactsim.solvers.hard_wall.active_set:NestedActiveSet",
@@ -43,11 +43,11 @@ def solver_module(kind: str) -> str:
 
     Raises
     ------
-    SceneError
+    InputError
         If there is no solver of that name.
     """
     if kind not in SOLVERS:
-        raise SceneError("solver", kind, f"one of {', '.join(sorted(SOLVERS))}")
+        raise InputError("solver", kind, f"one of {', '.join(sorted(SOLVERS))}")
     return SOLVERS[kind].partition(":")[0]
 
 
@@ -93,10 +93,10 @@ def make_solver(kind: str, **options: object) -> Any:
 
     Raises
     ------
-    SceneError
+    InputError
         If there is no such solver, an option has a value that is not allowed, or a package is missing.
     """
     solver = solver_class(kind)(**options)
     if not is_installed(kind):
-        raise SceneError("solver", kind, f"one that is installed: pip install {REQUIRED_PACKAGES[kind]}")
+        raise InputError("solver", kind, f"one that is installed: pip install {REQUIRED_PACKAGES[kind]}")
     return solver

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from contactsim.analysis.grid_convergence import is_doubled
 from contactsim.analysis.reductions import FITTED, LIMIT, REDUCTIONS, reduction_inputs
 from contactsim.contact.scene import ProblemKind
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.observables.adhesion import FINAL, SUMMARY
 from contactsim.observables.forms import AVERAGED
 from contactsim.observables.hysteresis import CYCLE
@@ -32,7 +32,7 @@ def read_selection(section: Mapping, dims: Iterable[str], file: object, prefix: 
 
     Raises
     ------
-    SceneError
+    InputError
         If a key is not one of `dims` or a value is not an interval.
     """
     keys = dict.fromkeys(dims, Key(interval, "least and largest value", None))
@@ -87,7 +87,7 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
 
     Raises
     ------
-    SceneError
+    InputError
         If a key is unknown, missing or of no use to the claim, or names what the studies do not have.
     """
     prefix = f"claims.{name}"
@@ -95,7 +95,7 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     if settings["study"] is None:
         for key in settings:
             if key not in ("source", "statement", "rationale") and settings[key] is not None:
-                raise SceneError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
+                raise InputError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
         return Claim(name, settings)
     _check_one_of(settings, "study", studies, file, prefix)
     claim = Claim(name, settings)
@@ -108,7 +108,7 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
         settings["condition"] = condition
     band = {key for key in set.union(*BANDS) if settings[key] is not None}
     if band not in BANDS:
-        raise SceneError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
+        raise InputError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
     return claim
 
 
@@ -118,7 +118,7 @@ def _dimensions(studies: Mapping[str, Study], name: str) -> list[str]:
 
 
 def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[str], file: object, prefix: str) -> None:
-    """Raise SceneError for a reduction, quantity or dimension that the claim's studies do not have."""
+    """Raise InputError for a reduction, quantity or dimension that the claim's studies do not have."""
     study = studies[settings["study"]]
     own = quantities(study)
     shared = own if settings["relative_to"] is None else _shared_quantities(settings, studies, file, prefix)
@@ -130,11 +130,11 @@ def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[s
     for key in INPUTS:
         if key not in inputs and settings[key] is not None:
             unused = f"left out: {settings['reduce']} does not use it"
-            raise SceneError(f"{prefix}.{key}", settings[key], unused, file)
+            raise InputError(f"{prefix}.{key}", settings[key], unused, file)
     if settings["relative_to"] is not None and settings["against"] is not None:
         single = [name for name in REDUCTIONS if "against" not in reduction_inputs(name)]
         message = f"with `relative_to`, one of {', '.join(single)}"
-        raise SceneError(f"{prefix}.reduce", settings["reduce"], message, file)
+        raise InputError(f"{prefix}.reduce", settings["reduce"], message, file)
 
 
 def _shared_quantities(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
@@ -147,9 +147,9 @@ def _shared_quantities(settings: dict, studies: Mapping[str, Study], file: objec
 
 
 def _check_one_of(settings: dict, key: str, allowed: Iterable[str], file: object, prefix: str) -> None:
-    """Raise SceneError for a value that is not allowed."""
+    """Raise InputError for a value that is not allowed."""
     if settings[key] not in allowed:
-        raise SceneError(f"{prefix}.{key}", settings[key], f"one of {', '.join(allowed)}", file)
+        raise InputError(f"{prefix}.{key}", settings[key], f"one of {', '.join(allowed)}", file)
 
 
 def quantities(study: Study) -> list[str]:

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from contactsim.analysis.ensemble import widen_interval
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.provenance import module_path
 from contactsim.study.claim_plan import read_selection
 from contactsim.study.law_table import read_law
@@ -61,22 +61,22 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
     prefix = f"figures.{name}"
     settings = read(section, FIGURE_KEYS, file, prefix)
     if settings["size"][0] < LEAST_WIDTH * settings["panels"]:
-        raise SceneError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
+        raise InputError(f"{prefix}.size", settings["size"], f"a width of at least {LEAST_WIDTH} inches a panel", file)
     if (settings["study"] is None) == (settings["law"] is None):
         both = {key: settings[key] for key in ("study", "law")}
-        raise SceneError(prefix, both, "exactly one of study and law", file)
+        raise InputError(prefix, both, "exactly one of study and law", file)
     if settings["law"] is not None:
         settings["law"] = read_law(settings["law"], file, f"{prefix}.law")
     for key, named in (("study", [settings["study"]]), ("datasets", settings["datasets"])):
         for study in set(named) - {*studies, None}:
-            raise SceneError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
+            raise InputError(f"{prefix}.{key}", study, f"one of {', '.join(studies)}", file)
     dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
     settings["select"] = read_selection(settings["select"], dims, file, f"{prefix}.select")
     if settings["film"] is not None:
         shown = studies[settings["study"]].settings if dims else {}
         if not (shown.get("slide") and shown["snapshots"]) or shown["vary"]:
             allowed = "left out, but for one slide, nothing of it varied, with snapshots"
-            raise SceneError(f"{prefix}.film", settings["film"], allowed, file)
+            raise InputError(f"{prefix}.film", settings["film"], allowed, file)
     _check_function(name, settings, studies, file, prefix)
     compare = settings.pop("compare")
     return Figure(name, file.stem, settings, compare)
@@ -86,14 +86,14 @@ def _check_function(name: str, settings: dict, studies: dict[str, Study], file: 
     """Refuse a figure without a function, or whose function wants other datasets or other values of the thesis."""
     known = _functions(f"contactsim.figures.{file.stem}")
     if name not in known:
-        raise SceneError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
+        raise InputError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
     wanted = [argument.arg for argument in known[name].args[:-1]]  # the last are the axes
     given = [settings["study"] or "a law", *settings["datasets"]]
     if len(given) != len(wanted):
         allowed = f"so many that with {given[0]} they are those that the function draws: {', '.join(wanted)}"
-        raise SceneError(f"{prefix}.datasets", settings["datasets"], allowed, file)
+        raise InputError(f"{prefix}.datasets", settings["datasets"], allowed, file)
     if wanted[0] == FIELDS and settings["study"] is None:
-        raise SceneError(f"{prefix}.law", settings["law"], "a study, whose fields the function draws", file)
+        raise InputError(f"{prefix}.law", settings["law"], "a study, whose fields the function draws", file)
     if wanted[0] == FIELDS:
         _check_map(settings, studies[settings["study"]], file, prefix)
     keywords = [argument.arg for argument in known[name].kwonlyargs]
@@ -105,7 +105,7 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
     """Refuse a map of what has no fields, of a line, and of more than one load of one member."""
     first, load = study.runs()[0], study.settings["load"]
     if FIELDS not in study.settings["keep"] or Trait.SURFACE not in first.setup.scene.traits:
-        raise SceneError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
+        raise InputError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
     places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.measures_error]
     places = [place | {load["name"]: value} for place in places for value in load["values"]]
     for dim, (least, largest) in settings["select"].items():
@@ -113,7 +113,7 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
         places = [place for place in places if low <= place[dim] <= high]
     if len(places) != 1:
         allowed = f"what leaves one load of one member to draw; this leaves {len(places)}"
-        raise SceneError(f"{prefix}.select", settings["select"], allowed, file)
+        raise InputError(f"{prefix}.select", settings["select"], allowed, file)
 
 
 @cache

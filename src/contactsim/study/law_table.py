@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import source_digest
 from contactsim.study.reading import Key, choice, keys_of, listed, number, positive, read
@@ -29,10 +29,10 @@ def read_law(section: dict, file: object, prefix: str) -> dict:
     settings = read(section, LAW_KEYS | keys_of(EFFECTS[effect]), file, prefix)
     try:
         law = _law(settings)
-    except SceneError as error:
-        raise error.within(file, prefix) from error
+    except InputError as error:
+        raise error.located(file, prefix) from error
     if law.exerts != law.reads:
-        raise SceneError(prefix, section, "options with which it exerts both tractions", file)
+        raise InputError(prefix, section, "options with which it exerts both tractions", file)
     return settings
 
 

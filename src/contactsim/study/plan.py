@@ -10,7 +10,7 @@ from pathlib import Path
 
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.neglect import expected_neglect
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.provenance import digest
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.figure_plan import Figure, read_figure
@@ -111,7 +111,7 @@ class Plan:
             plan._read_chapter(file, section["studies"])
         for name in set(section["studies"]) - set(plan.studies):
             allowed = f"one of {', '.join(plan.studies)}"
-            raise SceneError(f"{tier}.studies.{name}", "overrides", allowed, folder / "tiers.yaml")
+            raise InputError(f"{tier}.studies.{name}", "overrides", allowed, folder / "tiers.yaml")
         return plan
 
     def _read_chapter(self, file: Path, overrides: Mapping[str, object]) -> None:
@@ -125,7 +125,7 @@ class Plan:
         _check_surfaces(own)
         for name, section in sections["figures"].items():
             if name in self.figures:
-                raise SceneError(f"figures.{name}", name, "a name that no other chapter has taken", file)
+                raise InputError(f"figures.{name}", name, "a name that no other chapter has taken", file)
             self.figures[name] = read_figure(name, section, file, own)
         if sections["claims"]:
             claims = {name: read_claim(name, section, file, own) for name, section in sections["claims"].items()}
@@ -135,15 +135,15 @@ class Plan:
         """Raise InputError for a name that no study can have, or that another has."""
         if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or name in (*RESERVED_NAMES, *figures):
             allowed = f"letters, digits and underscores; no figure's name and none of {', '.join(RESERVED_NAMES)}"
-            raise SceneError("studies", name, allowed, file)
+            raise InputError("studies", name, allowed, file)
         if name in self.studies:
-            raise SceneError(f"studies.{name}", name, f"a name that {self.chapters[name]}.yaml has not taken", file)
+            raise InputError(f"studies.{name}", name, f"a name that {self.chapters[name]}.yaml has not taken", file)
 
     def _read_study(self, name: str, section: object, override: object, file: Path) -> Study:
         """Return a study with what the tier overrides; the study of the chapter must be right too."""
         if not isinstance(override, dict):
             tiers = file.with_name("tiers.yaml")
-            raise SceneError(f"{self.tier}.studies.{name}", override, "a mapping of keys to override", tiers)
+            raise InputError(f"{self.tier}.studies.{name}", override, "a mapping of keys to override", tiers)
         if override:
             Study.read(name, section, file, self.seed)
             section = overlaid(section, override)
@@ -246,7 +246,7 @@ def _read_tier(file: Path, tier: str) -> dict:
     """Return the section of a tier."""
     tiers = load_yaml(file)
     if tier not in tiers:
-        raise SceneError("tier", tier, f"one of {', '.join(tiers)}", file)
+        raise InputError("tier", tier, f"one of {', '.join(tiers)}", file)
     return read(tiers[tier] or {}, TIER_KEYS, file, tier)
 
 
@@ -263,10 +263,10 @@ def _check_surfaces(studies: dict[str, Study]) -> None:
         other, key = studies.get(name), f"studies.{study.name}.same_surfaces_as"
         if other is None or other.settings["same_surfaces_as"] is not None:
             names = ", ".join(name for name, own in studies.items() if own.settings["same_surfaces_as"] is None)
-            raise SceneError(key, name, f"one of {names}", study.file)
+            raise InputError(key, name, f"one of {names}", study.file)
         first, second = (
             {k: v for k, v in own.settings["surface"].items() if k not in RESCALED_KEYS} for own in (study, other)
         )
         if first != second or first["kind"] != "self_affine":
             allowed = f"a study with the same `surface`, self_affine, but for {', '.join(RESCALED_KEYS)}"
-            raise SceneError(key, name, allowed, study.file)
+            raise InputError(key, name, allowed, study.file)

@@ -1,6 +1,6 @@
 """Reading settings strictly.
 
-Every mapping in a config file is read against a table of keys. An unknown, missing or ill-typed key is a `SceneError`
+Every mapping in a config file is read against a table of keys. An unknown, missing or ill-typed key is a `InputError`
 that names the file, the key, the value and what is allowed; nothing is ever silently ignored. A tier's overrides are
 laid over a study before it is read, so they are checked by the same table.
 """
@@ -19,7 +19,7 @@ from types import MappingProxyType
 import numpy as np
 import yaml
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 REQUIRED = object()
 
@@ -51,27 +51,27 @@ def load_yaml(path: str | Path) -> dict:
     try:
         content = yaml.load(Path(path).read_text(encoding="utf-8"), _Loader)
     except OSError as error:
-        raise SceneError("file", str(path), "a file that can be read", path) from error
+        raise InputError("file", str(path), "a file that can be read", path) from error
     except (yaml.YAMLError, ValueError) as error:
-        raise SceneError(
+        raise InputError(
             "YAML", "text that is not", f"valid YAML with each key once ({' '.join(str(error).split())})", path
         ) from error
     if content is None:
         return {}
     if not isinstance(content, dict):
-        raise SceneError("top level", content, "a mapping of keys to values", path)
+        raise InputError("top level", content, "a mapping of keys to values", path)
     return content
 
 
 def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
     """The mapping in a file beside tiers.yaml, with what a tier changes in it, and what to name where it is wrong.
 
-    None without that file; SceneError where a tier changes what is not there.
+    None without that file; InputError where a tier changes what is not there.
     """
     tiers = file.with_name("tiers.yaml")
     if not file.exists():
         if over:
-            raise SceneError(f"{tier}.{file.stem}", over, f"left out, as there is no {file}", tiers)
+            raise InputError(f"{tier}.{file.stem}", over, f"left out, as there is no {file}", tiers)
         return None
     return overlaid(load_yaml(file), over), named(file, over, tier)
 
@@ -84,23 +84,23 @@ def named(file: Path, over: dict, tier: str) -> str:
 def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:
     """The section with every value checked and every default filled in."""
     if not isinstance(section, dict):
-        raise SceneError(prefix or "top level", section, f"a mapping with keys {', '.join(keys)}", file)
+        raise InputError(prefix or "top level", section, f"a mapping with keys {', '.join(keys)}", file)
     dotted = f"{prefix}." if prefix else ""
     for name in section:
         if name not in keys:
-            raise SceneError(f"{dotted}{name}", section[name], f"no such key; known keys: {', '.join(keys)}", file)
+            raise InputError(f"{dotted}{name}", section[name], f"no such key; known keys: {', '.join(keys)}", file)
     values = {}
     for name, key in keys.items():
         if name not in section:
             if key.default is REQUIRED:
-                raise SceneError(f"{dotted}{name}", "nothing", f"{key.allowed} (the key is missing)", file)
+                raise InputError(f"{dotted}{name}", "nothing", f"{key.allowed} (the key is missing)", file)
             values[name] = key.default
             continue
         try:
             values[name] = key.kind(section[name])
         except ValueError as error:
             hint = f" ({error})" if str(error) else ""
-            raise SceneError(f"{dotted}{name}", section[name], f"{key.allowed}{hint}", file) from error
+            raise InputError(f"{dotted}{name}", section[name], f"{key.allowed}{hint}", file) from error
     return values
 
 

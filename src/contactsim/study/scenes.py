@@ -15,7 +15,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.contact.simplification import simplify
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.solids import ELASTICITIES, Elasticity
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.interface.registry import EFFECTS, PAIRINGS
@@ -62,7 +62,7 @@ def build_scene(settings: Mapping) -> Scene:
     surface = _build_surface(settings)
     lower, upper = build_elasticity(settings["body"]), build_elasticity(settings.get("counter_body"))
     if lower is None and upper is None:
-        raise SceneError("counter_body", None, "an elastic body, as the one below is rigid")
+        raise InputError("counter_body", None, "an elastic body, as the one below is rigid")
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
     bodies = Body(Flat.facing(surface), lower), Body(surface, upper)
     elasticities = [body for body in (lower, upper) if body is not None]
@@ -106,13 +106,13 @@ def build_elasticity(section: Mapping | None) -> Elasticity | None:
     young = section.get("youngs_modulus")
     if (young is None) == (options.get("contact_modulus") is None):
         both = {name: section.get(name) for name in ("contact_modulus", "youngs_modulus")}
-        raise SceneError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
+        raise InputError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
     if young is not None:
         ratio = options.get("poisson_ratio")
         if ratio is None:
-            raise SceneError("poisson_ratio", None, "a number, where Young's modulus is given")
+            raise InputError("poisson_ratio", None, "a number, where Young's modulus is given")
         if not young > 0:
-            raise SceneError("youngs_modulus", young, "a positive, finite number in GPa")
+            raise InputError("youngs_modulus", young, "a positive, finite number in GPa")
         options["contact_modulus"] = young / (1 - ratio**2)
     return ELASTICITIES[section["kind"]](**options)
 
@@ -145,14 +145,14 @@ def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elastic
     if name == "reduced_pressure":
         gradient = _rms_gradient(surface, settings["points"])
         if not gradient > 0:
-            raise SceneError("load", name, "mean_pressure: this surface is flat")
+            raise InputError("load", name, "mean_pressure: this surface is flat")
         values = values * contact_modulus * gradient
     elif name == "contact_ratio":
         radius = settings["surface"].get("radius")
         if radius is None:
-            raise SceneError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
+            raise InputError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
         if any(Trait.HALF_SPACE not in body.traits for body in elasticities):
-            raise SceneError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
+            raise InputError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: reference.cylinder_load, 2: reference.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
     return pressures([float(value) for value in values], labels=labels)
@@ -164,7 +164,7 @@ def _rms_gradient(surface: Surface, points: int | None) -> float:
         return surface.gradient
     points = points or surface.points
     if points is None:
-        raise SceneError("points", None, "a whole number: only a measured surface comes with its own")
+        raise InputError("points", None, "a whole number: only a measured surface comes with its own")
     heights = surface.heights(points)
     return rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)
 

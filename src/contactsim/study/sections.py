@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contactsim.contact.loading import sweep
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.solvers.registry import DEFAULT_SOLVERS
 from contactsim.study.keys import (
     ACCURACY_KEYS,
@@ -36,15 +36,15 @@ def read_effects(settings: dict, file: object, prefix: str) -> dict:
     auto = read(section, NEGLECT_KEYS, file, f"{prefix}.effects")
     if settings["neglect"]:
         allowed = "left out, for what is negligible is neglected anyway"
-        raise SceneError(f"{prefix}.neglect", settings["neglect"], allowed, file)
+        raise InputError(f"{prefix}.neglect", settings["neglect"], allowed, file)
     effects = auto.pop("list")
     comparable = STUDY_KINDS[problem_kind(effects)].comparable
     for name in auto["quantities"]:
         if name not in comparable:
-            raise SceneError(f"{prefix}.effects.quantities", name, f"some of {', '.join(comparable)}", file)
+            raise InputError(f"{prefix}.effects.quantities", name, f"some of {', '.join(comparable)}", file)
     if auto["sample"] > settings["members"]:
         allowed = f"at most {settings['members']}, the study's members"
-        raise SceneError(f"{prefix}.effects.sample", auto["sample"], allowed, file)
+        raise InputError(f"{prefix}.effects.sample", auto["sample"], allowed, file)
     return {"effects": effects, "auto": auto}
 
 
@@ -53,25 +53,25 @@ def read_accuracy(section: dict, settings: dict, file: object, prefix: str) -> d
 
     Raises
     ------
-    SceneError
+    InputError
         Where neither is given, or a key that follows from the accuracy is given too.
     """
     if settings["accuracy"] is None:
         if settings["tolerance"] is None:
             allowed = f"{STUDY_KEYS['tolerance'].allowed} (the key is missing)"
-            raise SceneError(f"{prefix}.tolerance", "nothing", allowed, file)
+            raise InputError(f"{prefix}.tolerance", "nothing", allowed, file)
         return settings
     for key in FROM_ACCURACY:
         if section.get(key) is not None:
-            raise SceneError(f"{prefix}.{key}", section[key], FOLLOWS, file)
+            raise InputError(f"{prefix}.{key}", section[key], FOLLOWS, file)
     for key, values in settings["vary"].items():
         if key == "points" or str(key).endswith(".increment") or str(key).startswith("increments."):
-            raise SceneError(f"{prefix}.vary.{key}", values, FOLLOWS, file)
+            raise InputError(f"{prefix}.vary.{key}", values, FOLLOWS, file)
     fields = {"snapshots": settings["snapshots"], "keep": "fields" in settings["keep"] and settings["keep"]}
     for key in [key for key, value in fields.items() if value]:
         if settings["vary"] or settings["members"] > 1:
             allowed = "left out, for runs to an accuracy have grids of their own; or one run"
-            raise SceneError(f"{prefix}.{key}", fields[key], allowed, file)
+            raise InputError(f"{prefix}.{key}", fields[key], allowed, file)
     wanted = settings["accuracy"] if isinstance(settings["accuracy"], dict) else {"error": settings["accuracy"]}
     return settings | INITIAL_OPTIONS | {"accuracy": read(wanted, ACCURACY_KEYS, file, f"{prefix}.accuracy")}
 
@@ -81,11 +81,11 @@ def read_load(settings: dict, file: object, prefix: str) -> dict:
     sections = [name for name in ("load", "path") if settings[name] is not None]
     if len(sections) != 1:
         allowed = f"exactly one of load ({', '.join(LOADS)}) and path"
-        raise SceneError(f"{prefix}.load", "both load and path" if sections else "nothing", allowed, file)
+        raise InputError(f"{prefix}.load", "both load and path" if sections else "nothing", allowed, file)
     if sections == ["load"]:
         if study_kind(settings).needs_path:
             allowed = "path: a state of cohesive laws depends on those before"
-            raise SceneError(f"{prefix}.load", settings["load"], allowed, file)
+            raise InputError(f"{prefix}.load", settings["load"], allowed, file)
         return _read_loads(settings["load"], file, f"{prefix}.load")
     return _read_path(settings["path"], settings["accuracy"] is not None, file, f"{prefix}.path")
 
@@ -95,20 +95,20 @@ def _read_loads(section: dict, file: object, prefix: str) -> dict:
     values = Key(listed(number), "a list of numbers, none twice", None)
     lists = {name: value for name, value in read(section, dict.fromkeys(LOADS, values), file, prefix).items() if value}
     if len(lists) != 1:
-        raise SceneError(prefix, section, f"exactly one of {', '.join(LOADS)}", file)
+        raise InputError(prefix, section, f"exactly one of {', '.join(LOADS)}", file)
     ((name, numbers),) = lists.items()
     if min(numbers) <= 0:
-        raise SceneError(f"{prefix}.{name}", min(numbers), "numbers above 0", file)
+        raise InputError(f"{prefix}.{name}", min(numbers), "numbers above 0", file)
     return {"name": name, "values": sorted(numbers)}
 
 
 def _read_increment(section: dict, accurate: bool, file: object, prefix: str) -> dict:
     """Return a section with its increment; where that follows from an accuracy, with one to begin with."""
     if accurate and section["increment"] is not None:
-        raise SceneError(f"{prefix}.increment", section["increment"], FOLLOWS, file)
+        raise InputError(f"{prefix}.increment", section["increment"], FOLLOWS, file)
     if not accurate and section["increment"] is None:
         allowed = f"{PATH_KEYS['increment'].allowed} (the key is missing)"
-        raise SceneError(f"{prefix}.increment", "nothing", allowed, file)
+        raise InputError(f"{prefix}.increment", "nothing", allowed, file)
     return section | {"increment": section["increment"] or INITIAL_INCREMENT}
 
 
@@ -117,16 +117,16 @@ def _read_path(section: dict, accurate: bool, file: object, prefix: str) -> dict
     section = _read_increment(read(section, PATH_KEYS, file, prefix), accurate, file, prefix)
     controls = [name for name in ("approach", "mean_pressure") if section[name] is not None]
     if len(controls) != 1:
-        raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
+        raise InputError(prefix, section, "exactly one of approach and mean_pressure", file)
     points, control = section[controls[0]], Trait[controls[0].upper()]
     try:
         steps = sweep(control, points, section["increment"]).steps
-    except SceneError as error:
-        raise error.within(file, prefix) from error
+    except InputError as error:
+        raise error.located(file, prefix) from error
     path = {"control": controls[0], "through": points, "increment": section["increment"]}
     if section["origin"] != ORIGINS[0]:
         if control is not Trait.APPROACH:
-            raise SceneError(f"{prefix}.origin", section["origin"], "left out, for pressure has none", file)
+            raise InputError(f"{prefix}.origin", section["origin"], "left out, for pressure has none", file)
         path["origin"] = section["origin"]
     return {"name": "step"} | path | {"values": [step.value for step in steps]}
 
@@ -136,10 +136,10 @@ def read_slide(settings: dict, file: object, prefix: str) -> dict | None:
     if settings["slide"] is None:
         return None
     if not study_kind(settings).needs_path or settings["path"] is None:
-        raise SceneError(f"{prefix}.slide", settings["slide"], "left out, but for cohesive laws and a path", file)
+        raise InputError(f"{prefix}.slide", settings["slide"], "left out, but for cohesive laws and a path", file)
     section = read_slide_section(settings["slide"], file, f"{prefix}.slide", settings["accuracy"] is not None)
     if "approach" in section and settings["load"]["control"] != "approach":
-        raise SceneError(f"{prefix}.slide.approach", section["approach"], "mean_pressure, as the path has", file)
+        raise InputError(f"{prefix}.slide.approach", section["approach"], "mean_pressure, as the path has", file)
     return section
 
 
@@ -148,7 +148,7 @@ def read_slide_section(section: dict, file: object, prefix: str, accurate: bool 
     section = _read_increment(read(section, SLIDE_KEYS, file, prefix), accurate, file, prefix)
     missing = [name for name in ("approach", "mean_pressure") if section[name] is None]
     if len(missing) != 1:
-        raise SceneError(prefix, section, "exactly one of approach and mean_pressure", file)
+        raise InputError(prefix, section, "exactly one of approach and mean_pressure", file)
     return {name: value for name, value in section.items() if name not in missing}
 
 
@@ -157,15 +157,15 @@ def read_error_run(part: str, settings: dict, file: object, prefix: str) -> dict
     knob, _, keys = ERROR_RUNS[part]
     section = read(settings[part], keys, file, f"{prefix}.{part}")
     if knob in settings["vary"]:
-        raise SceneError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)
+        raise InputError(f"{prefix}.{part}", settings[part], f"left out, for {knob} are varied", file)
     if section["members"] > settings["members"]:
         allowed = f"at most {settings['members']}, the study's members"
-        raise SceneError(f"{prefix}.{part}.members", section["members"], allowed, file)
+        raise InputError(f"{prefix}.{part}.members", section["members"], allowed, file)
     if knob not in keys and not (settings[knob] or settings["auto"]):
-        raise SceneError(f"{prefix}.{part}", section, f"none, for the study has no {knob}", file)
+        raise InputError(f"{prefix}.{part}", section, f"none, for the study has no {knob}", file)
     if knob in keys and (settings[knob] is None or section[knob] >= settings[knob]):
         allowed = f"below the study's {knob}, {settings[knob]}"
-        raise SceneError(f"{prefix}.{part}.{knob}", section[knob], allowed, file)
+        raise InputError(f"{prefix}.{part}.{knob}", section[knob], allowed, file)
     return section
 
 

@@ -17,7 +17,7 @@ from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
 from contactsim.error_control.scaling import FILE
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
@@ -129,7 +129,7 @@ class Study:
         settings["load"] = read_load(settings, file, prefix)
         settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
-            raise SceneError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
+            raise InputError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": default_solver_kind(settings)} | settings["solver"]
         _refuse_unused(section, settings, file, prefix)
         for part in ERROR_RUNS:
@@ -149,7 +149,7 @@ class Study:
         scenes = [build_scene(run.settings | {"neglect": []}) for run in self.runs() if names and run.member == 0]
         for name in names:
             if all(SIMPLIFICATIONS[name](scene) == scene for scene in scenes):
-                raise SceneError(f"studies.{self.name}.neglect", name, "effects that the study has", self.file)
+                raise InputError(f"studies.{self.name}.neglect", name, "effects that the study has", self.file)
 
     def _check_fits(self) -> None:
         """Raise InputError for fits without two loads below the limit, or with more varied than Hurst exponents."""
@@ -158,10 +158,10 @@ class Study:
             return
         if self.dimensions != ["hurst", "member", "reduced_pressure"]:
             allowed = "none, unless surface.hurst alone is varied and the load is a reduced_pressure"
-            raise SceneError(f"studies.{self.name}.fit_limits", limits, allowed, self.file)
+            raise InputError(f"studies.{self.name}.fit_limits", limits, allowed, self.file)
         if min(limits) < load["values"][min(1, len(load["values"]) - 1)]:
             allowed = "limits with two loads or more below them"
-            raise SceneError(f"studies.{self.name}.fit_limits", min(limits), allowed, self.file)
+            raise InputError(f"studies.{self.name}.fit_limits", min(limits), allowed, self.file)
 
     @property
     def dimensions(self) -> list[str]:
@@ -199,10 +199,10 @@ class Study:
             or not values
             or any(value in values[:place] for place, value in enumerate(values))
         ):
-            raise SceneError(key, values, "a list with at least one entry, none twice", self.file)
+            raise InputError(key, values, "a list with at least one entry, none twice", self.file)
         for value in values:
             if isinstance(value, list | dict):
-                raise SceneError(key, value, "single values, which a dimension can have", self.file)
+                raise InputError(key, value, "single values, which a dimension can have", self.file)
         return values
 
     def _run(self, varied: dict, member: int, change: dict, error: str) -> Run:
@@ -239,7 +239,7 @@ class Study:
                 keys = ", ".join(
                     f"{part}.{key}" for part, own in self._own_keys.items() for key in own if key != "kind"
                 )
-                raise SceneError(f"studies.{self.name}.vary", name, f"a key of this study: points, {keys}", self.file)
+                raise InputError(f"studies.{self.name}.vary", name, f"a key of this study: points, {keys}", self.file)
             sections[head] = sections[head] | {tail: value}
         return {name: self._part(name, section) for name, section in sections.items()}, points
 
@@ -253,8 +253,8 @@ class Study:
         accuracy = self.settings["accuracy"]
         try:
             setup = choose_options(build_setup(settings), accuracy["error"], accuracy["quantities"])
-        except SceneError as error:
-            raise error.within(self.file, f"studies.{self.name}") from error
+        except InputError as error:
+            raise error.located(self.file, f"studies.{self.name}") from error
         return updated_settings(settings, setup) | {"accuracy": accuracy}
 
     def _sections(self) -> list[str]:
@@ -298,7 +298,7 @@ class Study:
             return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
         except OSError as error:
             allowed = f"a file that can be read; looked for at {Path(path).resolve()}"
-            raise SceneError(f"studies.{self.name}.surface.file", path, allowed, self.file) from error
+            raise InputError(f"studies.{self.name}.surface.file", path, allowed, self.file) from error
 
     def _check(self, run: Run) -> None:
         """Build the run's scene, so that nothing impossible is found out by a job."""
@@ -307,9 +307,9 @@ class Study:
             check_solver(run.setup.options.solver, scene)
             scene.upper.surface.check(run.setup.points)
             study_kind(run.settings).check(run.setup)
-        except SceneError as error:
+        except InputError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
-            raise error.within(self.file, f"studies.{self.name}{section}") from error
+            raise error.located(self.file, f"studies.{self.name}{section}") from error
 
 
 def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:
@@ -320,4 +320,4 @@ def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> 
     for key in [*others, *(key for key in unused if section.get(key) is not None)]:
         what = "section" if key in EFFECTS else "key"
         allowed = f"no such {what}, as effects are {', '.join(settings['effects'])}"
-        raise SceneError(f"{prefix}.{key}", settings[key], allowed, file)
+        raise InputError(f"{prefix}.{key}", settings[key], allowed, file)

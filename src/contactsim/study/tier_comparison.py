@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from contactsim.analysis.tiers import FIT_DIMENSIONS, differences, join_rows
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.study.plan import Plan
 
 
@@ -14,7 +14,7 @@ def compare_tiers(first: Plan, second: Plan) -> dict[str, pd.DataFrame | None]:
 
     Raises
     ------
-    SceneError
+    InputError
         If a file is missing, or lacks a column that the figure compares.
     """
     return {
@@ -35,11 +35,11 @@ def _compare_figure(first: Plan, second: Plan, name: str) -> pd.DataFrame:
         for column in figure.compare:
             if column not in numeric:
                 allowed = f"one of {', '.join(numeric)}; {_remedy(plan, name)}"
-                raise SceneError(f"figures.{name}.compare", column, allowed, _path(plan, name))
+                raise InputError(f"figures.{name}.compare", column, allowed, _path(plan, name))
     try:
         return differences(join_rows(*tables, keys), figure.compare)
-    except SceneError as error:
-        raise error.within(f"{_path(first, name)} and {_path(second, name)}", f"figures.{name}") from error
+    except InputError as error:
+        raise error.located(f"{_path(first, name)} and {_path(second, name)}", f"figures.{name}") from error
 
 
 def _path(plan: Plan, name: str) -> str:
@@ -58,4 +58,4 @@ def _read_numbers(plan: Plan, name: str) -> pd.DataFrame:
         return pd.read_csv(_path(plan, name))
     except FileNotFoundError as error:
         allowed = f"a file that is there; {_remedy(plan, name)}"
-        raise SceneError(f"figures.{name}", "no file", allowed, _path(plan, name)) from error
+        raise InputError(f"figures.{name}", "no file", allowed, _path(plan, name)) from error

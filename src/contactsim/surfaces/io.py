@@ -20,7 +20,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 
 Array = NDArray[np.float64]
 Kinds = Mapping[str, Callable[[Array], Array]]
@@ -32,35 +32,35 @@ TAPER = 0.1  # of the length, at each end
 
 
 def existing(path: object) -> Path:
-    """The path of a file that there is; SceneError else."""
+    """The path of a file that there is; InputError else."""
     if not isinstance(path, str | Path) or not Path(path).is_file():
-        raise SceneError("path", path, "an existing file", path)
+        raise InputError("path", path, "an existing file", path)
     return Path(path)
 
 
 def refuse_unused(key: str, value: object, suffixes: tuple[str, ...], file: Path) -> None:
-    """SceneError if a value is given for a file whose suffix has no use for it."""
+    """InputError if a value is given for a file whose suffix has no use for it."""
     if value is not None and file.suffix.lower() not in suffixes:
-        raise SceneError(key, value, f"none for {file.suffix.lower()}, only for {', '.join(suffixes)}", file)
+        raise InputError(key, value, f"none for {file.suffix.lower()}, only for {', '.join(suffixes)}", file)
 
 
 @contextmanager
 def readable(file: Path, *more: type[Exception]) -> Iterator[None]:
-    """Turn what a damaged file makes a reader raise, and `more`, into a SceneError."""
+    """Turn what a damaged file makes a reader raise, and `more`, into a InputError."""
     try:
         yield
-    except SceneError:
+    except InputError:
         raise
     except (OSError, RuntimeError, ValueError, *more) as error:
         why = " ".join(str(error).split())[:200]
-        raise SceneError("path", str(file), f"a readable {file.suffix.lower()} file ({why})", file) from error
+        raise InputError("path", str(file), f"a readable {file.suffix.lower()} file ({why})", file) from error
 
 
 def positive(spacing: object, file: object) -> float:
-    """A spacing as a float; SceneError unless it is a positive finite number."""
+    """A spacing as a float; InputError unless it is a positive finite number."""
     if isinstance(spacing, Real) and not isinstance(spacing, bool) and 0 < spacing < np.inf:
         return float(spacing)
-    raise SceneError("spacing", spacing, "a positive finite number, in nm", file)
+    raise InputError("spacing", spacing, "a positive finite number, in nm", file)
 
 
 def finite(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
@@ -68,7 +68,7 @@ def finite(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: 
     array = np.ma.asarray(values)
     if array.dtype.kind not in "iuf" or array.ndim != dims or min(array.shape) < 2:
         allowed = f"two or more real numbers{' each way' * (dims > 1)}, in {dims}D"
-        raise SceneError(key, f"shape {array.shape} of {array.dtype}", allowed, file)
+        raise InputError(key, f"shape {array.shape} of {array.dtype}", allowed, file)
     with np.errstate(over="ignore", invalid="ignore"):
         numbers = array.astype(np.float64).filled(np.nan) * scale
     bad = ~np.isfinite(numbers)
@@ -78,7 +78,7 @@ def finite(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: 
         found = f"{numbers[at]} in {where}"
         if dims > 1:
             found = f"{bad.sum()} of {bad.size} points missing or not finite, the first {found}"
-        raise SceneError(key, found, "finite numbers, none missing", file)
+        raise InputError(key, found, "finite numbers, none missing", file)
     return numbers
 
 
@@ -88,27 +88,27 @@ def factor(key: str, stated: str | None, unit: str | None, file: Path) -> float:
     wrong = [name for name in names if name not in UNITS]
     if wrong or not names:
         allowed = f"for {key} one of {', '.join(UNITS)}, in the file or as `unit`"
-        raise SceneError("unit", wrong[0] if wrong else None, allowed, file)
+        raise InputError("unit", wrong[0] if wrong else None, allowed, file)
     if UNITS[names[0]] != UNITS[names[-1]]:
-        raise SceneError("unit", unit, f"none, or that in the file, {stated}", file)
+        raise InputError("unit", unit, f"none, or that in the file, {stated}", file)
     return UNITS[names[0]]
 
 
 def mean_step(positions: Array, key: str, file: Path) -> float:
-    """The step of equally spaced positions (n,), negative if they descend; SceneError if they are not."""
+    """The step of equally spaced positions (n,), negative if they descend; InputError if they are not."""
     mean = float(positions[-1] - positions[0]) / (positions.size - 1)
     off = np.abs(np.diff(positions) - mean)
     row = int(np.argmax(off)) + 1
     if mean == 0 or off[row - 1] > TOLERANCE * abs(mean):
         found = f"{off[row - 1]:.6g} nm off the mean step {mean:.6g} nm from row {row} to {row + 1}"
-        raise SceneError(key, found, f"equal steps to {TOLERANCE:g} of the mean step", file)
+        raise InputError(key, found, f"equal steps to {TOLERANCE:g} of the mean step", file)
     return mean
 
 
 def agreeing(spacing: float, given: float | None, file: Path) -> float:
-    """The spacing that a file states; SceneError if one is given that differs."""
+    """The spacing that a file states; InputError if one is given that differs."""
     if given is not None and abs(given - spacing) > TOLERANCE * spacing:
-        raise SceneError("spacing", given, f"none, or that of the positions, {spacing:.6g} nm", file)
+        raise InputError("spacing", given, f"none, or that of the positions, {spacing:.6g} nm", file)
     return spacing
 
 
@@ -131,7 +131,7 @@ class Text:
     def read(cls, file: Path, delimiter: str | None) -> Text:
         """Look at the first rows of a file; the separator is found if None."""
         if delimiter not in (None, ",", ";", "\t", " "):
-            raise SceneError("delimiter", delimiter, 'one of "," ";" tab " "', file)
+            raise InputError("delimiter", delimiter, 'one of "," ";" tab " "', file)
         rows = list(itertools.islice(_rows(file), 3))
         # The second row, surely no header, has the separator: a semicolon, else a comma, else blanks.
         mark = delimiter or next((each for each in ";," if any(each in line for _, line in rows[1:2])), " ")
@@ -139,19 +139,19 @@ class Text:
         named = bool(rows) and (rows[0][1][0].isalpha() or rows[0][1][0] in "\"'")
         header = rows.pop(0) if named and set(_numbers(rows[0][1], mark)) == {None} else (0, "")
         if len(rows) < 2:
-            raise SceneError("heights", f"{len(rows)} rows", "two or more rows of numbers", file)
+            raise InputError("heights", f"{len(rows)} rows", "two or more rows of numbers", file)
         return cls(file, header, rows[0][0], mark)
 
     def units(self, columns: int, file: Path) -> list[str]:
-        """The units in the header, like `x [um]`, of all columns; none if there are none; SceneError if of some."""
+        """The units in the header, like `x [um]`, of all columns; none if there are none; InputError if of some."""
         units = re.findall(r"[\[(]([^\])]*)[\])]", self.header[1])
         if len(units) not in (0, columns):
             found = f"a unit for each of {columns} columns, or none"
-            raise SceneError(f"line {self.header[0]}", self.header[1], found, file)
+            raise InputError(f"line {self.header[0]}", self.header[1], found, file)
         return units
 
     def table(self, widths: range, allowed: str, file: Path) -> Array:
-        """The numbers (rows, columns), of a number of columns in `widths`; SceneError with the line else."""
+        """The numbers (rows, columns), of a number of columns in `widths`; InputError with the line else."""
         found = self._at_once()
         if found is not None and found.shape[1] in widths:
             return found
@@ -161,7 +161,7 @@ class Text:
                 continue
             values = _numbers(line, self.mark)
             if None in values or len(values) not in widths or len(values) != len(table[0] if table else values):
-                raise SceneError(f"line {number}", line, allowed, file)
+                raise InputError(f"line {number}", line, allowed, file)
             table.append(np.array(values, dtype=np.float64))
         return np.array(table)
 
@@ -208,7 +208,7 @@ def find_heights(data: netCDF4.Dataset, dims: int, variable: str | None, file: P
     floats = [name for name in free if np.dtype(fields[name].dtype).kind == "f"]
     found = [str(variable)] if variable is not None else named if len(named) == 1 else floats
     if len(found) != 1 or found[0] not in fields:
-        raise SceneError("variable", variable, f"the name of the {dims}D heights, of those: {list(fields)}", file)
+        raise InputError("variable", variable, f"the name of the {dims}D heights, of those: {list(fields)}", file)
     return fields[found[0]]
 
 
@@ -266,7 +266,7 @@ def mirrored(heights: Array) -> Array:
 
 
 def applied(kinds: Kinds, key: str, kind: str, heights: ArrayLike, source: object, dims: int) -> Array:
-    """Checked heights, shaped by the one of `kinds` named; SceneError else."""
+    """Checked heights, shaped by the one of `kinds` named; InputError else."""
     if not isinstance(kind, str) or kind not in kinds:
-        raise SceneError(key, kind, f"one of {', '.join(kinds)}", source)
+        raise InputError(key, kind, f"one of {', '.join(kinds)}", source)
     return kinds[kind](finite(heights, "heights", source, dims=dims))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.surfaces.profile import Profile, read_profile
 from contactsim.surfaces.profile import prepare as prepare_profile
@@ -40,7 +40,7 @@ class Sampled:
     def check(self, points: int) -> None:
         """Refuse another number of points than there are: a measurement is not resampled."""
         if points != self.points:
-            raise SceneError("points", points, f"{self.points}, the number of points of the measurement")
+            raise InputError("points", points, f"{self.points}, the number of points of the measurement")
 
     def heights(self, points: int) -> Array:
         """The heights as given; `points` must be their number along x."""

@@ -14,7 +14,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.surfaces import io
 from contactsim.surfaces.io import TEXT, TOLERANCE, Array, Kinds
 
@@ -25,7 +25,7 @@ SUFFIXES = (".npy", *TEXT, ".nc")
 class Profile:
     """Heights (n,) in nm, up positive, at equal `spacing` in nm; `source` says where they came from.
 
-    SceneError unless there are two or more finite heights in one dimension and a positive finite spacing.
+    InputError unless there are two or more finite heights in one dimension and a positive finite spacing.
     """
 
     heights: Array
@@ -52,12 +52,12 @@ def read_profile(
     unit: of what the file states no unit for; must agree with the heights' if stated; for .npy "nm" if not given.
     variable: of the heights, .nc only. delimiter: "," ";" tab or " " (any blanks), text only; found if None.
     Text has columns z, or x z, or x y z with constant x or y; units of all in a header line like `x [um], z [nm]`,
-    which does not begin with #, as comments do. SceneError, with the file, for all else.
+    which does not begin with #, as comments do. InputError, with the file, for all else.
     """
     file = io.existing(path)
     suffix = file.suffix.lower()
     if suffix not in SUFFIXES:
-        raise SceneError("path", file.name, f"a name ending in one of {', '.join(SUFFIXES)}", file)
+        raise InputError("path", file.name, f"a name ending in one of {', '.join(SUFFIXES)}", file)
     io.refuse_unused("variable", variable, (".nc",), file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
     given = None if spacing is None else io.positive(spacing, file)
@@ -71,7 +71,7 @@ def read_profile(
             positions, heights = None, io.finite(io.load_npy(file), "heights", file, scale)
     if positions is None:
         if given is None:
-            raise SceneError("spacing", None, "a spacing in nm, since the file has no positions", file)
+            raise InputError("spacing", None, "a spacing in nm, since the file has no positions", file)
         return Profile(heights, given, str(file))
     step = io.mean_step(positions, "positions", file)
     return Profile(heights if step > 0 else heights[::-1], io.agreeing(abs(step), given, file), str(file))
@@ -87,7 +87,7 @@ def _read_text(file: Path, unit: str | None, delimiter: str | None) -> tuple[Arr
     ]
     placed.sort(key=np.ptp, reverse=True)  # of x and y the one that runs first
     if len(placed) == 2 and np.ptp(placed[1]) > TOLERANCE * np.ptp(placed[0]) / (heights.size - 1):
-        raise SceneError("positions", "x and y that both vary", "a line scan: x or y constant", file)
+        raise InputError("positions", "x and y that both vary", "a line scan: x or y constant", file)
     scale = io.factor("heights", units[-1], unit, file)
     return placed[0] if placed else None, io.finite(heights, "heights", file, scale)
 
@@ -115,7 +115,7 @@ PERIODIC: Kinds = {
 
 
 def prepare(profile: Profile, detrend: str = "linear", periodic: str = "mirror") -> Profile:
-    """Return the profile less its least-squares fit, then made periodic; SceneError for other kinds.
+    """Return the profile less its least-squares fit, then made periodic; InputError for other kinds.
 
     detrend: none, mean, linear or quadratic.
     periodic: none: as it is, (n,); a step at the seam stays and adds step^2 / (n spacing^2) to the mean square slope.

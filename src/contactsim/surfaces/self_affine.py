@@ -16,7 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
 from contactsim.surfaces.shapes import Smooth, check_dimensions, check_length
 
@@ -68,25 +68,25 @@ class SelfAffine(Smooth):
         check_length(self.length)
         check_dimensions(self.dimensions)
         if not 0 <= self.hurst <= 1:
-            raise SceneError("hurst", self.hurst, "a number from 0 to 1")
+            raise InputError("hurst", self.hurst, "a number from 0 to 1")
         if not 0 < self.rolloff_wavelength <= self.length:
-            raise SceneError("rolloff_wavelength", self.rolloff_wavelength, f"above 0 nm, at most {self.length} nm")
+            raise InputError("rolloff_wavelength", self.rolloff_wavelength, f"above 0 nm, at most {self.length} nm")
         if not 0 < self.shortest_wavelength < self.rolloff_wavelength:
             allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm"
-            raise SceneError("shortest_wavelength", self.shortest_wavelength, allowed)
+            raise InputError("shortest_wavelength", self.shortest_wavelength, allowed)
         if (self.rms_gradient is None) == (self.rms_height is None):
             given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
-            raise SceneError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
+            raise InputError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
         for name, unit in (("rms_gradient", ""), ("rms_height", " in nm")):
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
-                raise SceneError(name, value, f"a positive, finite number{unit}")
+                raise InputError(name, value, f"a positive, finite number{unit}")
         if self.smoothed is not None and not self.shortest_wavelength < self.smoothed < self.rolloff_wavelength:
             ends = f"above the shortest wavelength {self.shortest_wavelength} nm, below the roll-off wavelength"
             allowed = f"{ends} {self.rolloff_wavelength} nm, or left out"
-            raise SceneError("smoothed", self.smoothed, allowed)
+            raise InputError("smoothed", self.smoothed, allowed)
         if self.amplitudes not in AMPLITUDES:
-            raise SceneError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
+            raise InputError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
 
     @property
     def modes(self) -> int:

@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid
 
 
@@ -42,13 +42,13 @@ class Surface(Protocol):
 def check_length(length: float) -> None:
     """Refuse a period that is not positive and finite."""
     if not (np.isfinite(length) and length > 0):
-        raise SceneError("length", length, "a positive, finite period in nm")
+        raise InputError("length", length, "a positive, finite period in nm")
 
 
 def check_dimensions(dimensions: int) -> None:
     """Refuse anything but lines and surfaces."""
     if dimensions not in (1, 2):
-        raise SceneError("dimensions", dimensions, "1, a line, or 2, a surface")
+        raise InputError("dimensions", dimensions, "1, a line, or 2, a surface")
 
 
 class Smooth:
@@ -73,7 +73,7 @@ class Smooth:
         """Refuse fewer than two points along x, and those that miss the shortest wave."""
         Grid((points,), (self.lengths[-1],))
         if self.modes is not None and points <= 2 * self.modes:
-            raise SceneError("points", points, f"more than {2 * self.modes}: two points per shortest wavelength")
+            raise InputError("points", points, f"more than {2 * self.modes}: two points per shortest wavelength")
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class _Round(Smooth):
     def __post_init__(self) -> None:
         check_length(self.length)
         if not (np.isfinite(self.radius) and self.radius > 0):
-            raise SceneError("radius", self.radius, "a positive, finite number in nm")
+            raise InputError("radius", self.radius, "a positive, finite number in nm")
 
     def heights(self, points: int) -> Array:
         """Heights -ρ²/2R, at most 0, shape (points,) or (points, points), nm."""
@@ -148,9 +148,9 @@ class Sinusoid(Smooth):
         check_length(self.length)
         check_dimensions(self.dimensions)
         if not (np.isfinite(self.amplitude) and self.amplitude > 0):
-            raise SceneError("amplitude", self.amplitude, "a positive, finite number in nm")
+            raise InputError("amplitude", self.amplitude, "a positive, finite number in nm")
         if not (is_number(self.periods) and self.periods >= 1 and self.periods == int(self.periods)):
-            raise SceneError("periods", self.periods, "a whole number, 1 or more")
+            raise InputError("periods", self.periods, "a whole number, 1 or more")
 
     def heights(self, points: int) -> Array:
         """Heights of the wave, a crest at the origin, shape (points,) or (points, points), nm."""

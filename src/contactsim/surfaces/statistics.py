@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid, blocks
 
 
@@ -112,7 +112,7 @@ def spectrum(heights: Array, length: float) -> tuple[Array, Array]:
     wavenumber of an even grid the coefficient holds both signs of q and is halved.
     """
     if np.ndim(heights) != 1:
-        raise SceneError("heights", heights, "one dimension")
+        raise InputError("heights", heights, "one dimension")
     grid = Grid((len(heights),), (length,))
     power = np.abs(grid.forward(np.ascontiguousarray(heights, float))) ** 2 * length / (2 * np.pi)
     if len(heights) % 2 == 0:

@@ -22,7 +22,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.surfaces import io
 from contactsim.surfaces.io import TEXT, TOLERANCE, Array, Kinds
 
@@ -38,7 +38,7 @@ Read = tuple[Array, tuple[float | None, float | None]]
 class Topography:
     """Heights (ny, nx) in nm, up positive, rows along y; `spacing` (dy, dx) in nm; `source` says where from.
 
-    SceneError unless there are two or more finite heights in each direction and two positive finite spacings.
+    InputError unless there are two or more finite heights in each direction and two positive finite spacings.
     """
 
     heights: Array
@@ -66,7 +66,7 @@ def read_topography(
     variable: of the heights in .nc, the channel in files of instruments. delimiter: "," ";" tab or " ", text only.
     .npy, .csv, .txt, .dat hold a row for each y, from the smallest, with a column for each x; .xyz three columns x y z,
     the points of a complete grid in any order. A unit in a header line like `z [um]`, of .xyz like `x [um] y [um]
-    z [nm]`. SceneError, with the file, for all else.
+    z [nm]`. InputError, with the file, for all else.
     """
     file = io.existing(path)
     if file.suffix.lower() in SUFFIXES:
@@ -75,7 +75,7 @@ def read_topography(
     given = (None, None) if spacing is None else _pair(spacing, file)
     heights, found = _read(file, unit, variable, delimiter)
     if None in found and None in given:
-        raise SceneError("spacing", None, "a spacing in nm, or a pair (dy, dx), since the file states none", file)
+        raise InputError("spacing", None, "a spacing in nm, or a pair (dy, dx), since the file states none", file)
     both = zip(found, given, strict=True)
     dy, dx = (asked if own is None else io.agreeing(own, asked, file) for own, asked in both)
     return Topography(heights, (dy, dx), str(file))
@@ -85,7 +85,7 @@ def _pair(spacing: object, file: object) -> Pair:
     """(dy, dx) from one spacing or two."""
     both = list(spacing) if isinstance(spacing, list | tuple | np.ndarray) and np.ndim(spacing) == 1 else [spacing] * 2
     if len(both) != 2:
-        raise SceneError("spacing", spacing, "a positive finite number, in nm, or a pair (dy, dx) of them", file)
+        raise InputError("spacing", spacing, "a positive finite number, in nm, or a pair (dy, dx) of them", file)
     return io.positive(both[0], file), io.positive(both[1], file)
 
 
@@ -104,12 +104,12 @@ def _read(file: Path, unit: str | None, variable: str | None, delimiter: str | N
 
 
 def _read_grid(text: io.Text, unit: str | None, file: Path) -> Read:
-    """A row of heights for each y; SceneError for points x y z, which look like three columns of heights."""
+    """A row of heights for each y; InputError for points x y z, which look like three columns of heights."""
     table = text.table(range(2, sys.maxsize), "two or more heights 1.5, as many as in the first row", file)
     names = set(re.findall(r"[^\W\d_]+", re.sub(r"[\[(].*?[\])]", "", text.header[1].lower())))
     if table.shape[1] == 3 and (names >= {"x", "y", "z"} or _has_positions(table)):
         found = "three columns, of which two are positions on a grid"
-        raise SceneError("heights", found, "heights alone; name a file of points x y z .xyz", file)
+        raise InputError("heights", found, "heights alone; name a file of points x y z .xyz", file)
     scale = io.factor("heights", next(iter(text.units(1, file)), None), unit, file)
     return io.finite(table, "heights", file, scale, 2), (None, None)
 
@@ -120,7 +120,7 @@ def _has_positions(table: Array) -> bool:
         if all(np.isfinite(at).all() and np.ptp(at) > 0 for at in pair):
             try:
                 (one, *_), (two, *_) = (_levels(at, "heights", None) for at in pair)
-            except SceneError:
+            except InputError:
                 continue
             both = one * (two.max() + 1) + two
             if both.max() + 1 == both.size == np.unique(both).size:
@@ -149,7 +149,7 @@ def _read_points(text: io.Text, unit: str | None, file: Path) -> Read:
         if count:
             at = f"x = {left + place % nx * dx:.6g} nm, y = {low + place // nx * dy:.6g} nm"
             found = f"{count} of {ny} × {nx} points {kind}, the first at {at}"
-            raise SceneError("positions", found, "each point of a complete grid once", file)
+            raise InputError("positions", found, "each point of a complete grid once", file)
     heights = np.empty((ny, nx))
     heights[row, column] = z
     return io.finite(heights, "heights", file, scale, 2), (dy, dx)
@@ -161,13 +161,13 @@ def _levels(at: Array, key: str, file: Path) -> tuple[NDArray[np.int64], float, 
     low, count = at.min(), np.count_nonzero(steps > steps.max() / 10)  # what is smaller is scatter about one level
     step = float(at.max() - low) / max(count, 1)
     if step == 0:
-        raise SceneError(key, f"{low:.6g} nm in every row", "two or more values on a grid", file)
+        raise InputError(key, f"{low:.6g} nm in every row", "two or more values on a grid", file)
     index = np.rint((at - low) / step)
     off = np.abs(at - low - index * step)
     if off.max() > TOLERANCE * step:
         row = int(np.argmax(off))
         found = f"{at[row]:.6g} nm in row {row + 1}, {off[row]:.6g} nm off equal steps of {step:.6g} nm"
-        raise SceneError(key, found, f"equal steps to {TOLERANCE:g} of the mean step", file)
+        raise InputError(key, found, f"equal steps to {TOLERANCE:g} of the mean step", file)
     return index.astype(np.int64), float(low), step
 
 
@@ -192,17 +192,17 @@ def _read_instrument(file: Path, unit: str | None, variable: str | None) -> Read
         library = importlib.import_module(LIBRARY)
     except ImportError as error:
         allowed = f"a name ending in one of {', '.join(SUFFIXES)}; for others install {LIBRARY} (pip install {LIBRARY})"
-        raise SceneError("path", file.name, allowed, file) from error
+        raise InputError("path", file.name, allowed, file) from error
     with io.readable(file, Exception), library.open_topography(str(file)) as reader:
         channels = {each.channel_id: each for each in reader.channels if each.is_height_channel}
         name = reader.default_channel.channel_id if variable is None else variable
         if name not in channels:
-            raise SceneError("variable", name, f"a channel of heights, of those: {list(channels)}", file)
+            raise InputError("variable", name, f"a channel of heights, of those: {list(channels)}", file)
         channel = channels[name]
         sized = channel.physical_sizes is not None
         read = channel.topography() if sized else channel.topography(physical_sizes=channel.nb_grid_pts)
         if read.unit is not None and unit is not None:
-            raise SceneError("unit", unit, f"none, the file states {read.unit}", file)
+            raise InputError("unit", unit, f"none, the file states {read.unit}", file)
         scale = io.factor("heights", None, unit, file) if read.unit is None else 1.0
         read = read if read.unit is None else read.to_unit("nm")
         heights = io.finite(read.heights().T, "heights", file, scale, 2)
@@ -220,7 +220,7 @@ PERIODIC: Kinds = {"none": np.copy, "window": io.windowed, "mirror": io.mirrored
 
 
 def prepare(topography: Topography, detrend: str = "plane", periodic: str = "mirror") -> Topography:
-    """Return the topography less its least-squares fit, then made periodic; SceneError for other kinds.
+    """Return the topography less its least-squares fit, then made periodic; InputError for other kinds.
 
     detrend: none, mean, plane, or quadratic: all of 1, x, y, x^2, xy, y^2.
     periodic: none: as it is, (ny, nx), a step at the seams stays. window: mean-free heights tapered by cosines to zero

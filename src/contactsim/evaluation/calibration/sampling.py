@@ -9,7 +9,7 @@ import numpy as np
 
 from contactsim.error_control.options import MIN_PRESSING_INCREMENT
 from contactsim.error_control.scaling import FAMILIES, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.study.reading import Key, listed, mapping, pair, positive, read, size, text, tiered, whole
 from contactsim.study.study import Run, Study
 
@@ -56,7 +56,7 @@ def read_draws(folder: str | Path, over: dict, tier: str) -> dict | None:
         settings[part] = read(settings[part], DRAW_KEYS, file, part)
     for kind, section in settings["kinds"].items():
         if kind not in RANGES:
-            raise SceneError(f"kinds.{kind}", section, f"one of {', '.join(FAMILIES)}", file)
+            raise InputError(f"kinds.{kind}", section, f"one of {', '.join(FAMILIES)}", file)
         settings["kinds"][kind] = read(section, RANGES[kind], file, f"kinds.{kind}")
     return settings
 

@@ -25,7 +25,7 @@ from contactsim.error_control.control import (
 from contactsim.error_control.forecast import forecast_to_error
 from contactsim.error_control.options import choose_options, coarsen, scale_increment, set_grid
 from contactsim.error_control.scaling import FAMILIES, FILE, LINE, QUANTITIES, SURFACE
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw
 from contactsim.paths.options import Setup
 from contactsim.provenance import computing_digest, digest, source_digest
@@ -143,7 +143,7 @@ def _solved(setup: Setup, names: tuple[str, ...]) -> Solution | None:
     """Return a setting solved; None where it cannot be posed, as on a grid that is too coarse for its path."""
     try:
         return solve_setup(setup, names)
-    except SceneError:
+    except InputError:
         return None
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.paths.driver import follow_path
 from contactsim.provenance import computing_digest, digest, source_digest
 from contactsim.solvers.registry import solver_module
@@ -41,11 +41,11 @@ def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | 
     variants = []
     for name, variant in settings["variants"].items():
         if not isinstance(variant, dict):
-            raise SceneError(f"variants.{name}", variant, "a mapping of keys of a study", file)
+            raise InputError(f"variants.{name}", variant, "a mapping of keys of a study", file)
         study = Study.read(name, {"title": name} | overlaid(settings["scene"], variant), file, seed)
         runs = study.runs()
         if len(runs) != 1:
-            raise SceneError(f"variants.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
+            raise InputError(f"variants.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
         variants.append({"name": name, "title": study.settings["title"], "run": runs[0].settings})
     return settings | {"variants": variants}
 

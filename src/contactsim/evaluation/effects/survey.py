@@ -18,7 +18,7 @@ from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.effect_maps import change_without
 from contactsim.error_control.scaling import FILE as RELATIONS
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import computing_digest, digest, source_digest
@@ -77,24 +77,24 @@ def _map(name: str, section: object, file: str) -> dict:
     one = read(section, MAP_KEYS, file, prefix)
     one["axes"] = {axis: read(given, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, given in one["axes"].items()}
     if not one["axes"]:
-        raise SceneError(f"{prefix}.axes", {}, "at least one axis", file)
+        raise InputError(f"{prefix}.axes", {}, "at least one axis", file)
     for axis, given in one["axes"].items():
         head, _, tail = given["key"].partition(".")
         if head not in one["scene"] or (tail and not isinstance(one["scene"][head], dict)):
-            raise SceneError(f"{prefix}.axes.{axis}.key", given["key"], "a key of the map's scene", file)
+            raise InputError(f"{prefix}.axes.{axis}.key", given["key"], "a key of the map's scene", file)
         for key in given["per"]:
             if not is_number(_value_at(one["scene"], key)):
-                raise SceneError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
+                raise InputError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
     first = {axis: given["values"][0] for axis, given in one["axes"].items()}
     for axis, given in one["axes"].items():
         for value in given["values"]:
             runs = _study(one, first | {axis: value}, name, file).runs()
     if len(runs) != 1:
-        raise SceneError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
+        raise InputError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
     known = study_kind(runs[0].settings).comparable
     for quantity in one["of"]:
         if quantity not in known:
-            raise SceneError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
+            raise InputError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
     return one
 
 
@@ -103,17 +103,17 @@ def _panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
     prefix = f"panels.{count}"
     panel = read(section, PANEL_KEYS, file, prefix)
     if panel["map"] not in maps:
-        raise SceneError(f"{prefix}.map", panel["map"], f"one of {', '.join(maps)}", file)
+        raise InputError(f"{prefix}.map", panel["map"], f"one of {', '.join(maps)}", file)
     axes = maps[panel["map"]]["axes"]
     named = [panel["across"], panel["up"], *panel["at"]]
     if sorted(named) != sorted(axes):
-        raise SceneError(prefix, named, f"each axis of the map once: {', '.join(axes)}", file)
+        raise InputError(prefix, named, f"each axis of the map once: {', '.join(axes)}", file)
     panel["conditions"] = read(
         panel["conditions"], dict.fromkeys(panel["conditions"], PLACE), file, f"{prefix}.conditions"
     )
     for axis, value in panel["at"].items():
         if value not in axes[axis]["values"]:
-            raise SceneError(f"{prefix}.at.{axis}", value, f"one of {axes[axis]['values']}", file)
+            raise InputError(f"{prefix}.at.{axis}", value, f"one of {axes[axis]['values']}", file)
     return panel
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case
 from contactsim.evaluation.robustness.judge_loads import judge_wall
 from contactsim.evaluation.robustness.judge_paths import judge_path
@@ -39,7 +39,7 @@ def judge(case: Case | PathCase, method: str | HardWallSolver | CohesiveSolver) 
     """What comes of a case with a solver, by all that can be checked independently of it."""
     try:
         return JUDGES[type(case)](case, method)
-    except SceneError as error:
+    except InputError as error:
         return Verdict(Outcome.REFUSED, 0.0, str(error))
 
 
@@ -71,11 +71,11 @@ def read_settings(section: object, file: object) -> dict:
         options = read(solvers[name], keys_of(solver_class(name)), file, f"solvers.{name}")
         try:
             make_solver(name, **options)
-        except SceneError as error:
-            raise error.within(file, f"solvers.{name}") from error
+        except InputError as error:
+            raise error.located(file, f"solvers.{name}") from error
         settings["solvers"][name] = options
     if not settings["solvers"]:
-        raise SceneError("solvers", {}, f"at least one of {', '.join(SOLVERS)}", file)
+        raise InputError("solvers", {}, f"at least one of {', '.join(SOLVERS)}", file)
     return settings
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from contactsim.error_control.forecast import forecast_setup
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.evaluation.work_precision.cases import REFERENCE, Case, job_plan
 from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
 from contactsim.provenance import digest, source_digest
@@ -53,9 +53,9 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
         return {}
     tiers = load_yaml(file)
     if plan.tier not in tiers:
-        raise SceneError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
+        raise InputError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
     if not isinstance(tiers[plan.tier], dict):
-        raise SceneError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
+        raise InputError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
     return {name: _case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
 
 
@@ -83,25 +83,25 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     target = f"accuracy_{name}"
     if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED_NAMES, *plan.studies, *plan.figures):
         allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
-        raise SceneError(plan.tier, name, allowed, file)
+        raise InputError(plan.tier, name, allowed, file)
     prefix = f"{plan.tier}.{name}"
     settings = read(section, CASE_KEYS, file, prefix)
     if settings["study"] not in plan.studies:
-        raise SceneError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
+        raise InputError(f"{prefix}.study", settings["study"], f"one of {', '.join(plan.studies)}", file)
     study = plan.studies[settings["study"]]
     if study.settings["accuracy"] is not None:
-        raise SceneError(f"{prefix}.study", study.name, "a study whose knobs can be turned, without an accuracy", file)
+        raise InputError(f"{prefix}.study", study.name, "a study whose knobs can be turned, without an accuracy", file)
     kind = kind_of(study)
     if kind is None:
-        raise SceneError(f"{prefix}.study", study.name, "a study of loads, or of a path of smooth laws", file)
+        raise InputError(f"{prefix}.study", study.name, "a study of loads, or of a path of smooth laws", file)
     for key in {*settings["solvers"]} - {*SOLVERS}:
-        raise SceneError(f"{prefix}.solvers", key, f"one of {', '.join(sorted(SOLVERS))}", file)
+        raise InputError(f"{prefix}.solvers", key, f"one of {', '.join(sorted(SOLVERS))}", file)
     settings |= read_turned(settings, kind, file, prefix)
     _check_known(settings, study, kind, file, prefix)
     case = Case(name, settings, _narrowed(study, settings["vary"], file, f"{prefix}.vary"))
     if case.default not in settings["solvers"]:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
-        raise SceneError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
+        raise InputError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
     for job in case.jobs():
         for setting in case.turned(job):
             _check_setting(case, job, setting, file, prefix)
@@ -116,25 +116,25 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
             scene.upper.surface.check(setting.points)
             check_solver(solver_class(case.solved_by(job))(), scene)
             study_kind(run.settings).check(run.setup)
-    except SceneError as error:
+    except InputError as error:
         if error.key == "solver":
-            raise SceneError(f"{prefix}.solvers", job, error.allowed, file) from error
+            raise InputError(f"{prefix}.solvers", job, error.allowed, file) from error
         turned = REFERENCE if job == REFERENCE else f"solvers.{job}"
-        raise error.within(file, f"{prefix}.{turned if error.key == setting.knob else 'settled'}") from error
+        raise error.located(file, f"{prefix}.{turned if error.key == setting.knob else 'settled'}") from error
 
 
 def _check_known(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
     """Loads and quantities are the study's own, and there is nothing that its kind has no use for."""
     for key, why in kind.without.items():
         if settings.get(key) is not None:
-            raise SceneError(f"{prefix}.{key}", settings[key], why, file)
+            raise InputError(f"{prefix}.{key}", settings[key], why, file)
     if settings["load"] is None and "load" not in kind.without:
-        raise SceneError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
+        raise InputError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
     own = [name for name in kind.quantities if name in quantities(study)]
     for key, known in (("load", study.settings["load"]["values"]), ("quantities", own)):
         for value in settings[key] or ():
             if value not in known:
-                raise SceneError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
+                raise InputError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
 
 
 def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
@@ -143,9 +143,9 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
         known = study.settings["vary"].get(key)
         if known is None:
             allowed = f"a key that the study varies: {', '.join(study.settings['vary']) or 'none'}"
-            raise SceneError(f"{prefix}.{key}", values, allowed, file)
+            raise InputError(f"{prefix}.{key}", values, allowed, file)
         if not isinstance(values, list) or not values or any(value not in known for value in values):
-            raise SceneError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, known))}", file)
+            raise InputError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, known))}", file)
     return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
@@ -192,7 +192,7 @@ def expected(case: Case) -> list[list[float]]:
         try:
             setups = [run.setup for run in case.study_at(setting, case.default).runs()]
             runs = [forecast_setup(setup) for setup in setups]
-        except SceneError:
+        except InputError:
             found.append([float("nan")] * 2)
         else:
             total = setups[0].size

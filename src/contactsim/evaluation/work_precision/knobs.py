@@ -15,7 +15,7 @@ from pathlib import Path
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.forms import AVERAGED, form_of
@@ -44,7 +44,7 @@ class Knob:
         if finest is not None and self.finest(finest, reference) == finest:
             below = f"fewer than the reference's, {reference:g}"
             allowed = below if self.finest is max else f"above the reference's, {reference:g}"
-            raise SceneError(key, finest, allowed, file)
+            raise InputError(key, finest, allowed, file)
 
 
 KNOBS = {
@@ -187,7 +187,7 @@ def read_turned(settings: dict, kind: SingleLoads | WholePath, file: Path, prefi
     def knobs(section: object, keys: dict[str, Key], key: str) -> dict:
         """A section with a value, or values, for each knob."""
         for name in set(kind.without) & set(section if isinstance(section, dict) else ()):
-            raise SceneError(f"{key}.{name}", section[name], kind.without[name], file)
+            raise InputError(f"{key}.{name}", section[name], kind.without[name], file)
         return read(section, {name: keys[name] for name in kind.knobs}, file, key)
 
     found = {part: knobs(settings[part], SETTING_KEYS, f"{prefix}.{part}") for part in ("settled", "reference")}
@@ -197,7 +197,7 @@ def read_turned(settings: dict, kind: SingleLoads | WholePath, file: Path, prefi
         key = f"{prefix}.solvers.{solver}"
         turned[key] = found["solvers"][solver] = knobs(section, KNOB_KEYS, key)
         if not any(turned[key].values()):
-            raise SceneError(key, section, f"{', or '.join(kind.knobs)}, or more than one", file)
+            raise InputError(key, section, f"{', or '.join(kind.knobs)}, or more than one", file)
     for key, section in turned.items():
         for name, values in section.items():
             KNOBS[name].check(values, found["reference"][name], file, f"{key}.{name}")

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
-from contactsim.errors import SceneError, is_number
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.status import Status
@@ -84,7 +84,7 @@ class DampedVerlet(_VerletDynamics):
         square = self.time_step**2
         highest = float(problem.stiffness.diagonal.max()) + problem.law_stiffness
         if not square * highest < 4:
-            raise SceneError("time_step", self.time_step, f"below {2 / np.sqrt(highest):.3g}, the limit of stability")
+            raise InputError("time_step", self.time_step, f"below {2 / np.sqrt(highest):.3g}, the limit of stability")
 
         def mobility(tangent: Tangent) -> Mobility:
             """Return the displacement for a force: the same for all waves."""
@@ -117,7 +117,7 @@ class MassWeightedVerlet(_VerletDynamics):
     def __post_init__(self) -> None:
         _check_positive(self, "time_step", "damping")
         if not self.time_step < 1:
-            raise SceneError("time_step", self.time_step, "above 0 and below 1, the limit of stability")
+            raise InputError("time_step", self.time_step, "above 0 and below 1, the limit of stability")
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """Return the equilibrium reached from a state at rest."""
@@ -177,8 +177,8 @@ def _move_until_rest(
 
 
 def _check_positive(method: object, *names: str) -> None:
-    """Raise a `SceneError` for an option that is not a positive, finite number."""
+    """Raise a `InputError` for an option that is not a positive, finite number."""
     for name in names:
         value = getattr(method, name)
         if not (is_number(value) and value > 0):
-            raise SceneError(name, value, "a positive, finite number")
+            raise InputError(name, value, "a positive, finite number")

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.solvers.cohesive.gmres import LinearMap, gmres
@@ -111,7 +111,7 @@ class NewtonKrylov:
     def __post_init__(self) -> None:
         for name in ("flow_step", "trust_radius"):
             if not getattr(self, name) > 0:
-                raise SceneError(name, getattr(self, name), "a positive number, over the interaction range of the laws")
+                raise InputError(name, getattr(self, name), "a positive number, over the interaction range of the laws")
 
     def transforms(self, points: int) -> float:
         """Return the real transforms of a Krylov iteration, for each unknown component."""

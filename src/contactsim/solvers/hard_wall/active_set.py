@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.base import State, check_cascade, coarser_level, iterate
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import (
@@ -70,7 +70,7 @@ class ActiveSet:
 
     def __post_init__(self) -> None:
         if not 0 < self.reduction < 1:
-            raise SceneError("reduction", self.reduction, "above 0 and below 1")
+            raise InputError("reduction", self.reduction, "above 0 and below 1")
 
     def transforms(self, points: int) -> float:
         """Return the real transforms of an inner iteration: two, and two on the blocks."""

@@ -29,7 +29,7 @@ import ducc0
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array, Operator
 from contactsim.solvers.base import State, check_cascade, coarser_level
 from contactsim.solvers.hard_wall import kernels, prolongation
@@ -69,7 +69,7 @@ class ConjugateGradients:
 
     def __post_init__(self) -> None:
         if not self.wavelength > 0:
-            raise SceneError("wavelength", self.wavelength, "a positive number of points")
+            raise InputError("wavelength", self.wavelength, "a positive number of points")
 
     def transforms(self, points: int) -> float:
         """Return the real transforms of an iteration: two, and two on the cells."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
@@ -57,12 +57,12 @@ class Tamaas:
 
         Raises
         ------
-        SceneError
+        InputError
             For an odd number of rows, on which tamaas 2.9 has a wrong wavenumber for one of the two shortest waves.
         """
         shape, grid = problem.heights.shape, problem.compliance.grid
         if len(shape) == 2 and shape[0] % 2:
-            raise SceneError(
+            raise InputError(
                 "points", shape, "an even number of rows with tamaas, whose wavenumbers are wrong otherwise"
             )
         import tamaas

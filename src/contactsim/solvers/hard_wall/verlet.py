@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.errors import SceneError
+from contactsim.errors import InputError
 from contactsim.grid import Array, Operator
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
@@ -54,9 +54,9 @@ class HardWallVerlet:
 
     def __post_init__(self) -> None:
         if not 0 < self.time_step < 1:
-            raise SceneError("time_step", self.time_step, "above 0 and below 1, the stability limit")
+            raise InputError("time_step", self.time_step, "above 0 and below 1, the stability limit")
         if not self.damping > 0:
-            raise SceneError("damping", self.damping, "a positive number")
+            raise InputError("damping", self.damping, "a positive number")
 
     def transforms(self, points: int) -> float:
         """Return the real transforms of a time step."""
