@@ -17,7 +17,7 @@ import numpy as np
 
 from contactsim.contact.hard_wall import Certificate, HardWallProblem, Scale, pose_hard_wall
 from contactsim.contact.scene import Scene
-from contactsim.grid import Array, Grid, Tally
+from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
@@ -29,8 +29,8 @@ LONG = 20.0
 """CPU seconds above which a solution is not repeated."""
 
 
-class ByGrid(Tally):
-    """A tally that also keeps the number of transforms on each grid."""
+class ByGrid(TransformCounter):
+    """A counter that also keeps the number of transforms on each grid."""
 
     def __init__(self, finest: int) -> None:
         super().__init__(finest)
@@ -82,11 +82,11 @@ def measure_sweep(plan: Plan, case: dict, rounds: int) -> dict:
         for step in scene.path.steps:
             begin = time.thread_time()
             problem, scale = pose_hard_wall(scene, step, heights, case["tolerance"], 1)
-            problem.tally = problem.compliance.tally = ByGrid(heights.size)
+            problem.counter = problem.compliance.counter = ByGrid(heights.size)
             results.append(solve(method, problem, scale))
             seconds = time.thread_time() - begin
-            finest = {heights.size: problem.tally.transforms}
-            row += seconds, transform_seconds(finest), transform_seconds(problem.tally.counts)
+            finest = {heights.size: problem.counter.transforms}
+            row += seconds, transform_seconds(finest), transform_seconds(problem.counter.counts)
     unsolved = sum(result.status.name != "CONVERGED" for result in results)
     return {
         "status": f"{unsolved} of {len(results)} not converged" if unsolved else "CONVERGED",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactsim.errors import InputError
-from contactsim.grid import Grid, Operator, Tally
+from contactsim.grid import FourierOperator, Grid, TransformCounter
 
 SIZES = (2, 3, 8, 101, 1024)
 
@@ -30,16 +30,16 @@ def test_wavenumbers_are_those_of_numpy(points):
 
 
 def test_an_operator_multiplies_a_wave_by_its_symbol_and_counts_two_transforms():
-    grid, tally = Grid((64,), (64.0,)), Tally(128)
-    operator = Operator(grid, grid.wavenumber**2, tally)
+    grid, counter = Grid((64,), (64.0,)), TransformCounter(128)
+    operator = FourierOperator(grid, grid.wavenumber**2, counter)
     wave = np.sin(2 * np.pi * 3 * np.arange(64) / 64)
     assert np.allclose(operator(wave), (2 * np.pi * 3 / 64) ** 2 * wave, atol=1e-14)
-    assert tally.transforms == 1.0  # two on half as many points as the finest grid
+    assert counter.transforms == 1.0  # two on half as many points as the finest grid
 
 
 def test_an_operator_works_in_place():
     grid = Grid((32,), (32.0,))
-    operator = Operator(grid, np.ones(17), Tally(32))
+    operator = FourierOperator(grid, np.ones(17), TransformCounter(32))
     values = np.random.default_rng(2).normal(size=32)
     result = values.copy()
     assert operator(result, out=result) is result

@@ -50,6 +50,8 @@ class InputError(ValueError):
 
 def is_number(value: object) -> bool:
     """Return True for one finite real number; text, booleans and arrays are none."""
+    if type(value) in (int, float):  # the usual case: the abstract class is slow to ask
+        return math.isfinite(value)
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 

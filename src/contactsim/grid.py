@@ -1,8 +1,7 @@
-"""Periodic grids and what is diagonal on them.
+"""Periodic grids, their Fourier transforms, and operators that are diagonal in Fourier space.
 
-Elasticity is diagonal in Fourier space, so a grid offers real transforms and an `Operator` that multiplies by a
-symbol. Transforms are scaled such that the q = 0 entry is the mean. Every application is entered in a `Tally`,
-in units of one real transform on the finest grid, which is the price that all solvers are compared by.
+Elasticity is diagonal there: a `FourierOperator` multiplies each coefficient by a symbol. Transforms are scaled so that
+the entry q = 0 is the mean. A `TransformCounter` counts them, as the cost by which solvers are compared.
 """
 
 from __future__ import annotations
@@ -11,22 +10,25 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import ducc0
 import numpy as np
+from numpy.typing import NDArray
 
 from contactsim.errors import InputError
 
-Array = np.ndarray
+Array = NDArray[Any]
+"""An array of any type and shape; docstrings say which."""
 
 PADDING = 8
-"""Extra columns: transforms of rows that lie a power of two apart are several times slower."""
+"""Extra columns of a wide field: transforms are several times slower if rows start a power of two apart."""
 BLOCK = 2**20
-"""Points, in whole rows, that are worked on at a time where temporary arrays would outgrow the fields themselves."""
+"""Points worked on at a time, in whole rows, to keep temporary arrays small."""
 
 
 def blocks(shape: tuple[int, ...]) -> Iterator[tuple[int, int]]:
-    """First row and the one after the last of each block of rows; a line is one row."""
+    """Yield the first row of each block of rows and the row after its last; a line is one row."""
     rows = math.prod(shape[:-1])
     size = max(BLOCK // shape[-1], 1)
     return ((low, min(low + size, rows)) for low in range(0, rows, size))
@@ -34,7 +36,22 @@ def blocks(shape: tuple[int, ...]) -> Iterator[tuple[int, int]]:
 
 @dataclass(frozen=True)
 class Grid:
-    """Equispaced periodic grid: points per direction, period per direction (nm), FFT threads."""
+    """Equispaced periodic grid along one or two directions.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Points in each direction.
+    lengths : tuple of float
+        Period in each direction, nm.
+    threads : int
+        Threads that a transform may use.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than 2 points in a direction, or a period is not positive and finite.
+    """
 
     shape: tuple[int, ...]
     lengths: tuple[float, ...]
@@ -50,47 +67,50 @@ class Grid:
 
     @cached_property
     def size(self) -> int:
-        """Number of points."""
+        """Number of points of the grid."""
         return math.prod(self.shape)
 
     @property
     def spacing(self) -> tuple[float, ...]:
-        """Distance between neighbouring points in each direction (nm)."""
+        """Distance between neighbouring points in each direction, nm."""
         return tuple(length / n for length, n in zip(self.lengths, self.shape, strict=True))
 
     @property
     def half_shape(self) -> tuple[int, ...]:
-        """Shape of the coefficients of a real transform."""
+        """Shape of the coefficients of a real field."""
         return (*self.shape[:-1], self.shape[-1] // 2 + 1)
 
     @property
     def wide_shape(self) -> tuple[int, ...]:
-        """Shape of a real field with columns enough for its own transform: the same memory holds either."""
+        """Shape of a real field with extra columns, so that the same memory can hold its coefficients."""
         return (*self.shape[:-1], self.shape[-1] + PADDING + self.shape[-1] % 2)
 
     def low_modes(self, highest: int) -> tuple[Array, ...]:
-        """Index of the coefficients of modes up to `highest` in each direction, in the order of a transform of them."""
+        """Return the index of the coefficients of modes up to `highest` in each direction.
+
+        The order is that of the coefficients on a grid with these modes alone.
+        """
         along = np.arange(highest + 1)
         across = np.concatenate((along, -along[:0:-1]))
         return np.ix_(*[across] * (len(self.shape) - 1), along)
 
     def modes_of(self, finer: Grid) -> tuple[Array, ...]:
-        """Index of this grid's modes among those of a finer grid over the same periods."""
+        """Return the index of this grid's modes among those of a finer grid with the same periods."""
         across = [np.fft.fftfreq(n, 1 / n).astype(int) for n in self.shape[:-1]]
         rows = [np.where(k < 0, k + n, k) for k, n in zip(across, finer.shape[:-1], strict=True)]
         return np.ix_(*rows, np.arange(self.half_shape[-1]))
 
     def positions(self, axis: int = 0) -> Array:
-        """Coordinates along one direction, shape (n,), nm, from 0 to just below the period."""
+        """Return the coordinates along one direction, shape (n,), nm, from 0 to one spacing below the period."""
         return np.arange(self.shape[axis]) * self.spacing[axis]
 
     @property
     def wavenumber(self) -> Array:
-        """Angular wavenumber |q| of each coefficient of the real transform (rad/nm)."""
+        """Angular wavenumber |q| of each coefficient, shape `half_shape`, rad/nm."""
         return self.of_wavenumber(lambda q: q)
 
     def of_wavenumber(self, function: Callable[[Array], Array]) -> Array:
-        """A function of the angular wavenumber |q| (rad/nm) at each coefficient of the real transform."""
+        """Return a function of the angular wavenumber |q| (rad/nm) at each coefficient, shape `half_shape`."""
         last = np.fft.rfftfreq(self.shape[-1], self.spacing[-1] / (2 * np.pi))
         if len(self.shape) == 1:
             return function(last)
@@ -101,53 +121,83 @@ class Grid:
         return values
 
     def forward(self, field: Array, out: Array | None = None) -> Array:
-        """Real to half-complex transform over all axes, scaled so that the q = 0 entry is the mean."""
+        """Return the Fourier coefficients of a real field over all axes; the entry q = 0 is the mean.
+
+        Parameters
+        ----------
+        field : array, shape `shape`
+            Values on the grid.
+        out : complex array, shape `half_shape`, optional
+            Receives the result.
+        """
         return ducc0.fft.r2c(field, forward=True, inorm=2, nthreads=self.threads, out=out)
 
     def backward(self, coefficients: Array, out: Array | None = None) -> Array:
-        """Inverse of `forward`."""
+        """Return the real field, shape `shape`, that has these coefficients; the inverse of `forward`."""
         return ducc0.fft.c2r(coefficients, lastsize=self.shape[-1], forward=False, nthreads=self.threads, out=out)
 
     def coarser(self, shape: tuple[int, ...]) -> Grid:
-        """The same period on fewer points."""
+        """Return a grid with the same periods and fewer points."""
         return Grid(shape, self.lengths, self.threads)
 
 
 @dataclass
-class Tally:
-    """Work done so far: real transforms, in equivalents of one on a grid of `finest` points."""
+class TransformCounter:
+    """Number of real transforms so far.
+
+    A transform on a coarser grid counts as the ratio of its points to `finest`, the points of the finest grid.
+    """
 
     finest: int
     transforms: float = 0.0
 
     def add(self, count: int, size: int) -> None:
-        """Enter `count` transforms on a grid of `size` points."""
+        """Count `count` transforms on a grid of `size` points."""
         self.transforms += count * size / self.finest
 
 
 @dataclass
-class Operator:
-    """Multiplication by a symbol of the wavevector: two transforms an application, counted.
+class FourierOperator:
+    """Multiplication of the Fourier coefficients of a field by a symbol.
 
-    symbol: one factor for each coefficient of the real transform. A line's coefficients have memory of their own, those
-    of a surface, of which there is room for few fields, take the place of the result.
+    One application costs two transforms. On a line the coefficients have memory of their own; on a surface, where
+    memory is short, they are computed in the memory of the result.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the field.
+    symbol : array, shape `grid.half_shape`
+        Factor of each coefficient.
+    counter : TransformCounter
+        Counts the transforms.
     """
 
     grid: Grid
     symbol: Array
-    tally: Tally
+    counter: TransformCounter
     _half: Array | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         self._half = np.empty(self.symbol.shape, complex) if self.symbol.ndim == 1 else None
 
     def __call__(self, values: Array, out: Array | None = None) -> Array:
-        """Apply to a real field of the grid's shape.
+        """Apply the operator to a real field.
 
-        `out` receives the result: on a line it may be `values`; on a surface it is of the grid's `wide_shape`, and what
-        is returned are its first columns.
+        Parameters
+        ----------
+        values : array, shape `grid.shape`
+            The field.
+        out : array, optional
+            Receives the result. On a line it has the shape of `values` and may be `values`; on a surface it has the
+            grid's `wide_shape`.
+
+        Returns
+        -------
+        array, shape `grid.shape`
+            The result; on a surface the first columns of `out`.
         """
-        self.tally.add(2, self.grid.size)
+        self.counter.add(2, self.grid.size)
         if self._half is None:
             return self._in_place(values, np.empty(self.grid.wide_shape) if out is None else out)
         half = self.grid.forward(values, out=self._half)

@@ -246,7 +246,7 @@ def test_work_is_counted_in_transforms():
     found = make_solver("damped_verlet", batch=10, budget=3).flow_from(problem, np.zeros(problem.unknowns, complex))
     assert found.iterations == 30
     # four for each of 30 steps, for each of 4 checks and their 2, and 2 for how far it moved
-    assert problem.tally.transforms == 4 * 30 + 4 * (4 + 2) + 2
+    assert problem.counter.transforms == 4 * 30 + 4 * (4 + 2) + 2
 
 
 def test_adaptive_increments_need_a_solver_that_predicts():

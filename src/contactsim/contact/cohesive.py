@@ -31,7 +31,7 @@ from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.solids import relative_compliance
 from contactsim.elasticity.symbol import Symbol
 from contactsim.errors import InputError, is_number
-from contactsim.grid import Array, Grid, Tally
+from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.base import Law, is_law, potential
 from contactsim.interface.pairing import Pairing
 from contactsim.interface.superposition import superpose
@@ -83,7 +83,7 @@ class CohesiveProblem:
         exerted; None elsewhere.
     tolerance
         Largest residual at any point, over the strength of the law.
-    tally
+    counter
         Counter of the work.
     approach, load
         Approach, nm, or mean pressure, GPa; the other one is None.
@@ -100,7 +100,7 @@ class CohesiveProblem:
     stiffness: Symbol
     slip_factor: Array | None
     tolerance: float
-    tally: Tally
+    counter: TransformCounter
     approach: float | None = 0.0
     load: float | None = None
     origin: float = 0.0
@@ -193,12 +193,12 @@ class CohesiveProblem:
         """Return the values (read, n) of a displacement's coefficients (exerted, m), with those that follow it."""
         if self.slip_factor is not None:
             coefficients = np.concatenate((coefficients, self.slip_factor * coefficients))
-        self.tally.add(len(coefficients), self.grid.size)
+        self.counter.add(len(coefficients), self.grid.size)
         return self._backward(coefficients)
 
     def coefficients(self, field: Array) -> Array:
         """Return the Fourier coefficients (rows, m) of values (rows, n)."""
-        self.tally.add(len(field), self.grid.size)
+        self.counter.add(len(field), self.grid.size)
         return ducc0.fft.r2c(field, axes=(1,), forward=True, inorm=2, nthreads=self.grid.threads)
 
     def gap(self, displacement: Array) -> Array:
@@ -255,7 +255,7 @@ class CohesiveProblem:
         bound = (2 * np.abs(residual).sum(axis=1)).max() / self.strength
         if bound <= self.tolerance:
             return float(bound)
-        self.tally.add(len(residual), self.grid.size)
+        self.counter.add(len(residual), self.grid.size)
         return float(np.abs(self._backward(residual)).max() / self.strength)
 
     def _backward(self, coefficients: Array) -> Array:
@@ -308,6 +308,6 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
         stiffness=compliance.inverse(),
         slip_factor=slip_factor,
         tolerance=tolerance,
-        tally=Tally(grid.size),
+        counter=TransformCounter(grid.size),
         origin=scene.path.origin(heights),
     )

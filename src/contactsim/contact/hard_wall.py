@@ -21,7 +21,7 @@ import numpy as np
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError, is_number
-from contactsim.grid import Array, Grid, Operator, Tally
+from contactsim.grid import Array, FourierOperator, Grid, TransformCounter
 from contactsim.traits import Trait
 
 MIN_GRID_STEP = 1e-10
@@ -131,18 +131,18 @@ class HardWallProblem:
         Largest gap in contact, and largest overlap elsewhere, in grid steps.
     load, approach
         Mean pressure, or approach beyond first touch; the other one is None.
-    tally
+    counter
         Counter of the work.
     warm_start
         Solution on fewer points, if there is one.
     """
 
     heights: Array
-    compliance: Operator
+    compliance: FourierOperator
     tolerance: float
     load: float | None
     approach: float | None
-    tally: Tally
+    counter: TransformCounter
     warm_start: WarmStart | None = None
 
     @property
@@ -163,7 +163,13 @@ class HardWallProblem:
         approach = None if self.approach is None else self.approach * ratio + highest
         warm_start = self.warm_start and replace(self.warm_start, gap=self.warm_start.gap * ratio)
         return HardWallProblem(
-            sampled, Operator(grid, symbol, self.tally), tolerance, self.load, approach, self.tally, warm_start
+            sampled,
+            FourierOperator(grid, symbol, self.counter),
+            tolerance,
+            self.load,
+            approach,
+            self.counter,
+            warm_start,
         )
 
     @property
@@ -305,10 +311,10 @@ def pose_hard_wall(
         scale = replace(scale, mean_displacement=float(symbol.flat[0]) * flexibility * pressure)
         load = pressure / scale.pressure
         symbol.flat[0] = 0.0
-    tally = Tally(heights.size)
+    counter = TransformCounter(heights.size)
     below = heights - highest
     below /= unit
-    return HardWallProblem(below, Operator(grid, symbol, tally), tolerance, load, approach, tally), scale
+    return HardWallProblem(below, FourierOperator(grid, symbol, counter), tolerance, load, approach, counter), scale
 
 
 def _check_full_contact(scene: Scene, heights: Array, value: float, overlap: float, uniform: float) -> None:

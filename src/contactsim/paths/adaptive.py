@@ -164,9 +164,9 @@ class Adaptive:
         path, begin = Continuation(problem, solver), 0
         while begin < len(steps):
             end = _leg_end(steps, begin, path.parameter(steps[begin]))
-            transforms = problem.tally.transforms
+            transforms = problem.counter.transforms
             leg = self._solve_leg(path, steps[begin:end])
-            transforms = problem.tally.transforms - transforms
+            transforms = problem.counter.transforms - transforms
             lost = False
             for count, step in enumerate(leg.steps):
                 cost = (leg.iterations, transforms) if count == 0 else (0, 0.0)
@@ -238,9 +238,9 @@ class Adaptive:
         is_after_end = direction * (step.value - segment.parameters[-1]) > 0  # by rounding
         state = segment.interpolate(problem, segment.parameters[-1] if is_after_end else step.value)
         if state.residual > problem.tolerance + self._allowed_error(problem) * problem.law_stiffness / problem.strength:
-            before = problem.tally.transforms
+            before = problem.counter.transforms
             state = path.solver.solve_near(problem, state.displacement, path.solver.new_memory())
-            cost = cost[0] + state.iterations, cost[1] + problem.tally.transforms - before
+            cost = cost[0] + state.iterations, cost[1] + problem.counter.transforms - before
         jumps = leg.jumps_before(step.value)
         distance = sum(jump.distance for jump in jumps)
         return PathState(step, problem, state.displacement, state.status, state.residual, distance, *cost, state, jumps)

@@ -167,7 +167,7 @@ class Continuation:
 
     def advance(self, step: LoadStep) -> PathState:
         """Return the state at the next step of the path, found by continuation or else by flow."""
-        counter, here = self.problem.tally, self.at(step)
+        counter, here = self.problem.counter, self.at(step)
         if self._failures == MAX_FAILURES:
             return PathState(step, here, self.displacement, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
         before = counter.transforms

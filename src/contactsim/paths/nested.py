@@ -83,7 +83,7 @@ class Nested:
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
         """Yield the states at all steps, in order."""
-        size, counter = problem.grid.size, problem.tally
+        size, counter = problem.grid.size, problem.counter
         self.check(size, steps, solver)
         coarse_problem = problem.coarser(size // self.coarse_ratio, self.coarse_tolerance)
         middle_problem = problem.coarser(size // self.intermediate_ratio, self.intermediate_tolerance)

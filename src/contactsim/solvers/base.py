@@ -189,7 +189,7 @@ def solve(solver: HardWallSolver, problem: HardWallProblem, scale: Scale) -> Res
         certificate, gap = problem.certify(pressure)
     else:
         pressure, gap, certificate, spent, status = _solve_contact(solver, problem)
-    record = Record(spent, problem.tally.transforms, certificate)
+    record = Record(spent, problem.counter.transforms, certificate)
     pressure *= scale.pressure
     gap *= scale.step
     return Result(

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactsim.errors import InputError
+from contactsim.grid import Array
 
-Array = NDArray[np.float64]
 Kinds = Mapping[str, Callable[[Array], Array]]
 
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}

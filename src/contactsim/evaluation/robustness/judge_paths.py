@@ -37,7 +37,7 @@ def judge_path(case: PathCase, method: str | CohesiveSolver) -> Verdict:
     method = make_solver(method) if isinstance(method, str) else method
     check_solver(method, case.scene)
     problem, states = case.follow(method)
-    spent = problem.tally.transforms
+    spent = problem.counter.transforms
     fit = list(takewhile(lambda state: state.status is Status.CONVERGED, states))
     fault = path_faults(case, problem, fit)
     failed = next((state for state in states if state.status not in (Status.CONVERGED, case.ends)), None)

@@ -187,7 +187,7 @@ class ZonePreconditioner:
             free = self._field(long)[:, self._zone]
             held = dgetrs(*self._lu, free.ravel())[0].reshape(free.shape)
             long -= self._spread(held)
-            self._problem.tally.add(len(free) + len(residual), self._nodes)
+            self._problem.counter.add(len(free) + len(residual), self._nodes)
         out[:, : self._low] = long
         return out
 

@@ -30,7 +30,7 @@ import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import InputError
-from contactsim.grid import Array, Operator
+from contactsim.grid import Array, FourierOperator
 from contactsim.solvers.base import State, check_cascade, coarser_level
 from contactsim.solvers.hard_wall import kernels, prolongation
 from contactsim.solvers.hard_wall.contact_preconditioner import CELL, LastStep, Preconditioner
@@ -239,8 +239,8 @@ class _Spread:
     A gap in double precision is computed in the memory of change and scratch.
     """
 
-    def __init__(self, compliance: Operator) -> None:
-        self._grid, self._tally, self._columns = compliance.grid, compliance.tally, compliance.grid.shape[1]
+    def __init__(self, compliance: FourierOperator) -> None:
+        self._grid, self._counter, self._columns = compliance.grid, compliance.counter, compliance.grid.shape[1]
         self._symbol = compliance.symbol.astype(np.float32)
         shape = compliance.grid.wide_shape
         self._double = np.zeros(shape)
@@ -260,7 +260,7 @@ class _Spread:
             nthreads=self._grid.threads,
             allow_overwriting_input=True,
         )
-        self._tally.add(2, self._grid.size)
+        self._counter.add(2, self._grid.size)
 
     def compute_gap(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
         """Write the gap, computed in double precision, less its level on the contact (bool); the change turns zero."""

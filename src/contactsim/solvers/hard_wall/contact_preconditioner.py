@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contactsim.grid import Array, Operator
+from contactsim.grid import Array, FourierOperator
 from contactsim.solvers.hard_wall.kernels import WORD, Contact, Rows, compiled, run
 
 CELL = 4
@@ -157,9 +157,9 @@ class Preconditioner:
         Wavelength above which G alone would be too soft, in points.
     """
 
-    def __init__(self, compliance: Operator, wavelength: float) -> None:
+    def __init__(self, compliance: FourierOperator, wavelength: float) -> None:
         grid = compliance.grid
-        self.tally = compliance.tally
+        self.counter = compliance.counter
         self.table = stencil(compliance)
         coarse = grid.coarser(tuple(max(-(-size // CELL), 2) for size in grid.shape))
         self.cells = np.zeros(coarse.shape, np.float32)
@@ -206,12 +206,12 @@ class Preconditioner:
         self.cells[:] = 0
         rows(factor, gap, level, *contact, self.table, self._code, scratch, self.cells)
         smooth = self._grid.backward(self._grid.forward(self.cells) * self._excess)
-        self.tally.add(2, self.cells.size)
+        self.counter.add(2, self.cells.size)
         now, then, total, *_ = rows(adjoint, gap, level, *last, *contact, self.table, self._code, scratch, smooth, out)
         return now, then, total
 
 
-def stencil(compliance: Operator, most: int = 64) -> Array:
+def stencil(compliance: FourierOperator, most: int = 64) -> Array:
     """Return the rows of G (5, 16): weights of a point and its four neighbours, by the bits of those in contact."""
     grid = compliance.grid
     steps = [max(size // most, 1) for size in grid.shape]

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.grid import Array, Operator
+from contactsim.grid import Array, FourierOperator
 
 DECAY = 8.0
 """Rate of decay of an extension, per point, over the stiffness of the softest wave beyond the half-space's."""
@@ -140,7 +140,7 @@ class BlockStiffness:
         Whether the uniform mode is free, so that its stiffness does not matter.
     """
 
-    def __init__(self, compliance: Operator, uniform: bool) -> None:
+    def __init__(self, compliance: FourierOperator, uniform: bool) -> None:
         grid = compliance.grid
         size = grid.size
         self._block = block_size(size)
@@ -164,7 +164,7 @@ class BlockStiffness:
         local = self._centre + 2 * sum(
             w * np.cos(j * angle) for w, j in zip(self._weights, self._neighbours, strict=True)
         )
-        self._rest = Operator(coarse, stiffness - local, compliance.tally)
+        self._rest = FourierOperator(coarse, stiffness - local, compliance.counter)
         self._mean = np.full(self._block, 1 / self._block)
         self._pad = max(self._neighbours, default=1)
         self._padded = np.empty(size + 2 * self._pad)

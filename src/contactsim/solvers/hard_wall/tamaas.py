@@ -97,6 +97,6 @@ class Tamaas:
         before = state.counter.iterations
         state.method.tolerance = state.error
         state.method.solve(problem.load)
-        problem.tally.add(4 * (state.counter.iterations - before) + 2, problem.heights.size)
+        problem.counter.add(4 * (state.counter.iterations - before) + 2, problem.heights.size)
         pressure = np.array(state.method.model.traction).reshape(problem.heights.shape)
         return TamaasState(pressure, True, state.method, state.counter, state.error / 10)

@@ -15,7 +15,7 @@ import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import InputError
-from contactsim.grid import Array, Operator
+from contactsim.grid import Array, FourierOperator
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
 
@@ -26,7 +26,7 @@ class VerletState(State):
 
     surface: Array
     previous: Array
-    stiffness: Operator
+    stiffness: FourierOperator
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class HardWallVerlet:
         """Return the first state, at rest: undeformed with the highest point just touching, or deformed by a guess."""
         symbol = np.zeros_like(problem.compliance.symbol)
         symbol[1:] = 1 / problem.compliance.symbol[1:]
-        stiffness = Operator(problem.compliance.grid, symbol, problem.tally)
+        stiffness = FourierOperator(problem.compliance.grid, symbol, problem.counter)
         surface = np.zeros_like(problem.heights)
         if guess is not None:
             surface = problem.compliance(guess)
