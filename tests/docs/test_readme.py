@@ -18,7 +18,7 @@ import contactsim
 from contactsim.analysis.reductions import FITTED, REDUCTIONS, reduction_inputs
 from contactsim.evaluation.calibration import sampling
 from contactsim.evaluation.effects import survey
-from contactsim.evaluation.robustness.survey import STABILITY_KEYS
+from contactsim.evaluation.robustness.survey import ROBUSTNESS_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
@@ -205,7 +205,7 @@ def test_every_link_leads_somewhere():
             STUDY_KEYS,
             FIGURE_KEYS,
             *(keys for _, _, keys in ERROR_RUNS.values()),
-            STABILITY_KEYS,
+            ROBUSTNESS_KEYS,
             dict.fromkeys(LOADS),
         ),
         *(ACCURACY_KEYS, NEGLECT_KEYS, sampling.KEYS, sampling.DRAW_KEYS, *sampling.RANGES.values()),
@@ -250,7 +250,7 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
-    known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *ERROR_RUNS["coarse_grid"][2], *STABILITY_KEYS, *LOADS}
+    known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *ERROR_RUNS["coarse_grid"][2], *ROBUSTNESS_KEYS, *LOADS}
     known |= {
         *SLIDE_KEYS,
         *CLAIM_KEYS,

@@ -6,7 +6,7 @@ import pytest
 
 from contactsim import cli
 from contactsim.evaluation import budget, resources
-from contactsim.evaluation.robustness.survey import read_stability
+from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.study.plan import Plan
 from support.places import ROOT
 
@@ -59,7 +59,7 @@ def test_what_is_not_known_is_told_and_not_counted_as_nothing(plan):
     assert "unknown" in lines["fig_6_4"]
     assert "and 4 of unknown cost" in lines["friction_loop"]
     assert "solves nothing" in lines["fig_2_2"]
-    hazards = read_stability(ROOT / "config", plan)["hazards"]
+    hazards = read_robustness(ROOT / "config", plan)["hazards"]
     assert lines["stability"].split() == ["stability", str(len(hazards)), "unknown", "unknown"]
     assert {*plan.figures, "all runs, each once", "effects", "trials", "accuracy_cylinder"} <= set(lines)
 

@@ -16,19 +16,18 @@ from matplotlib.figure import Figure
 from contactsim import dataset, press
 from contactsim.contact import hard_wall
 from contactsim.errors import InputError
-from contactsim.evaluation.robustness.cases import Case, made
-from contactsim.evaluation.robustness.judge_loads import faults
+from contactsim.evaluation.robustness.cases import Case, make_case
+from contactsim.evaluation.robustness.judge import find_violation, judge
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.registry import HAZARDS
 from contactsim.evaluation.robustness.survey import (
-    gather,
-    job_settings,
-    judge,
-    map_figure,
-    map_settings,
-    read_settings,
-    read_stability,
-    survey,
+    hazard_job,
+    merge_surveys,
+    read_robustness,
+    read_robustness_section,
+    robustness_figure_job,
+    robustness_job,
+    survey_hazard,
 )
 from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, taken
 from contactsim.figures.layout import render
@@ -40,8 +39,8 @@ from support.cases import ALL, ON_SURFACES
 from support.places import ROOT
 
 ON_PATHS = ("newton", "mass_weighted_verlet", "energy_minimisation")
-CASE = made(np.cos(2 * np.pi * np.arange(64) / 64) - 0.3)
-SURFACE = made(np.add.outer(np.cos(2 * np.pi * np.arange(10) / 10), np.cos(2 * np.pi * np.arange(16) / 16)) - 0.3)
+CASE = make_case(np.cos(2 * np.pi * np.arange(64) / 64) - 0.3)
+SURFACE = make_case(np.add.outer(np.cos(2 * np.pi * np.arange(10) / 10), np.cos(2 * np.pi * np.arange(16) / 16)) - 0.3)
 SETTINGS = yaml.safe_load((ROOT / "config/stability.yaml").read_text(encoding="utf-8"))
 
 
@@ -78,19 +77,19 @@ def solved(case):
 @pytest.mark.parametrize(
     ("case", "method", "outcome", "reason"),
     [
-        (CASE, "active_set", Outcome.RIGHT, ""),
+        (CASE, "active_set", Outcome.EXACT, ""),
         (replace(CASE, exact=None), "active_set", Outcome.CERTIFIED, ""),
         (replace(CASE, mean_pressure=-1.0), "active_set", Outcome.REFUSED, "nothing can pull"),
         (replace(CASE, mean_pressure=None, approach=0.0), "verlet", Outcome.REFUSED, "APPROACH"),
-        (CASE, make_solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "number of iterations"),
-        (CASE, Stuck(1.0), Outcome.FAILED, "number of iterations"),
+        (CASE, make_solver("polonsky_keer", budget=1, batch=1), Outcome.FAILED, "iterations"),
+        (CASE, Stuck(1.0), Outcome.FAILED, "iterations"),
         (CASE, "conjugate_gradients", Outcome.REFUSED, "LINE"),
-        (SURFACE, "conjugate_gradients", Outcome.RIGHT, ""),
-        (SURFACE, "polonsky_keer", Outcome.RIGHT, ""),
+        (SURFACE, "conjugate_gradients", Outcome.EXACT, ""),
+        (SURFACE, "polonsky_keer", Outcome.EXACT, ""),
         (SURFACE, "active_set", Outcome.REFUSED, "SURFACE"),
         (replace(SURFACE, exact=None), "conjugate_gradients", Outcome.CERTIFIED, ""),
         (replace(SURFACE, exact=SURFACE.exact[:, ::-1]), "conjugate_gradients", Outcome.WRONG, "pressure off"),
-        (replace(SURFACE, mirror=(0, 0)), "conjugate_gradients", Outcome.RIGHT, ""),
+        (replace(SURFACE, mirror=(0, 0)), "conjugate_gradients", Outcome.EXACT, ""),
         (replace(SURFACE, mirror=(0, 1)), "conjugate_gradients", Outcome.WRONG, "symmetric"),
         (replace(SURFACE, mirror=(1, 0)), "conjugate_gradients", Outcome.WRONG, "symmetric"),
         (CASE, Stuck(np.nan), Outcome.NON_FINITE, "not finite"),
@@ -113,7 +112,7 @@ def test_a_wrong_answer_that_the_certificate_lets_pass_is_found_out(monkeypatch)
 
 
 @pytest.mark.parametrize(
-    ("change", "fault"),
+    ("change", "violation"),
     [
         ({"pressure": lambda result: result.pressure - 2 * result.pressure.max() * (np.arange(64) == 32)}, "negative"),
         ({"pressure": lambda result: result.pressure * (1 + 1e-9)}, "forces"),
@@ -121,50 +120,50 @@ def test_a_wrong_answer_that_the_certificate_lets_pass_is_found_out(monkeypatch)
         ({"approach": lambda result: result.approach + 1e-4}, "contact condition"),
     ],
 )
-def test_every_fault_of_a_solution_is_found(change, fault):
+def test_every_violation_of_a_solution_is_found(change, violation):
     result = solved(CASE)
-    assert faults(CASE, result) == ""
-    assert fault in faults(CASE, replace(result, **{name: made(result) for name, made in change.items()}))
+    assert find_violation(CASE, result) == ""
+    assert violation in find_violation(CASE, replace(result, **{name: edit(result) for name, edit in change.items()}))
 
 
 def test_a_solution_not_exact_not_symmetric_or_of_another_area_is_found():
     result = solved(CASE)
-    assert "exact" in faults(replace(CASE, exact=np.roll(CASE.exact, 1)), result)
-    assert "area" in faults(replace(CASE, exact=None, area=0.3), result)
-    assert faults(replace(CASE, mirror=0), result) == ""
-    assert "symmetric" in faults(replace(CASE, mirror=5), result)
+    assert "exact" in find_violation(replace(CASE, exact=np.roll(CASE.exact, 1)), result)
+    assert "area" in find_violation(replace(CASE, exact=None, area=0.3), result)
+    assert find_violation(replace(CASE, mirror=0), result) == ""
+    assert "symmetric" in find_violation(replace(CASE, mirror=5), result)
     wanted = Case(CASE.heights, approach=0.01, tolerance=1e-8)
-    assert "approach" in faults(wanted, result)
-    assert faults(replace(wanted, approach=result.approach), result) == ""
+    assert "approach" in find_violation(wanted, result)
+    assert find_violation(replace(wanted, approach=result.approach), result) == ""
 
 
 def test_an_overlap_outside_the_contact_is_found():
     result = solved(CASE)
     raised = CASE.heights + np.where(np.arange(64) == 32, 5.0, 0.0)  # where nothing carries
     assert result.pressure[32] == 0
-    assert "contact condition" in faults(replace(CASE, heights=raised, exact=None), result)
+    assert "contact condition" in find_violation(replace(CASE, heights=raised, exact=None), result)
 
 
 def test_a_share_of_the_load_on_the_wrong_points_is_found_where_a_grid_step_is_coarse():
     case = HAZARDS["equal_heights"](85)
     result = solved(case)
     uneven = result.pressure * np.where(np.cumsum(result.contact) % 2, 1.3, 0.7)
-    assert faults(case, result) == ""
-    assert "exact" in faults(case, replace(result, pressure=uneven * (result.pressure.sum() / uneven.sum())))
+    assert find_violation(case, result) == ""
+    assert "exact" in find_violation(case, replace(result, pressure=uneven * (result.pressure.sum() / uneven.sum())))
 
 
 def test_at_a_given_approach_the_pressure_is_held_to_a_thousandth():
     case = HAZARDS["last_gap"](0)
     result = solved(case)
-    assert "exact" in faults(replace(case, exact=case.exact * 1.01), result)
+    assert "exact" in find_violation(replace(case, exact=case.exact * 1.01), result)
 
 
 def test_iterations_without_a_load_are_found():
     case = Case(CASE.heights, 0.0)
     result = solved(case)
-    assert faults(case, result) == ""
-    assert "no load" in faults(case, replace(result, record=replace(result.record, iterations=1)))
-    assert "no load" in faults(case, replace(result, approach=result.approach - 1.0))
+    assert find_violation(case, result) == ""
+    assert "no load" in find_violation(case, replace(result, record=replace(result.record, iterations=1)))
+    assert "no load" in find_violation(case, replace(result, approach=result.approach - 1.0))
 
 
 # --- the settings ---------------------------------------------------------------------------------------------------
@@ -190,18 +189,20 @@ def test_iterations_without_a_load_are_found():
 )
 def test_a_bad_setting_is_refused_with_file_key_value_and_what_is_allowed(change, key, value, allowed):
     with pytest.raises(InputError, match=r"stability\.yaml") as caught:
-        read_settings(deepcopy(SETTINGS) | change, "stability.yaml")
+        read_robustness_section(deepcopy(SETTINGS) | change, "stability.yaml")
     assert (caught.value.key, caught.value.value) == (key, value)
     assert allowed in str(caught.value)
 
 
 def test_a_missing_setting_is_refused():
     with pytest.raises(InputError, match="severities"):
-        read_settings({key: value for key, value in SETTINGS.items() if key != "severities"}, "stability.yaml")
+        read_robustness_section(
+            {key: value for key, value in SETTINGS.items() if key != "severities"}, "stability.yaml"
+        )
 
 
 def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
-    settings = read_stability(ROOT / "config", Plan.read(ROOT / "config"))
+    settings = read_robustness(ROOT / "config", Plan.read(ROOT / "config"))
     assert settings["hazards"] == list(HAZARDS)
     assert set(settings["solvers"]) == {*ALL, *ON_SURFACES, *ON_PATHS}
     assert settings["solvers"]["verlet"]["budget"] == make_solver("verlet").budget
@@ -210,26 +211,26 @@ def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
 def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         (tmp_path / file.name).write_bytes(file.read_bytes())
-    quick, standard = (Plan.read(tmp_path, tier) for tier in ("quick", "standard"))
-    assert read_stability(tmp_path, quick)["severities"] == [0, 50, 100]
-    assert read_stability(tmp_path, standard)["severities"] == list(range(0, 101, 5))
+    assert read_robustness(tmp_path, Plan.read(tmp_path, "quick"))["severities"] == [0, 50, 100]
+    assert read_robustness(tmp_path, Plan.read(tmp_path, "standard"))["severities"] == list(range(0, 101, 5))
     (tmp_path / "stability.yaml").unlink()
-    assert read_stability(tmp_path, standard) is None
+    assert read_robustness(tmp_path, Plan.read(tmp_path, "standard")) is None
     with pytest.raises(InputError, match=r"quick\.stability"):
-        read_stability(tmp_path, quick)
+        read_robustness(tmp_path, Plan.read(tmp_path, "quick"))
 
 
 def test_jobs_change_with_what_they_depend_on_and_nothing_else():
     plan = Plan.read(ROOT / "config", "quick")
-    settings = read_stability(ROOT / "config", plan)
-    job, whole, drawn = job_settings(settings, "flat"), map_settings(settings, plan), map_figure(settings, plan)
-    assert "flat" not in json.dumps(job_settings(settings, "units"))
-    settings["caption"] = "Other."
-    assert (job, whole) == (job_settings(settings, "flat"), map_settings(settings, plan))
-    assert drawn != map_figure(settings, plan)
-    settings["severities"] = [0.0]
-    assert job != job_settings(settings, "flat")
-    assert drawn["data"] != map_figure(settings, plan)["data"]
+    settings = read_robustness(ROOT / "config", plan)
+    job, dataset_job = hazard_job(settings, "flat"), robustness_job(settings, plan)
+    figure_job = robustness_figure_job(settings, plan)
+    assert "flat" not in json.dumps(hazard_job(settings, "units"))
+    other = settings | {"caption": "Other."}
+    assert (job, dataset_job) == (hazard_job(other, "flat"), robustness_job(other, plan))
+    assert figure_job != robustness_figure_job(other, plan)
+    fewer = settings | {"severities": [0.0]}
+    assert job != hazard_job(fewer, "flat")
+    assert figure_job["data"] != robustness_figure_job(fewer, plan)["data"]
 
 
 # --- the dataset and the figure -------------------------------------------------------------------------------------
@@ -240,16 +241,16 @@ def drawn(tmp_path_factory):
     """A small map: its files in a folder, and the surveys that it was made of."""
     folder = tmp_path_factory.mktemp("map")
     plan = Plan.read(ROOT / "config", "quick")
-    hazards = ["tension", "nearly_full_rough", "low_spike"]
-    settings = read_stability(ROOT / "config", plan) | {"hazards": hazards, "severities": [0.0, 20.0, 100.0]}
+    settings = read_robustness(ROOT / "config", plan)
+    settings.update(hazards=["tension", "nearly_full_rough", "low_spike"], severities=[0.0, 20.0, 100.0])
     parts = []
-    for hazard in hazards:
-        dataset.write(survey(**json.loads(json.dumps(job_settings(settings, hazard)))), folder / f"{hazard}.nc")
+    for hazard in settings["hazards"]:
+        dataset.write(survey_hazard(**json.loads(json.dumps(hazard_job(settings, hazard)))), folder / f"{hazard}.nc")
         parts.append(dataset.load_dataset(folder / f"{hazard}.nc"))
-    whole = map_settings(settings, plan)
-    dataset.write(gather(parts, whole["settings"], whole["source"]), folder / "stability.nc")
+    job = robustness_job(settings, plan)
+    dataset.write(merge_surveys(parts, job["settings"], job["source"]), folder / "stability.nc")
     targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
-    render(json.loads(json.dumps(map_figure(settings, plan))), [folder / "stability.nc"], [], targets)
+    render(json.loads(json.dumps(robustness_figure_job(settings, plan))), [folder / "stability.nc"], [], targets)
     return folder
 
 
@@ -268,10 +269,10 @@ def test_the_dataset_says_what_came_of_every_cell(drawn):
     assert (surfaces_only.outcome == Outcome.REFUSED.value[0]).all()
     data = data.sel(solver=["active_set", "polonsky_keer", "verlet"])
     spike = data.outcome.sel(hazard="low_spike")
-    assert (spike.sel(severity=0) == Outcome.RIGHT.value[0]).all()
+    assert (spike.sel(severity=0) == Outcome.EXACT.value[0]).all()
     assert (spike.sel(severity=100) == Outcome.CERTIFIED.value[0]).all()
     right = data.sel(hazard="nearly_full_rough")
-    assert (right.outcome == Outcome.RIGHT.value[0]).all()
+    assert (right.outcome == Outcome.EXACT.value[0]).all()
     assert (right.tolerance == 1e-8).all()
 
 
@@ -289,7 +290,7 @@ def test_everything_in_the_dataset_is_described(drawn):
 
 def test_a_survey_made_again_is_the_same_byte_for_byte(drawn, tmp_path):
     data = dataset.load_dataset(drawn / "low_spike.nc")
-    again = survey(**dataset.settings_of(data), source=data.attrs["source_digest"])
+    again = survey_hazard(**dataset.settings_of(data), source=data.attrs["source_digest"])
     dataset.write(again, tmp_path / "again.nc")
     assert (tmp_path / "again.nc").read_bytes() == (drawn / "low_spike.nc").read_bytes()
 

@@ -13,7 +13,7 @@ from contactsim.error_control.scaling import LINE, PATH, build_relations
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
 from contactsim.evaluation.calibration.sampling import read_draws
 from contactsim.evaluation.effects import effect_cost, survey
-from contactsim.evaluation.robustness.survey import read_settings
+from contactsim.evaluation.robustness.survey import read_robustness_section
 from contactsim.evaluation.work_precision import case_config
 from contactsim.figures.diagnostics import effect_maps as map_figure
 from contactsim.figures.diagnostics import overview
@@ -126,7 +126,7 @@ def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overvie
 
 
 READERS = {
-    "stability": lambda file, over: read_settings(*tiered(file, over, "quick")),
+    "stability": lambda file, over: read_robustness_section(*tiered(file, over, "quick")),
     "effects": lambda file, over: effect_cost.read_ladder(file.parent, 0, over, "quick"),
     "trials": lambda file, over: sampling.read_draws(file.parent, over, "quick"),
     "effect_maps": lambda file, over: survey.read_maps(file.parent, over, "quick"),

@@ -11,12 +11,11 @@ from contactsim.contact.loading import pressures
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.evaluation.robustness import rough
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
-from contactsim.evaluation.robustness.judge_paths import path_faults
+from contactsim.evaluation.robustness.judge import find_path_violation, judge
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.path_cases import PathCase, surface_compliance
-from contactsim.evaluation.robustness.registry import HAZARDS, first_line
+from contactsim.evaluation.robustness.registry import HAZARDS, describe_hazard
 from contactsim.evaluation.robustness.rough import ROUGH
-from contactsim.evaluation.robustness.survey import judge
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -54,7 +53,7 @@ def test_no_path_is_answered_wrongly(hazard, severity):
             assert HONEST[name, hazard] in verdict.reason
         else:
             known = case.exact is not None or case.twin is not None or case.ends is Status.NO_EQUILIBRIUM
-            assert verdict.outcome is (Outcome.RIGHT if known else Outcome.CERTIFIED), verdict.reason
+            assert verdict.outcome is (Outcome.EXACT if known else Outcome.CERTIFIED), verdict.reason
 
 
 @pytest.mark.parametrize("hazard", NAMES)
@@ -66,7 +65,7 @@ def test_a_solver_of_hard_walls_is_refused_and_one_of_smooth_laws_refuses_them(h
 @pytest.mark.parametrize("hazard", NAMES)
 def test_a_path_is_the_same_every_time_and_says_in_one_line_what_gets_harder(hazard):
     assert HAZARDS[hazard](37) == HAZARDS[hazard](37)
-    assert 20 < len(first_line(hazard)) <= 117
+    assert 20 < len(describe_hazard(hazard)) <= 117
     heights = HAZARDS[hazard](37).shape[0, 1:]
     assert np.array_equal(heights, heights[::-1]) == HAZARDS[hazard](37).even
 
@@ -96,24 +95,24 @@ def test_bodies_written_out_once_more_give_way_as_ours_do(body, lost):
 @pytest.mark.parametrize("case", [CASE, FRICTION], ids=["uncoupled", "frictional"])
 def test_every_fault_of_a_state_is_found(case):
     problem, states = case.follow(make_solver("newton"))
-    assert path_faults(case, problem, states) == ""
+    assert find_path_violation(case, problem, states) == ""
     x = np.arange(case.points)
     odd, even = (1e-2 * np.fft.rfft(f(2 * np.pi * x / case.points)) / case.points for f in (np.sin, np.cos))
     for wave, fault in ((odd, "unbalanced"), (even, "unbalanced"), (np.nan * even, "finite")):
         moved = states[-1].displacement.copy()
         moved[-1] += wave
-        assert fault in path_faults(case, problem, [*states[:-1], replace(states[-1], displacement=moved)])
+        assert fault in find_path_violation(case, problem, [*states[:-1], replace(states[-1], displacement=moved)])
     lax = replace(case, tolerance=1.0)
     moved = states[-1].displacement.copy()
     moved[0] += odd
-    assert "symmetric" in path_faults(lax, problem, [replace(states[-1], displacement=moved)])
+    assert "symmetric" in find_path_violation(lax, problem, [replace(states[-1], displacement=moved)])
 
 
 def test_a_state_of_another_branch_is_found():
     # unloading, at -8 nm, is still in contact
     there = replace(CASE, scene=replace(CASE.scene, path=along(-8.0, 0.0, 4.0) >> along(-0.5, -8.0, 0.5)), parts=0)
     problem, states = there.follow(make_solver("newton"))
-    verdict = path_faults(CASE, problem, [states[-1]])
+    verdict = find_path_violation(CASE, problem, [states[-1]])
     assert "smaller increments" in verdict
 
 
@@ -138,7 +137,7 @@ def test_a_rough_line_is_the_one_that_its_rms_height_and_hurst_exponent_make():
 
 def test_an_end_that_is_not_the_true_one_is_wrong():
     pulled = PathCase(scene_of(NormalCohesiveZone(2.0), pressures([0.02, -1.0])), ends=Status.NO_EQUILIBRIUM)
-    assert judge(pulled, "newton").outcome is Outcome.RIGHT
+    assert judge(pulled, "newton").outcome is Outcome.EXACT
     assert "not converged, no_equilibrium" in judge(replace(pulled, ends=Status.CONVERGED), "newton").reason
     held = replace(pulled, scene=replace(pulled.scene, path=pressures([0.02, -0.001])))
     assert judge(held, "newton").outcome is Outcome.WRONG

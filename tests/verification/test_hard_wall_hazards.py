@@ -12,14 +12,21 @@ import contactsim
 from contactsim import reference
 from contactsim.errors import InputError
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
-from contactsim.evaluation.robustness.cases import Case, alone, complete, made, mirrored, on_top
+from contactsim.evaluation.robustness.cases import (
+    Case,
+    flat_pressure,
+    make_case,
+    mirror_field,
+    point_pressure,
+    summit_pressure,
+)
+from contactsim.evaluation.robustness.judge import judge
 from contactsim.evaluation.robustness.lines import LINES
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.registry import HAZARDS, first_line
+from contactsim.evaluation.robustness.registry import HAZARDS, describe_hazard
 from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.evaluation.robustness.sliding import SLIDING
 from contactsim.evaluation.robustness.surfaces import SURFACES
-from contactsim.evaluation.robustness.survey import judge
 from contactsim.solvers.registry import solver_class
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -73,10 +80,10 @@ def test_no_hazard_is_answered_wrongly(hazard, name, severity):
         assert verdict.outcome is Outcome.REFUSED
         assert "APPROACH" in verdict.reason
     elif hazard in TIGHT:  # and said so
-        assert verdict.outcome in (Outcome.RIGHT, Outcome.FAILED)
+        assert verdict.outcome in (Outcome.EXACT, Outcome.FAILED)
     else:
         known = case.exact is not None or case.area is not None
-        assert verdict.outcome is (Outcome.RIGHT if known else Outcome.CERTIFIED)
+        assert verdict.outcome is (Outcome.EXACT if known else Outcome.CERTIFIED)
 
 
 @pytest.mark.parametrize("hazard", WALLS)
@@ -107,8 +114,8 @@ def test_where_no_exact_answer_is_known_a_dense_method_of_another_kind_agrees(ha
 
 @pytest.mark.parametrize("hazard", HAZARDS)
 def test_a_hazard_says_in_one_line_what_gets_harder(hazard):
-    assert 20 < len(first_line(hazard)) <= 117
-    assert first_line(hazard).endswith(".")
+    assert 20 < len(describe_hazard(hazard)) <= 117
+    assert describe_hazard(hazard).endswith(".")
 
 
 @pytest.mark.parametrize("severity", [0, 37, 100])
@@ -119,12 +126,12 @@ def test_a_hazard_gives_the_same_case_every_time_symmetric_where_it_says_so(haza
     assert np.array_equal(case.heights, again.heights)
     assert (case.mean_pressure is None) != (case.approach is None)
     if case.mirror is not None:
-        assert np.allclose(case.heights, mirrored(case.heights, case.mirror), rtol=0, atol=1e-12)
+        assert np.allclose(case.heights, mirror_field(case.heights, case.mirror), rtol=0, atol=1e-12)
 
 
 def test_a_made_case_has_its_answer_by_a_sum_over_the_dense_compliance():
     field = np.random.default_rng(2).normal(size=30)
-    case = made(field)
+    case = make_case(field)
     gap = compliance(30) @ case.exact - case.heights
     assert np.allclose(case.exact, np.maximum(field, 0))
     assert np.allclose(gap, np.maximum(-field, 0), atol=1e-13)
@@ -134,7 +141,7 @@ def test_a_made_case_has_its_answer_by_a_sum_over_the_dense_compliance():
 @pytest.mark.parametrize("spacing", [1.0, (1.0, 2.5)])
 def test_a_made_surface_has_its_answer_by_a_sum_over_waves(spacing):
     field = np.random.default_rng(2).normal(size=(6, 7))
-    case = made(field, spacing=spacing)
+    case = make_case(field, spacing=spacing)
     dy, dx = np.broadcast_to(spacing, 2)
     rows, columns = np.indices(field.shape)
     gap = -case.heights
@@ -150,18 +157,18 @@ def test_a_made_surface_has_its_answer_by_a_sum_over_waves(spacing):
 def test_the_answer_of_equal_tops_is_that_of_one_that_is_alone_and_uniform_in_its_displacement():
     heights = np.zeros((9, 8))
     heights[4, 3] = 5.0
-    assert np.allclose(on_top(heights, 1e-2), alone(heights, 1e-2), rtol=1e-12)
+    assert np.allclose(summit_pressure(heights, 1e-2), point_pressure(heights, 1e-2), rtol=1e-12)
     heights[4:7, 3:5] = 5.0
-    case = Case(heights, 1e-2, exact=on_top(heights, 1e-2), tolerance=1e-9)
+    case = Case(heights, 1e-2, exact=summit_pressure(heights, 1e-2), tolerance=1e-9)
     assert case.exact.mean() == pytest.approx(1e-2)
     assert np.array_equal(case.exact > 0, heights > 0)
-    assert judge(case, "conjugate_gradients").outcome is Outcome.RIGHT
-    assert on_top(heights, 1e3) is None  # then what is around touches too
+    assert judge(case, "conjugate_gradients").outcome is Outcome.EXACT
+    assert summit_pressure(heights, 1e3) is None  # then what is around touches too
 
 
 def test_complete_contact_is_that_of_the_analytic_formula():
     heights = rough(64)
-    assert np.allclose(complete(heights, Case(heights).compliance), reference.complete_contact(heights, 64.0, 1.0))
+    assert np.allclose(flat_pressure(heights, Case(heights).compliance), reference.complete_contact(heights, 64.0, 1.0))
 
 
 @pytest.mark.parametrize("name", ["active_set", "verlet"])
@@ -363,8 +370,8 @@ def test_any_pressure_and_gap_are_found_again_from_the_heights_that_they_make(na
     @settings(max_examples=200 if name == "active_set" else 100, deadline=None, derandomize=True)
     @given((lists_of(numbers(1e3)) | noises()).filter(lambda field: field.max() > 1e-3), st.integers(-6, 6))
     def search(field, exponent):
-        verdict = judge(made(field, scale=10.0**exponent, tolerance=1e-6), name)
-        allowed = (Outcome.RIGHT, Outcome.FAILED) if failures else (Outcome.RIGHT,)
+        verdict = judge(make_case(field, scale=10.0**exponent, tolerance=1e-6), name)
+        allowed = (Outcome.EXACT, Outcome.FAILED) if failures else (Outcome.EXACT,)
         assert verdict.outcome in allowed, verdict.reason
 
     search()

@@ -18,8 +18,8 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import HalfSpace, Layer
 from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case, layer_response
+from contactsim.evaluation.robustness.judge import judge
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.survey import judge
 from contactsim.explanation import Explanation, explain_setup
 from contactsim.figures.sketch import sketch
 from contactsim.interface.hard_wall import HardWall

@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.evaluation.robustness.judge_paths import path_faults
+from contactsim.evaluation.robustness.judge import find_path_violation, judge
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.registry import first_line
+from contactsim.evaluation.robustness.registry import describe_hazard
 from contactsim.evaluation.robustness.sliding import LATTICE, SLIDING, large_increments, many_cells_slid, wide_window
-from contactsim.evaluation.robustness.survey import judge
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 
@@ -31,13 +30,13 @@ def test_no_slide_is_answered_wrongly(hazard, severity):
             assert "number of iterations" in verdict.reason
         else:
             known = case.exact is not None or case.ends is Status.NO_EQUILIBRIUM
-            assert verdict.outcome is (Outcome.RIGHT if known else Outcome.CERTIFIED), verdict.reason
+            assert verdict.outcome is (Outcome.EXACT if known else Outcome.CERTIFIED), verdict.reason
 
 
 @pytest.mark.parametrize("hazard", SLIDING)
 def test_a_slide_is_the_same_every_time_and_says_in_one_line_what_gets_harder(hazard):
     assert hazard(37) == hazard(37)
-    assert 20 < len(first_line(hazard.__name__)) <= 117
+    assert 20 < len(describe_hazard(hazard.__name__)) <= 117
     assert not hazard(37).even
 
 
@@ -54,14 +53,14 @@ def test_a_state_a_cell_further_on_is_found():
     """A slip that did not happen, or one too many, leaves a balanced state: only the branch tells."""
     case = large_increments(0)
     problem, states = case.follow(make_solver("newton"))
-    assert path_faults(case, problem, states) == ""
+    assert find_path_violation(case, problem, states) == ""
     last = states[-1]
     moved = last.displacement.copy()
     moved[1, 0] += LATTICE
     found = make_solver("newton").flow_from(problem.at(last.step), moved)
     assert found.is_stable
     wrong = [*states[:-1], replace(last, displacement=found.displacement, solution=found)]
-    assert "smaller increments" in path_faults(case, problem, wrong)
+    assert "smaller increments" in find_path_violation(case, problem, wrong)
 
 
 def test_the_judge_sums_over_sites_by_itself():

@@ -170,7 +170,7 @@ class EvaluationJobs:
 
     def hazard_params(self, wildcards: Wildcards) -> str:
         """Return what the survey of a hazard depends on."""
-        return canonical(hazard_survey.job_settings(self.products.hazards or {}, wildcards.hazard))
+        return canonical(hazard_survey.hazard_job(self.products.hazards or {}, wildcards.hazard))
 
     def hazard_files(self) -> list[Path]:
         """Return the surveys of all hazards."""
@@ -179,11 +179,11 @@ class EvaluationJobs:
 
     def robustness_params(self, wildcards: Wildcards) -> str:
         """Return what the dataset of all hazards depends on."""
-        return canonical(hazard_survey.map_settings(self.products.hazards or {}, self.products.plan))
+        return canonical(hazard_survey.robustness_job(self.products.hazards or {}, self.products.plan))
 
     def robustness_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all hazards depends on."""
-        return canonical(hazard_survey.map_figure(self.products.hazards or {}, self.products.plan))
+        return canonical(hazard_survey.robustness_figure_job(self.products.hazards or {}, self.products.plan))
 
     def effects_params(self, wildcards: Wildcards) -> str:
         """Return what the measured costs of effects depend on."""

@@ -120,7 +120,7 @@ class Pages:
         products, plan = self.products, self.products.plan
         data: dict[str, object] = {plan.dataset_name(name): plan.study_settings(name) for name in plan.studies}
         if products.hazards:
-            data["stability"] = survey.map_settings(products.hazards, plan)
+            data["stability"] = survey.robustness_job(products.hazards, plan)
         if products.effects:
             data["effects"] = effect_cost.plan(products.effects)
         if products.trials:

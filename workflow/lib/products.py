@@ -78,7 +78,7 @@ class Products:
             config,
             plan,
             cases,
-            hazards=survey.read_stability(config, plan),
+            hazards=survey.read_robustness(config, plan),
             effects=effect_cost.read_ladder(config, plan.seed, plan.overrides["effects"], plan.tier),
             trials=sampling.read_draws(config, plan.overrides["trials"], plan.tier),
             maps=effect_survey.read_maps(config, plan.overrides["effect_maps"], plan.tier),

@@ -17,7 +17,7 @@ from contactsim.evaluation.calibration.sampling import read_draws
 from contactsim.evaluation.effects.effect_cost import read_ladder
 from contactsim.evaluation.effects.survey import read_maps
 from contactsim.evaluation.resources import START, megabytes_of, seconds_of
-from contactsim.evaluation.robustness.survey import read_stability
+from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.evaluation.work_precision.case_config import every_tier, read_cases
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
@@ -84,7 +84,7 @@ def others(folder: str | Path, plan: Plan) -> dict[str, int]:
         read_draws(folder, plan.overrides["trials"], plan.tier),
         read_maps(folder, plan.overrides["effect_maps"], plan.tier),
     )
-    stability = read_stability(folder, plan)
+    stability = read_robustness(folder, plan)
     found |= {"stability": len(stability["hazards"]) if stability else 0}
     found |= {"effects": int(read_ladder(folder, plan.seed, plan.overrides["effects"], plan.tier) is not None)}
     found |= {"trials": len(validation.names(drawn)) if drawn else 0, "effect_maps": len(maps["maps"]) if maps else 0}

@@ -7,6 +7,7 @@ import numpy as np
 from contactsim.contact.loading import LoadPath, approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
+from contactsim.evaluation.robustness.cases import nearly_incompressible_ratio
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
@@ -76,7 +77,7 @@ def strong_friction(severity: float) -> PathCase:
 
 def incompressible_body(severity: float) -> PathCase:
     """In a layer a tenth as thick as the period, ν rises from 0.3 to exactly 0.5: the volume is kept."""
-    ratio = 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
+    ratio = nearly_incompressible_ratio(severity)
     body = Layer(STRESS, ratio, LENGTH / 10)
     return PathCase(_cylinder(CohesiveZone(2.0, 0.1), approaches([5.0]), body), parts=8)
 

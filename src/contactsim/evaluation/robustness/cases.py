@@ -80,7 +80,7 @@ def displacement(pressure: Array, compliance: Array) -> Array:
     return _back(np.fft.rfftn(pressure - pressure.mean()) * compliance, pressure.shape)
 
 
-def complete(heights: Array, compliance: Array) -> Array:
+def flat_pressure(heights: Array, compliance: Array) -> Array:
     """Pressure less its mean that flattens heights (n,) or (ny, nx): that of complete contact."""
     waves = np.fft.rfftn(heights - heights.mean())
     return _back(np.divide(waves, compliance, out=np.zeros_like(waves), where=compliance > 0), heights.shape)
@@ -91,13 +91,13 @@ def _back(waves: Array, shape: tuple[int, ...]) -> Array:
     return np.fft.irfftn(waves, shape, range(len(shape)))
 
 
-def mirrored(values: Array, about: int | tuple[int, int]) -> Array:
+def mirror_field(values: Array, about: int | tuple[int, int]) -> Array:
     """A field (n,) or (ny, nx) mirrored about a point, in each direction."""
     shifts = 2 * np.broadcast_to(about, values.ndim) + 1
     return np.roll(np.flip(values), shifts, range(values.ndim))
 
 
-def made(
+def make_case(
     field: Array,
     scale: float = 1.0,
     unit: float = 1.0,
@@ -120,12 +120,35 @@ def made(
     return replace(case, heights=heights)
 
 
-def level(field: Array, share: float) -> Array:
+def shift_field(field: Array, share: float) -> Array:
     """The field less the value that a share of its points exceeds."""
     return field - np.quantile(field, 1 - share)
 
 
-def alone(heights: Array, load: float | None = None, depth: float = 0.0) -> Array | None:
+def nearly_incompressible_ratio(severity: float) -> float:
+    """Return a Poisson's ratio that rises with the severity from 0.3 to exactly 0.5."""
+    return 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
+
+
+def push_to_approach(case: Case, flat: Array, severity: float) -> Case:
+    """Return a case whose approach goes up to a million times that of complete contact.
+
+    Parameters
+    ----------
+    case : Case
+        Heights on a layer.
+    flat : Array, the shape of the heights
+        Pressure less its mean in complete contact.
+    severity : float
+        From 0, half the load of complete contact, to 100.
+    """
+    full = -flat.min()
+    load = full * (0.5 + 10 ** (-4 + severity / 10))
+    exact = load + flat if load >= full else None
+    return replace(case, approach=load * case.compliance.flat[0], exact=exact)
+
+
+def point_pressure(heights: Array, load: float | None = None, depth: float = 0.0) -> Array | None:
     """The pressure if the highest point carries the load, or is pushed in by the depth, alone; None if it does not."""
     top = np.unravel_index(np.argmax(heights), heights.shape)
     pressure = np.zeros_like(heights)
@@ -136,7 +159,7 @@ def alone(heights: Array, load: float | None = None, depth: float = 0.0) -> Arra
     return pressure if (gap >= gap[top]).all() else None
 
 
-def on_top(heights: Array, load: float) -> Array | None:
+def summit_pressure(heights: Array, load: float) -> Array | None:
     """The pressure if the highest points, of equal height, carry the load alone; None if they do not.
 
     By elimination among them: the matrix of influences of a half-space, bordered by the load.

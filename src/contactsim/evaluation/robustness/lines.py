@@ -7,7 +7,14 @@ from dataclasses import replace
 import numpy as np
 
 from contactsim import reference
-from contactsim.evaluation.robustness.cases import Case, alone, level, made
+from contactsim.evaluation.robustness.cases import (
+    Case,
+    make_case,
+    nearly_incompressible_ratio,
+    point_pressure,
+    push_to_approach,
+    shift_field,
+)
 from contactsim.grid import Array
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 
@@ -29,7 +36,7 @@ def _wave(points: int, ratio: float) -> Case:
 def few_points(severity: float) -> Case:
     """The load on a rough line falls from p* = 1e-2 to 1e-7, until one point carries all of it."""
     heights, load = _rough(), 10 ** (-2 - severity / 20)
-    return Case(heights, load, exact=alone(heights, load))
+    return Case(heights, load, exact=point_pressure(heights, load))
 
 
 def light_wave(severity: float) -> Case:
@@ -45,7 +52,7 @@ def nearly_full_wave(severity: float) -> Case:
 def nearly_full_rough(severity: float) -> Case:
     """A rough line just short of complete contact, by a tenth of the load down to one part in a million."""
     flat = reference.complete_contact(_rough(), POINTS, 1.0)
-    return made(flat - flat.min() * (1 - 10 ** (-1 - severity / 20)))
+    return make_case(flat - flat.min() * (1 - 10 ** (-1 - severity / 20)))
 
 
 def full_contact(severity: float) -> Case:
@@ -67,12 +74,12 @@ def tall_spike(severity: float) -> Case:
     """A single point sticks out of a plane, ten to ten million spacings high: it carries the load."""
     heights = np.zeros(257)
     heights[100] = 10 ** (1 + 6 * severity / 100)
-    return Case(heights, 1e-3, exact=alone(heights, 1e-3), mirror=100)
+    return Case(heights, 1e-3, exact=point_pressure(heights, 1e-3), mirror=100)
 
 
 def _dug(severity: float, share: float) -> Case:
     """A rough line with a groove in its widest gap over that share of all points, 1e1 to 1e8 spacings deep."""
-    pressed = made(level(_rough(), 0.1), tolerance=1e-6)
+    pressed = make_case(shift_field(_rough(), 0.1), tolerance=1e-6)
     far = np.argmin(_rough()) + np.arange(round(share * POINTS))
     heights = pressed.heights.copy()
     heights[far % POINTS] -= 10 ** (1 + 7 * severity / 100)
@@ -93,7 +100,7 @@ def low_spike(severity: float) -> Case:
     """A single point sticks out of a plane, from ten spacings to 1e-4, and the plane around it begins to carry."""
     heights = np.zeros(257)
     heights[100] = 10 ** (1 - severity / 20)
-    return Case(heights, 1e-3, exact=alone(heights, 1e-3), mirror=100)
+    return Case(heights, 1e-3, exact=point_pressure(heights, 1e-3), mirror=100)
 
 
 def flat(severity: float) -> Case:
@@ -106,38 +113,40 @@ def flat(severity: float) -> Case:
 def white_noise(severity: float) -> Case:
     """Noise up to the Nyquist wavenumber takes over the pressure, which at last alternates point by point."""
     if severity >= 100:
-        return made((-1.0) ** np.arange(POINTS))
+        return make_case((-1.0) ** np.arange(POINTS))
     share = severity / 100
     field = (1 - share) * _rough() / 10 + share * np.random.default_rng(1).normal(size=POINTS)
-    return made(level(field, 0.3))
+    return make_case(shift_field(field, 0.3))
 
 
 def grazing(severity: float) -> Case:
     """Ever more points, up to all but a tenth, neither carry nor gape: the contact set is undecided there."""
-    field = level(_rough() / 10, 0.1)
-    return made(np.where(field < np.quantile(field, 0.9 * (1 - severity / 100)), field, np.maximum(field, 0.0)))
+    field = shift_field(_rough() / 10, 0.1)
+    return make_case(np.where(field < np.quantile(field, 0.9 * (1 - severity / 100)), field, np.maximum(field, 0.0)))
 
 
 def steep_slopes(severity: float) -> Case:
     """Slopes from 1e-3 to 1e3: answers are those of slope 1 in proportion (small slopes are assumed in the model)."""
-    return made(level(_rough(), 0.1), scale=10 ** (-3 + 6 * severity / 100))
+    return make_case(shift_field(_rough(), 0.1), scale=10 ** (-3 + 6 * severity / 100))
 
 
 def awkward_sizes(severity: float) -> Case:
     """2, 3, 5 … points, then ever larger odd and prime numbers of them."""
     sizes = (2, 3, 5, 7, 13, 31, 67, 127, 255, 509, 1021, 4093, 8191)
     size = sizes[round(severity / 100 * (len(sizes) - 1))]
-    return made(np.cos(2 * np.pi * np.arange(size) / size) + 0.3 * np.random.default_rng(size).uniform(-1, 1, size))
+    return make_case(
+        np.cos(2 * np.pi * np.arange(size) / size) + 0.3 * np.random.default_rng(size).uniform(-1, 1, size)
+    )
 
 
 def units(severity: float) -> Case:
     """Lengths in units from 1e-12 to 1e12, and moduli the other way round."""
-    return made(level(_rough(), 0.1), unit=10 ** (-12 + 24 * severity / 100))
+    return make_case(shift_field(_rough(), 0.1), unit=10 ** (-12 + 24 * severity / 100))
 
 
 def far_datum(severity: float) -> Case:
     """The profile's zero moves away from it, by 1 to 1e8 spacings: rounding, and nothing else, changes."""
-    case = made(level(_rough(), 0.1), tolerance=1e-4)
+    case = make_case(shift_field(_rough(), 0.1), tolerance=1e-4)
     return Case(case.heights + 10 ** (8 * severity / 100), case.mean_pressure, exact=case.exact)
 
 
@@ -148,7 +157,7 @@ def first_touch(severity: float) -> Case:
     """
     heights, depth = _rough(), 10 ** (-8 * severity / 100)
     heights -= heights.max()
-    return Case(heights, approach=depth, tolerance=1e-4 * depth, exact=alone(heights, depth=depth))
+    return Case(heights, approach=depth, tolerance=1e-4 * depth, exact=point_pressure(heights, depth=depth))
 
 
 def last_gap(severity: float) -> Case:
@@ -159,33 +168,32 @@ def last_gap(severity: float) -> Case:
 
 def thin_layer(severity: float) -> Case:
     """A layer of ν = 0.3 gets thinner, from the roll-off wavelength to 1e-4 of it: points yield each on their own."""
-    return made(level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-severity / 25), poisson_ratio=0.3)
+    return make_case(shift_field(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-severity / 25), poisson_ratio=0.3)
 
 
 def incompressible_layer(severity: float) -> Case:
     """In a layer a tenth as thick as the roll-off wavelength, ν rises from 0.3 to exactly 0.5: the volume is fixed."""
-    ratio = 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
-    return made(level(_rough(), 0.1), thickness=POINTS / 40, poisson_ratio=ratio)
+    ratio = nearly_incompressible_ratio(severity)
+    return make_case(shift_field(_rough(), 0.1), thickness=POINTS / 40, poisson_ratio=ratio)
 
 
 def thin_incompressible_layer(severity: float) -> Case:
     """A layer of ν = 0.5 gets thinner, from the roll-off wavelength to 1e-3 of it: long waves meet no compliance."""
-    return made(level(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
+    return make_case(shift_field(_rough(), 0.1), thickness=POINTS / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
 
 
 def thick_layer(severity: float) -> Case:
     """A layer of ν = 0.3 gets thicker, from the roll-off wavelength to 1e12 spacings: at last it is a half-space."""
-    return made(level(_rough(), 0.1), thickness=POINTS / 4 * (4e12 / POINTS) ** (severity / 100), poisson_ratio=0.3)
+    return make_case(
+        shift_field(_rough(), 0.1), thickness=POINTS / 4 * (4e12 / POINTS) ** (severity / 100), poisson_ratio=0.3
+    )
 
 
 def pushed_layer(severity: float) -> Case:
     """The approach to a layer of ν = 0.3 is prescribed, up to a million times that of complete contact."""
     case = Case(_rough(), thickness=POINTS / 4, poisson_ratio=0.3)
     flat = np.fft.irfft(np.fft.rfft(case.heights) / case.compliance)  # of mean zero, as the heights
-    full = -flat.min()
-    load = full * (0.5 + 10 ** (-4 + severity / 10))
-    exact = load + flat if load >= full else None
-    return replace(case, approach=load * case.compliance[0], exact=exact)
+    return push_to_approach(case, flat, severity)
 
 
 def zero_load(severity: float) -> Case:
@@ -200,7 +208,7 @@ def tension(severity: float) -> Case:
 
 def tight_tolerance(severity: float) -> Case:
     """The tolerance falls from 1e-2 to 1e-18 grid steps, below what rounding allows."""
-    return made(level(_rough(256), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
+    return make_case(shift_field(_rough(256), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
 
 
 LINES = (

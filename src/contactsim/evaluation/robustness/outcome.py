@@ -1,4 +1,4 @@
-"""What can come of a case: the outcome of one solver on it, what it took, and why."""
+"""The outcome of one solver on one case, the work it took, and the reason."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from enum import Enum
 
 
 class Outcome(Enum):
-    """What came of a case; the number is stored, the sentence explains it."""
+    """The outcome of a solver on a case: the number is stored, the sentence explains it."""
 
-    RIGHT = (0, "right: the exact answer is met")
+    EXACT = (0, "exact: the exact answer is met")
     CERTIFIED = (1, "certified: the residual is met, no exact answer is known")
     REFUSED = (2, "refused, with a reason")
     FAILED = (3, "honest failure: the status says so")
@@ -19,7 +19,7 @@ class Outcome(Enum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """Outcome of one solver on one case, the work it took, and the reason of anything but success."""
+    """Outcome of one solver on one case, the work it took, and the reason where it did not solve the case."""
 
     outcome: Outcome
     transforms: float

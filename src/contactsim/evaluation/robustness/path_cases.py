@@ -37,7 +37,7 @@ FAR = 12.0
 SWEEPS, SHRINKING = 400, 0.9
 """Most steps of the fixed point, and how much each must be smaller than the one before."""
 
-SLOWLY = "mass_weighted_verlet"
+BRANCH_SOLVER = "mass_weighted_verlet"
 """The solver of smaller increments: not the default one, and it moves as the surface itself would."""
 
 
@@ -174,7 +174,7 @@ class PathCase:
             place[step.control] = step.value
         path = LoadPath(tuple(parts))
         slow = replace(self, scene=replace(self.scene, path=path, effects=self.twin or self.scene.effects))
-        states = slow.follow(make_solver(SLOWLY, budget=500))[1][self.parts - 1 :: self.parts]
+        states = slow.follow(make_solver(BRANCH_SOLVER, budget=500))[1][self.parts - 1 :: self.parts]
         if any(state.status is not Status.CONVERGED for state in states):
             return None
         return np.array([slow.forces(state.step, state.displacement) for state in states])

@@ -1,7 +1,7 @@
-"""Cases that get harder: from severity 0 to 100, and what is right at each.
+"""All hazards by name.
 
-A hazard is a function of its severity that returns a case: heights and a load, or a scene of smooth laws and a path
-through it; and, where it is known, the right answer.
+A hazard is a function of its severity that returns a case: heights and a load, or a scene of cohesive laws and
+its path; and, where it is known, the exact answer.
 """
 
 from __future__ import annotations
@@ -21,6 +21,6 @@ HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
 }
 
 
-def first_line(hazard: str) -> str:
-    """What gets harder, in a sentence: the first line of the hazard's docstring."""
+def describe_hazard(hazard: str) -> str:
+    """Return the first line of a hazard's docstring, which says what gets harder."""
     return HAZARDS[hazard].__doc__.splitlines()[0]

@@ -6,7 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from contactsim.evaluation.robustness.cases import Case, alone, complete, level, made, on_top
+from contactsim.evaluation.robustness.cases import (
+    Case,
+    flat_pressure,
+    make_case,
+    nearly_incompressible_ratio,
+    point_pressure,
+    push_to_approach,
+    shift_field,
+    summit_pressure,
+)
 from contactsim.grid import Array
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 
@@ -29,7 +38,7 @@ def _hilly(shape: tuple[int, int], along: tuple[float, float] = (1.5, 1.5)) -> A
 def light_surface(severity: float) -> Case:
     """The load on a rough surface falls from p* = 1e-2 to 1e-7, until one point carries all of it."""
     heights, load = _rough(), 10 ** (-2 - severity / 20)
-    return Case(heights, load, exact=alone(heights, load))
+    return Case(heights, load, exact=point_pressure(heights, load))
 
 
 def surface_first_touch(severity: float) -> Case:
@@ -39,13 +48,13 @@ def surface_first_touch(severity: float) -> Case:
     """
     heights, depth = _rough(), 10 ** (-8 * severity / 100)
     heights -= heights.max()
-    return Case(heights, approach=depth, tolerance=1e-4 * depth, exact=alone(heights, depth=depth))
+    return Case(heights, approach=depth, tolerance=1e-4 * depth, exact=point_pressure(heights, depth=depth))
 
 
 def nearly_full_surface(severity: float) -> Case:
     """A rough surface just short of complete contact, by a tenth of the load down to one part in a million."""
-    flat = complete(_rough(), Case(_rough()).compliance)
-    return made(flat - flat.min() * (1 - 10 ** (-1 - severity / 20)))
+    flat = flat_pressure(_rough(), Case(_rough()).compliance)
+    return make_case(flat - flat.min() * (1 - 10 ** (-1 - severity / 20)))
 
 
 def surface_last_gap(severity: float) -> Case:
@@ -57,7 +66,7 @@ def surface_last_gap(severity: float) -> Case:
 def full_surface(severity: float) -> Case:
     """A rough surface in complete contact, beyond the load that it takes by a factor of 1e6 down to 1 + 1e-6."""
     heights = _rough()
-    flat = complete(heights, Case(heights).compliance)
+    flat = flat_pressure(heights, Case(heights).compliance)
     load = -flat.min() * (1 + 10 ** (6 - 12 * severity / 100))
     return Case(heights, load, exact=load + flat)
 
@@ -70,14 +79,16 @@ def flat_punch(severity: float) -> Case:
     away = np.arange(SIDE) - SIDE // 2
     depth = 10 ** (7 * severity / 100)
     heights = np.where(np.hypot(away[:, None], away) <= 8.2, 0.0, -depth)
-    return Case(heights, 1e-3, tolerance=1e-5 / depth, exact=on_top(heights, 1e-3), mirror=(SIDE // 2, SIDE // 2))
+    return Case(
+        heights, 1e-3, tolerance=1e-5 / depth, exact=summit_pressure(heights, 1e-3), mirror=(SIDE // 2, SIDE // 2)
+    )
 
 
 def _post(height: float) -> Case:
     """One point out of a plane."""
     heights = np.zeros((33, 33))
     heights[10, 20] = height
-    return Case(heights, 1e-3, exact=alone(heights, 1e-3), mirror=(10, 20))
+    return Case(heights, 1e-3, exact=point_pressure(heights, 1e-3), mirror=(10, 20))
 
 
 def tall_post(severity: float) -> Case:
@@ -92,7 +103,7 @@ def low_post(severity: float) -> Case:
 
 def deep_hole(severity: float) -> Case:
     """A single point that is not in contact falls, to 1e8 spacings: the contact does not notice."""
-    pressed = made(level(_rough(), 0.1), tolerance=1e-6)
+    pressed = make_case(shift_field(_rough(), 0.1), tolerance=1e-6)
     heights = pressed.heights.copy()
     heights.flat[np.argmin(_rough())] -= 10 ** (1 + 7 * severity / 100)
     return replace(pressed, heights=heights)
@@ -101,45 +112,45 @@ def deep_hole(severity: float) -> Case:
 def chequerboard(severity: float) -> Case:
     """Noise up to the Nyquist wavenumbers takes over; at last the pressure alternates both ways."""
     if severity >= 100:
-        return made((-1.0) ** np.add.outer(np.arange(SIDE), np.arange(SIDE)))
+        return make_case((-1.0) ** np.add.outer(np.arange(SIDE), np.arange(SIDE)))
     share = severity / 100
     noise = np.random.default_rng(1).normal(size=(SIDE, SIDE))
-    return made(level((1 - share) * _rough() / 10 + share * noise, 0.3))
+    return make_case(shift_field((1 - share) * _rough() / 10 + share * noise, 0.3))
 
 
 def grazing_surface(severity: float) -> Case:
     """Ever more points, up to all but a tenth, neither carry nor gape: the contact is undecided."""
-    field = level(_rough() / 10, 0.1)
-    return made(np.where(field < np.quantile(field, 0.9 * (1 - severity / 100)), field, np.maximum(field, 0.0)))
+    field = shift_field(_rough() / 10, 0.1)
+    return make_case(np.where(field < np.quantile(field, 0.9 * (1 - severity / 100)), field, np.maximum(field, 0.0)))
 
 
 def wide_range(severity: float) -> Case:
     """Pressures and gaps of a surface spread over ever more decades, up to twenty of them."""
-    field = level(_hilly((SIDE, SIDE)), 0.2)
-    return made(field * np.abs(field) ** (4 * severity / 100))
+    field = shift_field(_hilly((SIDE, SIDE)), 0.2)
+    return make_case(field * np.abs(field) ** (4 * severity / 100))
 
 
 def far_surface(severity: float) -> Case:
     """A surface's zero moves away from it, by 1 to 1e8 spacings: rounding, and nothing else, changes."""
-    case = made(level(_rough(), 0.1), tolerance=1e-4)
+    case = make_case(shift_field(_rough(), 0.1), tolerance=1e-4)
     return Case(case.heights + 10 ** (8 * severity / 100), case.mean_pressure, exact=case.exact)
 
 
 def ridges(severity: float) -> Case:
     """Hills grow along y, from as long as wide to ridges that do not end: at last a line in two dimensions."""
     field = _hilly((SIDE, SIDE), (1.5 * 10 ** (severity / 50), 1.5))
-    return made(level(field if severity < 100 else np.tile(field[:1], (SIDE, 1)), 0.2))
+    return make_case(shift_field(field if severity < 100 else np.tile(field[:1], (SIDE, 1)), 0.2))
 
 
 def oblong_cells(severity: float) -> Case:
     """The spacing along x grows, from that along y to a thousand times it."""
-    return made(level(_hilly((SIDE, SIDE)), 0.2), spacing=(1.0, 10 ** (3 * severity / 100)))
+    return make_case(shift_field(_hilly((SIDE, SIDE)), 0.2), spacing=(1.0, 10 ** (3 * severity / 100)))
 
 
 def oblong_grid(severity: float) -> Case:
     """The same number of points in ever fewer rows, from 64 of 64 to 2 of 2048."""
     rows = 2 ** round(6 - 5 * severity / 100)
-    return made(level(_hilly((rows, SIDE**2 // rows)), 0.2))
+    return make_case(shift_field(_hilly((rows, SIDE**2 // rows)), 0.2))
 
 
 def awkward_grids(severity: float) -> Case:
@@ -159,33 +170,30 @@ def awkward_grids(severity: float) -> Case:
         (113, 127),
     )
     shape = shapes[round(severity / 100 * (len(shapes) - 1))]
-    return made(level(_hilly(shape, (0.5, 0.5)), 0.4))
+    return make_case(shift_field(_hilly(shape, (0.5, 0.5)), 0.4))
 
 
 def incompressible_surface_layer(severity: float) -> Case:
     """In a layer a tenth of the roll-off wavelength thick, ν rises from 0.3 to exactly 0.5."""
-    ratio = 0.5 if severity >= 100 else 0.5 - 0.2 * 10 ** (-severity / 8)
-    return made(level(_rough(), 0.1), thickness=SIDE / 40, poisson_ratio=ratio)
+    ratio = nearly_incompressible_ratio(severity)
+    return make_case(shift_field(_rough(), 0.1), thickness=SIDE / 40, poisson_ratio=ratio)
 
 
 def thin_incompressible_surface_layer(severity: float) -> Case:
     """A layer of ν = 0.5 gets thinner, from the roll-off wavelength to 1e-3 of it."""
-    return made(level(_rough(), 0.1), thickness=SIDE / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
+    return make_case(shift_field(_rough(), 0.1), thickness=SIDE / 4 * 10 ** (-3 * severity / 100), poisson_ratio=0.5)
 
 
 def pushed_surface_layer(severity: float) -> Case:
     """The approach to a layer of ν = 0.3 is prescribed, to a million times complete contact's."""
     case = Case(_rough(), thickness=SIDE / 4, poisson_ratio=0.3)
-    flat = complete(case.heights, case.compliance)  # of mean zero, as the heights
-    full = -flat.min()
-    load = full * (0.5 + 10 ** (-4 + severity / 10))
-    exact = load + flat if load >= full else None
-    return replace(case, approach=load * case.compliance[0, 0], exact=exact)
+    flat = flat_pressure(case.heights, case.compliance)  # of mean zero, as the heights
+    return push_to_approach(case, flat, severity)
 
 
 def tight_surface_tolerance(severity: float) -> Case:
     """The tolerance on a surface falls from 1e-2 to 1e-18 grid steps, below what rounding allows."""
-    return made(level(_rough(), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
+    return make_case(shift_field(_rough(), 0.1), tolerance=10 ** (-2 - 16 * severity / 100))
 
 
 SURFACES = (

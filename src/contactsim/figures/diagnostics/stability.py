@@ -17,7 +17,7 @@ from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.figures import style
 
 COLOURS = {
-    Outcome.RIGHT: "#56b4e9",
+    Outcome.EXACT: "#56b4e9",
     Outcome.CERTIFIED: "#c3e3f5",
     Outcome.REFUSED: "#d9d9d9",
     Outcome.FAILED: "#f0e442",
