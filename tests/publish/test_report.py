@@ -15,7 +15,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.claims import CONDITION, NOT_REPRODUCED, REPRODUCED
-from contactsim.evaluation.robustness.survey import read_stability
+from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.figures.diagnostics.claims import rounded
 from contactsim.publish import report
 from contactsim.publish.gallery import VERDICTS
@@ -95,7 +95,7 @@ def page(made, plan):
 
 def asked(plan, rules="rule all:"):
     return report.settings(
-        plan, {"stability": {"stability": read_stability(ROOT / "config", plan)}, "effects": {}}, rules
+        plan, {"stability": {"stability": read_robustness(ROOT / "config", plan)}, "effects": {}}, rules
     )
 
 
