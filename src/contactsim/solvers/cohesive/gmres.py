@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.linalg.lapack import dtrtrs
 
 from contactsim.grid import Array
 
@@ -43,6 +42,8 @@ def gmres(
     ----------
     Y. Saad and M. H. Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986), doi:10.1137/0907058.
     """
+    from scipy.linalg.lapack import dtrtrs  # takes longer to import than the rest of a solver
+
     flat = target.reshape(-1).view(float)
     norm = np.linalg.norm(flat)
     basis = np.empty((budget + 1, flat.size))

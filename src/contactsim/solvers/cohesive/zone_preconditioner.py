@@ -15,7 +15,6 @@ from functools import lru_cache
 
 import ducc0
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
 from contactsim.elasticity.symbol import Symbol
@@ -114,6 +113,8 @@ class ZonePreconditioner:
 
     def _factor(self, values: Array) -> None:
         """Factorise 1 + C D on the process zone, for derivatives (exerted, read, nodes)."""
+        from scipy.linalg.lapack import dgetrf
+
         self._zone = np.flatnonzero(self._acting(values))
         self._values = values[..., self._zone]
         count, read = len(self._zone), len(self._problem.shape)
@@ -143,6 +144,8 @@ class ZonePreconditioner:
         wave
             Softest wave (read, nodes) of the state before; None at first.
         """
+        from scipy.linalg.lapack import dgetrs
+
         if not len(self._zone):
             return False, wave
         softest = _asymmetric_wave(len(self._problem.shape), self._nodes).copy()
@@ -180,6 +183,8 @@ class ZonePreconditioner:
 
     def __call__(self, residual: Array) -> Array:
         """Return the displacement (exerted, m) for a residual of the same shape."""
+        from scipy.linalg.lapack import dgetrs
+
         out = np.empty_like(residual)
         out[:, self._low :] = self._high.apply(residual[:, self._low :])
         long = self._compliance.apply(residual[:, : self._low])
