@@ -138,7 +138,7 @@ class _Spread:
     """
 
     def __init__(self, compliance: FourierOperator) -> None:
-        self._grid, self._tally, self._columns = compliance.grid, compliance.tally, compliance.grid.shape[1]
+        self._grid, self._counter, self._columns = compliance.grid, compliance.counter, compliance.grid.shape[1]
         self._symbol = compliance.symbol.astype(np.float32)
         shape = compliance.grid.wide_shape
         self._double = np.zeros(shape)
@@ -158,7 +158,7 @@ class _Spread:
             nthreads=self._grid.threads,
             allow_overwriting_input=True,
         )
-        self._tally.add(2, self._grid.size)
+        self._counter.add(2, self._grid.size)
 
     def compute_gap(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
         """Write the gap, computed in double precision, less its level on the contact (bool); the change turns zero."""
