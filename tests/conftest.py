@@ -10,15 +10,18 @@ from importlib import import_module
 from multiprocessing import get_context
 from pathlib import Path
 
+import pandas as pd
 import pytest
 from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.analysis import aggregate, costs
-from contactsim.figures.diagnostics.claims import render_claims
-from contactsim.figures.layout import render
+from contactsim.analysis.claims import judge_claims
+from contactsim.figures.diagnostics.claims import write_claims
+from contactsim.figures.layout import write_figure
 from contactsim.files import write_text
 from contactsim.study.execute import RunFiles
+from contactsim.study.law_table import tabulated
 from contactsim.study.plan import Plan
 from contactsim.study.select_effects import select_effects
 from contactsim.study.stages import STAGES
@@ -47,19 +50,24 @@ def decide_run(job: tuple[dict, Path]) -> None:
     write_text(select_effects(settings).text, file)
 
 
-def shown(plan: Plan, name: str) -> None:
-    """One figure, in a process of its own."""
-    names = [plan.dataset_name(study) for study in plan.figures[name].studies]
-    files = [[plan.results / kind.format(study) for study in names] for kind in ("datasets/{}.nc", "costs/{}.csv")]
-    targets = {kind: f"{plan.results}/figures/{name}.{kind}" for kind in plan.figures[name].endings}
-    render(json.loads(json.dumps(plan.figure_settings(name))), *files, targets)
+def draw_figure(plan: Plan, name: str) -> None:
+    """Write one figure, in a process of its own."""
+    figure = plan.figures[name]
+    names, law = [plan.dataset_name(study) for study in figure.studies], figure.settings["law"]
+    data = [dataset.load_dataset(plan.results / f"datasets/{study}.nc") for study in names]
+    costs = [pd.read_csv(plan.results / f"costs/{study}.csv") for study in names]
+    targets = {kind: f"{plan.results}/figures/{name}.{kind}" for kind in figure.endings}
+    settings = json.loads(json.dumps(plan.figure_settings(name)))
+    write_figure(settings, data if law is None else [tabulated(law)], costs, targets)
 
 
-def judged(plan: Plan, chapter: str) -> None:
-    """The claims of one chapter, in a process of its own."""
-    data = {study: plan.results / f"datasets/{chapter}_{study}.nc" for study in plan.claims_studies(chapter)}
+def assess_claims(plan: Plan, chapter: str) -> None:
+    """Write the claims of one chapter, in a process of its own."""
+    studies = plan.claims_studies(chapter)
+    data = {study: dataset.load_dataset(plan.results / f"datasets/{chapter}_{study}.nc") for study in studies}
     targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in ("png", "pdf", "csv")}
-    render_claims(json.loads(json.dumps(plan.claims_settings(chapter))), data, targets)
+    settings = json.loads(json.dumps(plan.claims_settings(chapter)))
+    write_claims(judge_claims(dict(settings["claims"]), data), chapter, data, targets)
 
 
 @pytest.fixture(scope="session")
@@ -101,8 +109,8 @@ def make_quick_tier(folder: Path) -> None:
         (plan.results / "figures").mkdir()
         (plan.results / "claims").mkdir()
         with ProcessPoolExecutor(2, get_context("spawn")) as pool:
-            drawn = [pool.submit(shown, plan, figure) for figure in plan.figures]
-            drawn += [pool.submit(judged, plan, chapter) for chapter in plan.claims]
+            drawn = [pool.submit(draw_figure, plan, figure) for figure in plan.figures]
+            drawn += [pool.submit(assess_claims, plan, chapter) for chapter in plan.claims]
             for job in drawn:
                 job.result()
     finally:

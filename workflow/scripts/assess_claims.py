@@ -4,8 +4,11 @@ import json
 
 from joblog import open_log
 
-from contactsim.figures.diagnostics.claims import render_claims
+from contactsim import dataset
+from contactsim.analysis.claims import judge_claims
+from contactsim.figures.diagnostics.claims import write_claims
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-render_claims(plan, dict(zip(sorted(plan["data"]), snakemake.input, strict=True)), snakemake.output)
+data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input), strict=True))
+write_claims(judge_claims(dict(plan["claims"]), data), plan["chapter"], data, snakemake.output)

@@ -4,7 +4,7 @@ import json
 
 from joblog import open_log
 
-from contactsim.figures.diagnostics.effect_maps import render
+from contactsim.figures.diagnostics.effect_maps import write_effect_maps
 
 open_log(snakemake.log[0])
-render(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)
+write_effect_maps(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)

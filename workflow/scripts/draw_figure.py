@@ -2,10 +2,15 @@
 
 import json
 
+import pandas as pd
 from joblog import open_log
 
-from contactsim.figures.layout import render
+from contactsim import dataset
+from contactsim.figures.layout import write_figure
+from contactsim.study.law_table import tabulated
 
 open_log(snakemake.log[0])
-files = snakemake.input
-render(json.loads(snakemake.params.plan), files.data, files.get("costs", []), snakemake.output)
+plan, files = json.loads(snakemake.params.plan), snakemake.input
+law = plan["settings"]["law"]
+data = [dataset.load_dataset(path) for path in files.data] if law is None else [tabulated(law)]
+write_figure(plan, data, [pd.read_csv(path) for path in files.get("costs", [])], snakemake.output)

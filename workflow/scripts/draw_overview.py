@@ -4,7 +4,7 @@ import json
 
 from joblog import open_log
 
-from contactsim.figures.diagnostics.overview import render
+from contactsim.figures.diagnostics.overview import write_overview
 
 open_log(snakemake.log[0])
-render(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)
+write_overview(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)

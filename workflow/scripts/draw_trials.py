@@ -4,7 +4,7 @@ import json
 
 from joblog import open_log
 
-from contactsim.figures.diagnostics.trials import render
+from contactsim.figures.diagnostics.trials import write_trials
 
 open_log(snakemake.log[0])
-render(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.costs, snakemake.output)
+write_trials(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.costs, snakemake.output)

@@ -4,7 +4,7 @@ import json
 
 from joblog import open_log
 
-from contactsim.figures.diagnostics.accuracy import render
+from contactsim.figures.diagnostics.accuracy import write_accuracy
 
 open_log(snakemake.log[0])
-render(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)
+write_accuracy(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)

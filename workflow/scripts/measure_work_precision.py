@@ -6,15 +6,15 @@ from joblog import open_log
 from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
+from contactsim.error_control.forecast import transform_seconds
 from contactsim.evaluation.work_precision.case_config import read_cases
 from contactsim.files import write_text
 from contactsim.study.plan import Plan
 
 open_log(snakemake.log[0])
-plan = json.loads(snakemake.params.plan)
-config, tier = snakemake.params.config, snakemake.params.tier
-case = read_cases(config, Plan.read(config, tier))[snakemake.wildcards.case]
+plan, config = json.loads(snakemake.params.plan), snakemake.params.config
+case = read_cases(config, Plan.read(config, snakemake.params.tier))[snakemake.wildcards.case]
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
     data, seconds = case.measure(snakemake.wildcards.job)
 dataset.write(dataset.stamped(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
-write_text(json.dumps(seconds), snakemake.output.costs)
+write_text(json.dumps({"seconds": seconds, "transform_seconds": transform_seconds()}), snakemake.output.costs)

@@ -1,13 +1,14 @@
-"""Maps of a pressed surface: where it touches, how hard it presses there, how far apart it is elsewhere.
+"""Maps of a pressed surface: contact, pressure and gap.
 
-The colours are even to the eye and run from light, nothing, to dark. A grid finer than a picture is reduced by means
-over square blocks of points, so a pixel tells the fraction of its points in contact and loses none of the load.
+Lightness falls evenly from light (zero) to dark. A grid finer than the picture is reduced by means over square blocks
+of points: a pixel shows the fraction of its points in contact, and no load is lost.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -25,14 +26,16 @@ from contactsim.solvers.base import Result
 from contactsim.status import Status
 
 PIXELS = 512
-"""Most pixels along a side: what three panels beside each other can show."""
-BAR = 0.3
-"""Most of a panel's width that a scale bar takes."""
+"""Largest number of pixels along a side: what three panels beside each other can show."""
+RESOLUTION = 200
+"""Dots an inch."""
+BAR_WIDTH = 0.3
+"""Largest part of a panel's width that a scale bar takes."""
 PREFIXES = {"p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6, "G": 1e9}
 
 
 def _greys() -> ListedColormap:
-    """White to black in equal steps of lightness (CIE 1976), which those of Matplotlib are not."""
+    """Return colours from white to black in equal steps of lightness (CIE 1976), unlike Matplotlib's greys."""
     lightness = np.linspace(1.0, 0.0, 256)
     luminance = np.where(lightness > 0.08, ((lightness + 0.16) / 1.16) ** 3, lightness / 9.033)
     grey = np.where(luminance > 0.0031308, 1.055 * luminance ** (1 / 2.4) - 0.055, 12.92 * luminance)
@@ -40,13 +43,16 @@ def _greys() -> ListedColormap:
 
 
 COLOURS: dict[str, str | Colormap] = {"contact": _greys(), "pressure": "magma_r", "gap": "viridis_r"}
-WORDS = {"contact": "fraction in contact", "pressure": r"pressure $p$", "gap": "gap $g$"}
+LABELS = {"contact": "fraction in contact", "pressure": r"pressure $p$", "gap": "gap $g$"}
 MEANS = {"contact": r"$a_{\mathrm{rel}}$", "pressure": r"mean $p$", "gap": "mean $g$"}
 
 
 @dataclass(frozen=True, eq=False)
-class Solved:
-    """One solved load of a surface: pressure and gap (ny, nx), periods along y and x, and the units of them."""
+class SurfaceFields:
+    """Fields of one solved load of a surface.
+
+    pressure, gap: (ny, nx); lengths: periods along y and x; length_unit, pressure_unit: of these numbers.
+    """
 
     pressure: Array
     gap: Array
@@ -54,8 +60,39 @@ class Solved:
     length_unit: str = "nm"
     pressure_unit: str = "GPa"
 
+    @classmethod
+    def of_result(
+        cls, result: Result, spacing: float | tuple[float, float], length_unit: str, pressure_unit: str
+    ) -> SurfaceFields:
+        """Return the fields of a result of `contactsim.press`; spacing: of its points, one number or along y and x."""
+        _require_surface(result.pressure.ndim)
+        _require_converged(result.status)
+        steps = np.broadcast_to(np.asarray(spacing, object), 2) if np.size(spacing) in (1, 2) else [None]
+        if not all(is_number(step) and step > 0 for step in steps):
+            allowed = "the spacing that the surface was pressed with: a positive number or two"
+            raise InputError("spacing", spacing, allowed)
+        ny, nx = result.pressure.shape
+        lengths = float(steps[0]) * ny, float(steps[1]) * nx
+        return cls(result.pressure, result.gap, lengths, length_unit, pressure_unit)
+
+    @classmethod
+    def of_dataset(cls, data: xr.Dataset) -> SurfaceFields:
+        """Return the fields of the one solved load of a dataset; dimensions with one value are dropped."""
+        _require_surface(2 if "length_y" in data else 1)
+        if not {"pressure", "gap"} <= set(data):
+            allowed = "a dataset with pressure and gap: of a study or a simulation that keeps `fields`"
+            raise InputError("keep", sorted(map(str, data)), allowed)
+        dims = [dim for dim in data.pressure.dims if dim not in ("y", "x")]
+        for dim in dims:
+            if data.sizes[dim] > 1:
+                allowed = "one value, since a map shows one: choose with .sel or .isel"
+                raise InputError(str(dim), data.sizes[dim], allowed)
+        load = data.squeeze(dims)
+        _require_converged(next(status for status in Status if status.value[0] == load.status))
+        return cls(load.pressure.values, load.gap.values, (float(load.length_y), float(load.length)))
+
     def maps(self) -> dict[str, tuple[Array, str]]:
-        """Name, values (ny, nx) and unit of each map; in contact, where the gap is none but for a residual, it is 0."""
+        """Return values (ny, nx) and unit of each map; the gap in contact, a residual of the solver, is set to 0."""
         contact = touching(self.pressure)
         return {
             "contact": (contact.astype(float), ""),
@@ -64,102 +101,124 @@ class Solved:
         }
 
 
-def draw(
-    solution: Result | xr.Dataset,
-    *,
-    spacing: float | tuple[float, float] | None = None,
-    length_unit: str = "nm",
-    pressure_unit: str = "GPa",
-    size: tuple[float, float] = (10.2, 3.0),
-) -> Figure:
-    """Contact, pressure and gap of a surface side by side, to be saved with `.savefig("maps.png")`.
-
-    solution: what `contactsim.press` returned for a surface, together with the spacing of its points, one number or
-    those along y and x; or one load of a dataset that keeps `fields`, as `data.isel(step=-1)`, which has its own.
-    length_unit, pressure_unit: of a result's numbers; those made of m and Pa are shown with the prefix that fits.
-    size: width and height, inches. InputError for a line, for several loads, and for what did not converge.
-    """
-    if isinstance(solution, Result):
-        solved = _of_result(solution, spacing, length_unit, pressure_unit)
-    elif (spacing, length_unit, pressure_unit) != (None, "nm", "GPa"):
-        raise InputError("spacing, length_unit, pressure_unit", spacing, "none with a dataset: it has its own")
-    else:
-        solved = of_dataset(solution)
-    figure = Figure(figsize=size, layout="constrained")
-    panels(solved, list(figure.subplots(1, 3)))
-    return figure
-
-
-def _of_result(result: Result, spacing: object, length_unit: str, pressure_unit: str) -> Solved:
-    _require_surface(result.pressure.ndim)
-    _require_converged(result.status)
-    both = [spacing] * 2 if np.ndim(spacing) == 0 else list(spacing)
-    if len(both) != 2 or not all(is_number(step) and step > 0 for step in both):
-        raise InputError("spacing", spacing, "the spacing that the surface was pressed with: a positive number or two")
-    lengths = tuple(float(step) * count for step, count in zip(both, result.pressure.shape, strict=True))
-    return Solved(result.pressure, result.gap, lengths, length_unit, pressure_unit)
-
-
-def of_dataset(data: xr.Dataset) -> Solved:
-    """The one solved load of a dataset with the variables pressure and gap; dimensions of one value are dropped."""
-    _require_surface(2 if "length_y" in data else 1)
-    if not {"pressure", "gap"} <= set(data):
-        allowed = "a dataset with pressure and gap: of a study or a simulation that keeps `fields`"
-        raise InputError("keep", sorted(map(str, data)), allowed)
-    places = [name for name in data.pressure.dims if name not in ("y", "x")]
-    for name in places:
-        if data.sizes[name] > 1:
-            raise InputError(str(name), data.sizes[name], "one value, since a map shows one: choose with .sel or .isel")
-    one = data.squeeze(places)
-    _require_converged(next(status for status in Status if status.value[0] == one.status))
-    return Solved(one.pressure.values, one.gap.values, (float(one.length_y), float(one.length)))
-
-
 def _require_surface(dimensions: int) -> None:
+    """Refuse a line."""
     if dimensions != 2:
         raise InputError("dimensions", dimensions, "2: maps are of surfaces, and this is a line")
 
 
 def _require_converged(status: Status) -> None:
+    """Refuse a solution that did not converge."""
     if status is not Status.CONVERGED:
         raise InputError("status", status.sentence, "a solution that converged")
 
 
-def panels(solved: Solved, axes: list[Axes]) -> pd.DataFrame:
-    """Draw the three maps on axes of a figure with constrained layout; returns what they show, one row a map.
+def plot_maps(data: xr.Dataset, *, size: tuple[float, float] = (10.2, 3.0)) -> Figure:
+    """Return a figure with contact, pressure and gap of one load of a surface side by side.
 
-    mean, least, largest: of all points, in the units given; shown_least, shown_largest: ends of the colours;
-    pixel_points: points along the side of a pixel.
+    Parameters
+    ----------
+    data : one load of a dataset that keeps `fields`, such as `data.isel(step=-1)`
+    size : width and height, inches
+
+    Raises
+    ------
+    InputError
+        for a line, for several loads, without fields, and for a load that did not converge
     """
+    return _figure(SurfaceFields.of_dataset(data), size)
+
+
+def plot_result(
+    result: Result,
+    *,
+    spacing: float | tuple[float, float],
+    length_unit: str = "nm",
+    pressure_unit: str = "GPa",
+    size: tuple[float, float] = (10.2, 3.0),
+) -> Figure:
+    """Return a figure with contact, pressure and gap of a pressed surface side by side.
+
+    Parameters
+    ----------
+    result : of `contactsim.press` for a surface
+    spacing : of its points, one number or those along y and x
+    length_unit, pressure_unit : of the numbers; units of m and Pa are shown with the prefix that fits
+    size : width and height, inches
+
+    Raises
+    ------
+    InputError
+        for a line, for another spacing than a positive number or two, and for a result that did not converge
+    """
+    return _figure(SurfaceFields.of_result(result, spacing, length_unit, pressure_unit), size)
+
+
+@mpl.rc_context(style.RC_PARAMS)
+def _figure(fields: SurfaceFields, size: tuple[float, float]) -> Figure:
+    """Return the maps in a figure of their own."""
+    figure = Figure(figsize=size, layout="constrained", dpi=RESOLUTION)
+    _plot(fields, list(figure.subplots(1, 3)))
+    figure.draw_without_rendering()  # ticks take their look when they are first drawn
+    return figure
+
+
+def plot_fields(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the maps of one load of a dataset on three axes of a figure with constrained layout.
+
+    Returns
+    -------
+    table : one row a map; mean, least and largest of all points, in the unit given; shown_least, shown_largest: ends
+        of the colours; pixel_points: points along the side of a pixel
+    """
+    return _plot(SurfaceFields.of_dataset(data), axes)
+
+
+def _plot(fields: SurfaceFields, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the maps and return what they show."""
     figure = axes[0].figure
-    kept = figure.get_layout_engine().get() | {"wspace": 0.04}
-    figure.set_layout_engine("compressed", **kept)  # which heeds the fixed proportions
-    rows, ny, nx = [], *solved.pressure.shape
-    spacing = solved.lengths[0] / ny, solved.lengths[1] / nx
-    block = -(-max(ny, nx) // PIXELS)
-    extent = (0.0, -(-nx // block) * block * spacing[1], 0.0, -(-ny // block) * block * spacing[0])
-    for panel, letter, (name, (values, unit)) in zip(axes, "abc", solved.maps().items(), strict=True):
-        pixels = reduced(values, block)
-        factor, shown_unit = fitting(max(values.max(), -values.min()), unit)
-        low, high = min(pixels.min(), 0.0), pixels.max() if pixels.max() > 0 else 1 / factor
-        low, high = (0.0, 1.0) if name == "contact" else (low, high)
-        look = {"cmap": COLOURS[name], "vmin": low * factor, "vmax": high * factor}
-        image = panel.imshow(pixels * factor, origin="lower", extent=extent, **look)
-        panel.set(xlim=(0.0, solved.lengths[1]), ylim=(0.0, solved.lengths[0]), xticks=[], yticks=[])
-        bracket = f" ({shown_unit})" if shown_unit else ""
-        bar = figure.colorbar(image, ax=panel, label=WORDS[name] + bracket, aspect=22, pad=0.03)
-        bar.locator = MaxNLocator(6, steps=[1, 2, 5, 10])
-        style.letter(panel, letter)
-        panel.set_title(f"{MEANS[name]} = {values.mean() * factor:.3g} {shown_unit}".rstrip(), loc="right", fontsize=8)
-        scale_bar(panel, solved.lengths[1], solved.length_unit)
-        numbers = {"mean": values.mean(), "least": values.min(), "largest": values.max()}
-        shown = {"shown_least": low, "shown_largest": high, "pixel_points": block}
-        rows.append({"map": name, "unit": unit or "1"} | numbers | shown)
+    constrained = figure.get_layout_engine().get() | {"wspace": 0.04}
+    figure.set_layout_engine("compressed", **constrained)  # which heeds the fixed proportions
+    block = -(-max(fields.pressure.shape) // PIXELS)
+    rows = [
+        _plot_map(panel, name, values, unit, fields, block)
+        for panel, (name, (values, unit)) in zip(axes, fields.maps().items(), strict=True)
+    ]
+    style.add_letters(axes)
     return pd.DataFrame(rows)
 
 
-def reduced(values: Array, block: int) -> Array:
-    """Means over square blocks of points, (ny, nx) to (ceil(ny/block), ceil(nx/block)); the last may be smaller."""
+def _plot_map(
+    axes: Axes, name: str, values: Array, unit: str, fields: SurfaceFields, block: int
+) -> dict[str, float | str]:
+    """Plot one map with its colour bar and scale bar; return what it shows."""
+    (ny, nx), (length_y, length_x) = values.shape, fields.lengths
+    extent = (0.0, -(-nx // block) * block * (length_x / nx), 0.0, -(-ny // block) * block * (length_y / ny))
+    pixels = block_means(values, block)
+    factor, shown_unit = fitting_unit(max(values.max(), -values.min()), unit)
+    low, high = min(pixels.min(), 0.0), pixels.max() if pixels.max() > 0 else 1 / factor
+    low, high = (0.0, 1.0) if name == "contact" else (low, high)
+    look = {"cmap": COLOURS[name], "vmin": low * factor, "vmax": high * factor}
+    image = axes.imshow(pixels * factor, origin="lower", extent=extent, **look)
+    axes.set(xlim=(0.0, length_x), ylim=(0.0, length_y), xticks=[], yticks=[])
+    label = LABELS[name] + (f" ({shown_unit})" if shown_unit else "")
+    bar = axes.figure.colorbar(image, ax=axes, label=label, aspect=22, pad=0.03)
+    bar.locator = MaxNLocator(6, steps=[1, 2, 5, 10])
+    axes.set_title(f"{MEANS[name]} = {values.mean() * factor:.3g} {shown_unit}".rstrip(), loc="right", fontsize=8)
+    add_scale_bar(axes, length_x, fields.length_unit)
+    numbers = {"mean": values.mean(), "least": values.min(), "largest": values.max()}
+    return (
+        {"map": name, "unit": unit or "1"}
+        | numbers
+        | {"shown_least": low, "shown_largest": high, "pixel_points": block}
+    )
+
+
+def block_means(values: Array, block: int) -> Array:
+    """Return means over square blocks of points, (ny, nx) to (ceil(ny/block), ceil(nx/block)).
+
+    The last blocks of a row or column may be smaller.
+    """
     for axis, count in enumerate(values.shape):
         starts = np.arange(0, count, block)
         sizes = np.diff(starts, append=count)
@@ -167,27 +226,30 @@ def reduced(values: Array, block: int) -> Array:
     return values
 
 
-def fitting(largest: float, unit: str) -> tuple[float, str]:
-    """Factor to, and name of, the unit in which a value is 1 to 1000; units that are not made of m or Pa stay."""
+def fitting_unit(value: float, unit: str) -> tuple[float, str]:
+    """Return the factor to the unit in which a value is 1 to 1000, and that unit.
+
+    A unit that is not made of m or Pa stays as it is.
+    """
     base = "Pa" if unit.endswith("Pa") else "m"
     prefix = unit.removesuffix(base)
-    if not unit.endswith(base) or prefix not in PREFIXES or not largest > 0:
+    if not unit.endswith(base) or prefix not in PREFIXES or not value > 0:
         return 1.0, unit
-    size = largest * PREFIXES[prefix] * (1 + 1e-12)
-    best = max((name for name in PREFIXES if PREFIXES[name] <= size), key=PREFIXES.get, default=prefix)
+    size = value * PREFIXES[prefix] * (1 + 1e-12)
+    best = max((name for name in PREFIXES if PREFIXES[name] <= size), key=PREFIXES.__getitem__, default=prefix)
     return PREFIXES[prefix] / PREFIXES[best], f"{best}{base}"
 
 
-def round_length(most: float) -> float:
-    """The largest of 1, 2 and 5 times a power of ten that is not above `most`."""
-    power = 10.0 ** np.floor(np.log10(most))
-    return max(digit * power for digit in (0.5, 1, 2, 5) if digit * power <= most * (1 + 1e-12))
+def round_length(limit: float) -> float:
+    """Return the largest of 1, 2 and 5 times a power of ten that is not above a limit."""
+    power = 10.0 ** np.floor(np.log10(limit))
+    return float(max(digit * power for digit in (0.5, 1, 2, 5) if digit * power <= limit * (1 + 1e-12)))
 
 
-def scale_bar(axes: Axes, width: float, unit: str) -> AnchoredSizeBar:
-    """A bar of a round length below the left corner of a map of that width."""
-    length = round_length(BAR * width)
-    factor, shown_unit = fitting(length, unit)
+def add_scale_bar(axes: Axes, width: float, unit: str) -> AnchoredSizeBar:
+    """Add a bar of a round length below the left corner of a map of that width."""
+    length = round_length(BAR_WIDTH * width)
+    factor, shown_unit = fitting_unit(length, unit)
     bar = AnchoredSizeBar(
         axes.transData,
         length,

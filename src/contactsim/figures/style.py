@@ -1,8 +1,9 @@
-"""How figures look: one place for colours, markers, legends, tables and the words about the grid."""
+"""Look of the figures: colours, markers, lines, legend handles, error bars, axes, panel letters and tables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -12,16 +13,51 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from numpy.typing import ArrayLike
 
 from contactsim.variables import SUFFIXES
 
-HURST = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
+RC_PARAMS = {
+    "font.size": 9,
+    "axes.labelsize": 9,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "savefig.dpi": 200,
+    "pdf.fonttype": 42,
+}
+"""Settings of Matplotlib for all figures, used in `matplotlib.rc_context` alone."""
+
 WHOLE, CONTACT, PAIRS = "#c1272d", "#1f4e9c", "#2a9d6f"
-"""Gradient over the whole surface, over the contact (Eq. 3.8), over pairs in contact."""
+"""Colours of the gradient over the whole surface, over the contact (Eq. 3.8), over pairs of points in contact."""
 EXACT = "#333333"
-SAME = 1e-6
-"""Distance, in a dimension's unit, up to which a place in a dataset is the one that is asked for."""
-SOLVERS = {
+"""Colour of exact answers, values of the thesis and axes."""
+GREY = "#777777"
+"""Colour of legend handles that show a marker or a line style."""
+LIGHT_GREY = "#999999"
+"""Colour of guides to the eye."""
+BROWN, PURPLE = "#8c6d31", "#7b4fa3"
+"""Further colours, for a fourth and a fifth kind."""
+THESIS: Any = (0, (6, 3))
+"""Line style of values that the thesis gives."""
+ZERO: dict[str, Any] = {"color": EXACT, "lw": 0.5}
+"""Line at zero."""
+BARS: dict[str, Any] = {"elinewidth": 0.8, "capsize": 1.5}
+"""Error bars."""
+FAINT = 0.35
+"""Opacity of a curve beside the main ones."""
+PLACE_TOLERANCE = 1e-6
+"""Largest distance between a coordinate that a figure asks for and that in the dataset, in the coordinate's unit."""
+
+HURST_LOOKS = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
+"""Marker and line of the thesis's Hurst exponents."""
+HURST_COLOURS = {0.2: WHOLE, 0.5: PAIRS, 0.8: CONTACT}
+POISSON_LOOKS = {0.1: ("o", 5.5), 0.45: ("x", 3.2)}
+"""Marker and size of Poisson's ratios: the small one fits into the large one where they coincide."""
+SOLVER_NAMES = {
     "active_set": "active set",
     "conjugate_gradients": "conjugate gradients",
     "damped_verlet": "damped Verlet",
@@ -32,165 +68,148 @@ SOLVERS = {
     "tamaas": "tamaas",
     "verlet": "Verlet",
 }
-"""Names of solvers, as in the literature."""
-
-mpl.rcParams.update(
-    {
-        "font.size": 9,
-        "axes.labelsize": 9,
-        "legend.fontsize": 7.5,
-        "legend.frameon": False,
-        "xtick.direction": "in",
-        "ytick.direction": "in",
-        "xtick.top": True,
-        "ytick.right": True,
-        "savefig.dpi": 200,
-        "pdf.fonttype": 42,
-    }
-)
+"""Solvers as the literature names them."""
 
 
-def hurst(value: float) -> dict[str, object]:
-    """Marker and line of a Hurst exponent; those not in the thesis get a cross."""
-    marker, line = HURST.get(round(float(value), 6), ("x", "-."))
+def hurst_look(value: float) -> dict[str, Any]:
+    """Return the marker and line of a Hurst exponent; one that the thesis does not have gets a cross."""
+    marker, line = HURST_LOOKS.get(round(float(value), 6), ("x", "-."))
     return {"marker": marker, "linestyle": line, "markersize": 3.5, "linewidth": 1.0, "markerfacecolor": "white"}
 
 
-POISSON = {0.1: ("o", 5.5), 0.45: ("x", 3.2)}
-"""Marker and size for a Poisson's ratio: one fits into the other, so that both are seen where they meet."""
-HURST_COLOURS = {0.2: WHOLE, 0.5: PAIRS, 0.8: CONTACT}
-
-
 def hurst_colour(value: float) -> str:
-    """Colour of a Hurst exponent where its marker stands for something else; those not in the thesis are grey."""
-    return HURST_COLOURS.get(round(float(value), 6), "#777777")
+    """Return the colour of a Hurst exponent; one that the thesis does not have is grey."""
+    return HURST_COLOURS.get(round(float(value), 6), GREY)
 
 
-def poisson(value: float) -> dict[str, object]:
-    """Marker of a Poisson's ratio; those not in the thesis get a triangle."""
-    marker, size = POISSON.get(round(float(value), 6), ("^", 3.5))
+def poisson_look(value: float) -> dict[str, Any]:
+    """Return the marker of a Poisson's ratio; one that the thesis does not have gets a triangle."""
+    marker, size = POISSON_LOOKS.get(round(float(value), 6), ("^", 3.5))
     return {"marker": marker, "markersize": size, "markerfacecolor": "none", "markeredgewidth": 0.8}
 
 
-def poisson_key(values: Iterable[float]) -> list[Line2D]:
-    """Legend entries for Poisson's ratios."""
-    return [Line2D([], [], color="#777777", ls="none", label=rf"$\nu={value:g}$", **poisson(value)) for value in values]
+def solver_name(kind: str) -> str:
+    """Return the name of a solver as in the literature, or else its name in the config without underscores."""
+    return SOLVER_NAMES.get(kind, kind.replace("_", " "))
 
 
-def hurst_key(values: Iterable[float]) -> list[Line2D]:
-    """Legend entries for Hurst exponents."""
-    return [Line2D([], [], color="#777777", label=f"$H={value:g}$", **hurst(value)) for value in values]
+def shades(values: ArrayLike) -> dict[float, str]:
+    """Return a colour for each value, from dark to light in their order."""
+    keys = [float(value) for value in np.asarray(values, float).ravel()]
+    colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.82, len(keys)))
+    return dict(zip(keys, map(mpl.colors.to_hex, colours), strict=True))
 
 
-def shades(values: Iterable[float]) -> dict[float, str]:
-    """A colour for each value, dark to light in their order."""
-    known = [float(value) for value in values]
-    colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.82, len(known)))
-    return dict(zip(known, map(mpl.colors.to_hex, colours), strict=True))
+def hurst_handles(values: Iterable[float]) -> list[Line2D]:
+    """Return legend handles of Hurst exponents."""
+    return [Line2D([], [], color=GREY, label=f"$H={value:g}$", **hurst_look(value)) for value in values]
 
 
-def key(colours: Mapping[str, str], lines: Mapping[str, object]) -> list[Line2D]:
-    """Legend entries: a coloured line for each name, then a dark line of each style."""
-    coloured = [Line2D([], [], color=color, lw=1.5, label=name) for name, color in colours.items()]
-    return coloured + [Line2D([], [], color=EXACT, lw=0.8, ls=line, label=name) for name, line in lines.items()]
+def poisson_handles(values: Iterable[float]) -> list[Line2D]:
+    """Return legend handles of Poisson's ratios."""
+    return [Line2D([], [], color=GREY, ls="none", label=rf"$\nu={value:g}$", **poisson_look(value)) for value in values]
 
 
-def with_errors(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
-    """A curve of ensemble means with standard errors as bars; no bars where there is one member."""
-    bars(axes, x, data[f"{name}_mean"], data[f"{name}_standard_error"], **look)
+def colour_handles(colours: Mapping[str, str]) -> list[Line2D]:
+    """Return legend handles: one coloured line for each label."""
+    return [Line2D([], [], color=colour, lw=1.5, label=label) for label, colour in colours.items()]
 
 
-def bars(axes: Axes, x: xr.DataArray, y: xr.DataArray, error: xr.DataArray, **look: object) -> None:
-    """A curve with bars, without them where no error is known."""
-    known = error.values if np.isfinite(error).any() else None
-    axes.errorbar(x.values, y.values, yerr=known, elinewidth=0.8, capsize=1.5, **look)
+def line_handles(lines: Mapping[str, Any]) -> list[Line2D]:
+    """Return legend handles: one dark line of each style."""
+    return [Line2D([], [], color=EXACT, lw=0.8, ls=line, label=label) for label, line in lines.items()]
 
 
-def grid_error(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: object) -> None:
-    """The grid error of a curve of means, where it was measured."""
+def opacity_handles(opacities: Mapping[str, float]) -> list[Line2D]:
+    """Return legend handles: one dark line of each opacity."""
+    return [Line2D([], [], color=EXACT, alpha=alpha, lw=1.5, label=label) for label, alpha in opacities.items()]
+
+
+def marker_look(colour: str, marker: str = "o", size: float = 4.0, fill: str = "white") -> dict[str, Any]:
+    """Return the look of hollow or filled markers."""
+    return {"color": colour, "marker": marker, "ms": size, "mfc": fill}
+
+
+def errorbars(axes: Axes, x: ArrayLike, y: ArrayLike, error: ArrayLike | None, **look: Any) -> None:
+    """Plot a curve with error bars; without bars where no error is finite."""
+    bars = None if error is None or not np.isfinite(np.asarray(error, float)).any() else np.asarray(error, float)
+    axes.errorbar(np.asarray(x), np.asarray(y), yerr=bars, **BARS | look)
+
+
+def plot_means(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: Any) -> None:
+    """Plot the ensemble means of a quantity, with their standard errors as bars."""
+    errorbars(axes, x, data[f"{name}_mean"], data[f"{name}_standard_error"], **look)
+
+
+def plot_grid_error(axes: Axes, x: xr.DataArray, data: xr.Dataset, name: str, **look: Any) -> None:
+    """Plot the grid error of a quantity if the study measured it."""
     if f"{name}_grid_error" in data:
         axes.plot(x.values, data[f"{name}_grid_error"].values, **look)
 
 
-def keep_in_view(axes: Axes, least: float, most: float) -> None:
-    """Show at least this range of the vertical axis, and all that is drawn."""
-    low, high = axes.get_ylim()
-    axes.set_ylim(min(low, least), max(high, most))
+def plot_limits(axes: Axes, limits: pd.Series, places: ArrayLike, bars: pd.Series, **look: Any) -> None:
+    """Plot values in the limit of fine grids as single markers with bars."""
+    axes.errorbar(np.asarray(places), limits, bars, **BARS | look | {"linestyle": "none"})
 
 
-def limits(errors: pd.Series) -> tuple[float, float]:
-    """The range of an axis that holds these, and a factor of ten at least."""
-    if errors.empty:
-        return 0.1, 1.0
-    low, high = errors.min() / 1.3, errors.max() * 1.3
-    wider = max(1.0, 10 * low / high) ** 0.5
-    return low / wider, high * wider
-
-
-def ticks(axis: Axis, low: float, high: float) -> None:
-    """Ticks and labels inside the range only: decades, of small ranges their halves and fifths too."""
-    decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
-    steps = np.outer(decades, np.arange(1, 10))
-    few = high / low < 20 or ((low <= decades) & (decades <= high)).sum() < 2
-    kept = (1, 2, 5) if few else (1,)
-    thin = -(-len(decades) // 7)
-    major, minor = np.outer(decades[::thin], kept).ravel(), steps.ravel()
-    axis.set_major_locator(FixedLocator([at for at in major if low <= at <= high]))
-    axis.set_minor_locator(FixedLocator([at for at in minor if low <= at <= high]))
-    axis.set_major_formatter(
-        FuncFormatter(lambda value, _: _number(value, low >= 1e-3 and high <= 1e4 and len(kept) > 1))
-    )
-    axis.set_minor_formatter(NullFormatter())
-
-
-def _number(value: float, plain: bool) -> str:
-    if plain:
-        return f"{value:g}"
-    digit, power = f"{value:.0e}".split("e")
-    return (rf"${digit}\times" if digit != "1" else "$") + f"10^{{{int(power)}}}$"
-
-
-def solver(kind: str) -> str:
-    """A solver's name as in the literature; one that has none there, as in the config."""
-    return SOLVERS.get(kind, kind.replace("_", " "))
-
-
-def letter(axes: Axes, name: str) -> None:
-    """The panel's letter, above its left corner."""
-    axes.set_title(f"({name})", loc="left", fontsize=9)
-
-
-def letters(axes: Iterable[Axes]) -> None:
-    """Letters above the panels, from a on."""
-    for panel, name in zip(axes, "abcdefgh", strict=False):
-        letter(panel, name)
-
-
-def table(axes: Axes, heads: list[str], rows: list[list[str]]) -> None:
-    """A table in place of axes."""
-    axes.axis("off")
-    drawn = axes.table(rows, colLabels=heads, loc="center", cellLoc="center")
-    drawn.auto_set_font_size(False)
-    drawn.set_fontsize(8)
-    for (row, _), cell in drawn.get_celld().items():
-        cell.set(edgecolor="#bbbbbb", linewidth=0.6, height=(1.7 if row == 0 else 1) / (len(rows) + 1.7))
-
-
-def averages(data: xr.Dataset, names: Iterable[str]) -> pd.DataFrame:
-    """Mean, standard error and grid error of each quantity, one row a point: what a figure of averages shows."""
+def mean_table(data: xr.Dataset, names: Iterable[str]) -> pd.DataFrame:
+    """Return mean, standard error and grid error of each quantity, with one row for each point of the dataset."""
     columns = [f"{name}{suffix}" for name in names for suffix in SUFFIXES]
     return data[[column for column in columns if column in data]].to_dataframe().reset_index()
 
 
-def points_text(settings: Mapping, *points: int) -> str:
-    """Grid points, with those per shortest wavelength where the surface has one, beside the thesis's own."""
-    surface, thesis = settings["surface"], settings["thesis_points"]
-    if settings.get("accuracy"):
-        return f"{min(points):.0f} to {max(points):.0f} points, for an accuracy of {settings['accuracy']['error']:g}"
-    grids = ", ".join(f"{count:.0f}" for count in points)
-    if surface["kind"] != "self_affine":
-        return f"{grids} points (thesis {thesis})" if thesis else f"{grids} points"
-    share = surface["shortest_wavelength"] / surface["length"]
-    beside = f" (thesis {thesis * share:g})" if thesis else ""
-    waves = ", ".join(f"{count * share:g}" for count in points)
-    return f"{grids} points, {waves} per shortest wavelength{beside}"
+def add_headroom(axes: Axes, above: float, below: float = 0.0) -> None:
+    """Add room above and below the curves for a legend or text, as parts of their range."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low - below * (high - low), high + above * (high - low))
+
+
+def include_range(axes: Axes, low: float, high: float) -> None:
+    """Widen the vertical axis so that it shows this range too."""
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(min(bottom, low), max(top, high))
+
+
+def add_letters(axes: Iterable[Axes]) -> None:
+    """Put the letters (a), (b), … above the left corners of the panels."""
+    for panel, letter in zip(axes, "abcdefgh", strict=False):
+        panel.set_title(f"({letter})", loc="left", fontsize=9)
+
+
+def log_range(values: pd.Series) -> tuple[float, float]:
+    """Return the range of a logarithmic axis that holds the values and spans a factor of ten at least."""
+    if values.empty:
+        return 0.1, 1.0
+    low, high = values.min() / 1.3, values.max() * 1.3
+    wider = max(1.0, 10 * low / high) ** 0.5
+    return low / wider, high * wider
+
+
+def set_log_ticks(axis: Axis, low: float, high: float) -> None:
+    """Set ticks and labels of a logarithmic axis inside a range: decades, and 2 and 5 of them if there are few."""
+    decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    few = high / low < 20 or ((low <= decades) & (decades <= high)).sum() < 2
+    digits = (1, 2, 5) if few else (1,)
+    stride = -(-len(decades) // 7)
+    major, minor = np.outer(decades[::stride], digits).ravel(), np.outer(decades, np.arange(1, 10)).ravel()
+    plain = low >= 1e-3 and high <= 1e4 and few
+    axis.set_major_locator(FixedLocator([tick for tick in major if low <= tick <= high]))
+    axis.set_minor_locator(FixedLocator([tick for tick in minor if low <= tick <= high]))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}" if plain else _power_of_ten(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _power_of_ten(value: float) -> str:
+    """Return a number as digit times a power of ten."""
+    digit, power = f"{value:.0e}".split("e")
+    return (rf"${digit}\times" if digit != "1" else "$") + f"10^{{{int(power)}}}$"
+
+
+def draw_table(axes: Axes, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Draw a table in place of axes."""
+    axes.axis("off")
+    table = axes.table([list(row) for row in rows], colLabels=list(heads), loc="center", cellLoc="center")
+    table.auto_set_font_size(False)
+    table.set_fontsize(8)
+    for (row, _), cell in table.get_celld().items():
+        cell.set(edgecolor="#bbbbbb", linewidth=0.6, height=(1.7 if row == 0 else 1) / (len(rows) + 1.7))

@@ -17,8 +17,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.figures.diagnostics.claims import compared, rounded
-from contactsim.figures.layout import errors_told
+from contactsim.analysis.wording import error_texts, measure_text, rounded_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
 
@@ -86,7 +85,7 @@ def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, st
     for chapter, own in entries(plan).items():
         for entry in own:
             paths = [plan.dataset_name(study) for study in entry.studies]
-            told = errors_told(dataset.load_dataset(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
+            told = error_texts(dataset.load_dataset(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
             seconds = sum(pd.read_csv(folder / "costs" / f"{path}.csv").seconds.sum() for path in paths)
             place = {"chapter": chapter, "figure": entry.name, "title": entry.title}
             found = counted(of_figure(every, entry.name))
@@ -131,14 +130,14 @@ def verdict_page(every: pd.DataFrame, tier: str) -> str:
 
 def _statement(row: Mapping) -> str:
     texts = {key: "" if isinstance(value, float) else str(value).replace("|", "\\|") for key, value in row.items()}
-    found = " ± ".join(rounded(row["value"], row["ensemble_error"], row["grid_error"]))
+    found = " ± ".join(rounded_texts(row["value"], row["ensemble_error"], row["grid_error"]))
     if texts["condition"]:
         numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
-        found += f"; {texts['condition']}: {' ± '.join(rounded(*numbers))}"
+        found += f"; {texts['condition']}: {' ± '.join(rounded_texts(*numbers))}"
     cells = (
         texts["source"],
         texts["statement"],
-        compared(texts["measure"]),
+        measure_text(texts["measure"]),
         texts["expected"],
         found,
         texts["rationale"],

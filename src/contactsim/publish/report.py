@@ -22,8 +22,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.figures.diagnostics.claims import compared, rounded
-from contactsim.figures.layout import footer_text
+from contactsim.analysis.wording import dataset_summary, measure_text, printed, rounded_texts
 from contactsim.figures.sketch import sketch
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.publish import gallery
@@ -142,13 +141,13 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
     for row in every.to_dict("records"):
         numbers = ("value", "ensemble_error", "grid_error")
         texts = {key: "" if isinstance(value, float) else value for key, value in row.items()}
-        texts |= dict(zip(("found", "ensemble", "grid"), rounded(*(row[name] for name in numbers)), strict=True))
-        texts["measure"] = compared(texts["measure"])
+        texts |= dict(zip(("found", "ensemble", "grid"), rounded_texts(*(row[name] for name in numbers)), strict=True))
+        texts["measure"] = measure_text(texts["measure"])
         if texts["condition"]:
-            texts["there"] = " ± ".join(rounded(*(row[f"condition_{name}"] for name in numbers)))
+            texts["there"] = " ± ".join(rounded_texts(*(row[f"condition_{name}"] for name in numbers)))
         texts["figures"] = sorted(named_in(row["source"]) & set(plan.figures))
         texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies
-        texts["statement"] = texts["statement"].replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*")
+        texts["statement"] = printed(texts["statement"])
         rows.append(texts)
     return rows
 
@@ -170,7 +169,7 @@ def _study(plan: Plan, folder: Path, name: str) -> Solved:
     data = dataset.load_dataset(folder / "datasets" / f"{plan.dataset_name(name)}.nc")
     costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(name)}.csv")
     drawn_scene = _sketch(plan.studies[name].runs()[0].settings)
-    return Solved(data.attrs["title"], footer_text(data, costs), _cost(costs), _settings(data), drawn_scene)
+    return Solved(data.attrs["title"], dataset_summary(data, costs), _cost(costs), _settings(data), drawn_scene)
 
 
 def _cost(costs: pd.DataFrame) -> str:

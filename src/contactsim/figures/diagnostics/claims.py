@@ -1,22 +1,23 @@
-"""The verdicts of a chapter as files: CSV, and a table drawn with wrapped text and coloured verdicts."""
+"""Files of the claims of a chapter: CSV, and a table with wrapped text and coloured verdicts."""
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping
+from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contactsim import dataset, variables
-from contactsim.analysis import ensemble
-from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, judge_claims
-from contactsim.analysis.reductions import LIMIT
+from contactsim import dataset
+from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.wording import measure_text, printed, rounded_texts, sample_texts
 from contactsim.figures import style
-from contactsim.figures.layout import LINE_INCHES, save
-from contactsim.notation import READ
+from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save
 
 COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
 COLUMNS = {
@@ -30,105 +31,79 @@ COLUMNS = {
     "verdict": ("verdict; on a condition: found\n± ensemble error ± grid error", 1.85),
     "rationale": ("why this band", 2.85),
 }
-"""Head and width in inches of each column."""
-CHARACTERS = 18
-"""Characters of the table's font in an inch."""
+"""Head of each column, and its width in inches."""
+CELL_LETTERS = 18
+"""Letters of the table in an inch."""
 PADDING = 0.07
-TINY = 1e-9
-"""Numbers below it have more zeros than a cell of the table."""
+"""Space in a cell above and below its text together, inches."""
+TITLE_HEIGHT = 0.35
+PLUS_MINUS = "\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}"
+NUMBERS = ("value", "ensemble_error", "grid_error")
 
 
-def render_claims(plan: Mapping, paths: Mapping[str, str], targets: Mapping[str, str]) -> None:
-    """Judge the claims of a chapter and write them.
+@mpl.rc_context(style.RC_PARAMS)
+def write_claims(
+    verdicts: pd.DataFrame, chapter: str, data: Mapping[str, xr.Dataset], targets: Mapping[str, str]
+) -> None:
+    """Write the claims of a chapter with their verdicts.
 
-    plan: `Plan.claims_settings`; paths: the datasets by study; targets: csv, png and pdf.
+    Parameters
+    ----------
+    verdicts : one row a claim, of `contactsim.analysis.claims.verdicts`
+    chapter : its name, such as "ch3"
+    data : the datasets of the studies by name
+    targets : paths of the files: csv, png and pdf
     """
-    data = {study: dataset.load_dataset(path) for study, path in paths.items()}
-    rows = judge_claims(dict(plan["claims"]), data)
-    number = plan["chapter"].removeprefix("ch")
-    figure = drawn(rows, f"Chapter {number}: what it states, and what was found", made_text(data))
-    save(figure, rows, targets)
+    title = f"Chapter {chapter.removeprefix('ch')}: what it states, and what was found"
+    save(claims_figure(verdicts, title, footer_text(data)), verdicts, targets)
 
 
-def drawn(rows: pd.DataFrame, title: str, footer: str) -> Figure:
-    """The table: a head, one row a claim as high as its longest cell, and a footer."""
-    table = [{name: head for name, (head, _) in COLUMNS.items()}, *map(_cells, rows.to_dict("records"))]
-    widths = [width for _, width in COLUMNS.values()]
-    left = np.cumsum([0.1, *widths])
-    heights = [(max(cell.count("\n") for cell in row.values()) + 1) * LINE_INCHES + PADDING for row in table]
-    made = textwrap.wrap(footer, int(left[-1] * 22))
-    total = 0.35 + sum(heights) + (len(made) + 1) * LINE_INCHES
-    figure = Figure(figsize=(left[-1] + 0.1, total))
-    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, left[-1] + 0.1), ylim=(total, 0))
+def claims_figure(verdicts: pd.DataFrame, title: str, footer: str) -> Figure:
+    """Return the table: a head, one row a claim as high as its longest cell, and a footer."""
+    table = [{name: head for name, (head, _) in COLUMNS.items()}, *map(_cells, verdicts.to_dict("records"))]
+    width = 0.1 + sum(width for _, width in COLUMNS.values())
+    heights = [(max(cell.count("\n") for cell in row.values()) + 1) * LINE_HEIGHT + PADDING for row in table]
+    footer_lines = textwrap.wrap(footer, int(width * FOOTER_LETTERS))
+    total = TITLE_HEIGHT + sum(heights) + (len(footer_lines) + 1) * LINE_HEIGHT
+    figure = Figure(figsize=(width + 0.1, total))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, width + 0.1), ylim=(total, 0))
     axes.axis("off")
-    axes.text(left[0], 0.22, title, fontsize=9.5)
-    top = 0.35
-    for row, height, colour in zip(table, heights, ["#ffffff", *rows.verdict.map(COLOURS)], strict=True):
-        for x, width, (name, cell) in zip(left, widths, row.items(), strict=False):
-            if name == "verdict":
-                axes.fill_between([x, x + width], top, top + height, color=colour, lw=0)
-            axes.text(x + 0.04, top + PADDING / 2, cell, fontsize=7, va="top", linespacing=1.1)
+    axes.text(0.1, 0.22, title, fontsize=9.5)
+    top = TITLE_HEIGHT
+    for row, height, colour in zip(table, heights, ["#ffffff", *verdicts.verdict.map(COLOURS)], strict=True):
+        _draw_row(axes, row, top, height, colour)
         top += height
-        axes.plot(left[[0, -1]], [top, top], color="#bbbbbb", lw=0.6)
-    axes.text(left[0], top + LINE_INCHES / 2, "\n".join(made), fontsize=6, color="#777777", va="top")
+        axes.plot([0.1, width], [top, top], color="#bbbbbb", lw=0.6)
+    axes.text(0.1, top + LINE_HEIGHT / 2, "\n".join(footer_lines), fontsize=6, color=style.GREY, va="top")
     return figure
 
 
-def _cells(row: dict) -> dict[str, str]:
-    """The text of each cell; under a condition, what was found there follows the verdict."""
+def _draw_row(axes: Axes, row: Mapping[str, str], top: float, height: float, colour: str) -> None:
+    """Draw the cells of one row, that of the verdict on its colour."""
+    left = np.cumsum([0.1, *(width for _, width in COLUMNS.values())])
+    for x, (_, width), (name, cell) in zip(left, COLUMNS.values(), row.items(), strict=False):
+        if name == "verdict":
+            axes.fill_between([x, x + width], top, top + height, color=colour, lw=0)
+        axes.text(x + 0.04, top + PADDING / 2, cell, fontsize=7, va="top", linespacing=1.1)
+
+
+def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
+    """Return the text of each cell; a condition and the value under it follow the verdict."""
     texts = {name: row[name] for name in ("source", "statement", "expected", "rationale", "verdict")}
-    texts["measure"] = compared(row["measure"])
-    numbers = ("value", "ensemble_error", "grid_error")
-    texts |= dict(zip(numbers, rounded(*(row[name] for name in numbers)), strict=True))
+    texts["measure"] = measure_text(row["measure"])
+    texts |= dict(zip(NUMBERS, rounded_texts(*(row[name] for name in NUMBERS)), strict=True))
     if row["condition"]:
-        found = rounded(*(row[f"condition_{name}"] for name in numbers))
-        texts["verdict"] += f": {row['condition']}; there " + "\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}".join(found)
-    cells = {name: text.replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*") for name, text in texts.items()}
-    return {name: textwrap.fill(cells[name], int(width * CHARACTERS)) for name, (_, width) in COLUMNS.items()}
+        values = rounded_texts(*(row[f"condition_{name}"] for name in NUMBERS))
+        texts["verdict"] += f": {row['condition']}; there {PLUS_MINUS.join(values)}"
+    widths = {name: int(width * CELL_LETTERS) for name, (_, width) in COLUMNS.items()}
+    return {name: textwrap.fill(printed(texts[name]), width) for name, width in widths.items()}
 
 
-def compared(measure: str) -> str:
-    """What a statement is compared by, with symbols for the names of quantities."""
-    return " ".join(symbol(word).replace("_", " ") for word in measure.split())
-
-
-def symbol(name: str) -> str:
-    """A name of the config in symbols; other words as they are."""
-    errors = {f"_{kind}_error": f"{kind.replace('_', ' ')} error of " for kind in variables.ERRORS}
-    for suffix, words in (errors | {LIMIT: "limit of "}).items():
-        if name.endswith(suffix):
-            return words + symbol(name.removesuffix(suffix))
-    return READ.get(name, name)
-
-
-def rounded(value: float, *errors: float) -> list[str]:
-    """A value and its errors: errors to two digits, the value to the place of the smallest that is not zero.
-
-    Without an error the value has four digits; a dash stands for what is unknown. What rounding leaves of a zero, and
-    anything else as small, is written with a power of ten.
-    """
-    if 0 < abs(value) < TINY:
-        return [f"{number:.1e}" if np.isfinite(number) else "–" for number in (value, *errors)]
-    places = {error: _places(error, 2) for error in errors if np.isfinite(error) and error > 0}
-    finest = places[min(places)] if places else _places(value, 4)
-    texts = [f"{value:.{finest}f}" if np.isfinite(value) else "–"]
-    return texts + [f"{error:.{places.get(error, 0)}f}" if np.isfinite(error) else "–" for error in errors]
-
-
-def _places(value: float, digits: int) -> int:
-    """Decimals that show so many significant digits."""
-    return max(0, digits - 1 - int(f"{abs(value):.{digits - 1}e}".split("e")[1])) if np.isfinite(value) else 0
-
-
-def made_text(data: Mapping[str, xr.Dataset]) -> str:
-    """Tier, and of each dataset its grid, members and unconverged solutions; what the errors are."""
-    settings = {study: dataset.settings_of(one) for study, one in data.items()}
-    parts = [f"{tier} tier" for tier in sorted({one["tier"] for one in settings.values()})]
-    for study, one in data.items():
-        lost, total = ensemble.unconverged(one)
-        members = f"{one.member.size} members" if one.member.size > 1 else "1 member"
-        points = style.points_text(settings[study], *one.points.values.ravel())
-        parts.append(f"{study}: {points}, {members}, {lost} of {total} solutions unconverged and left out")
+def footer_text(data: Mapping[str, xr.Dataset]) -> str:
+    """Return the tier, the sample of each dataset, and the meaning of the errors."""
+    tiers = sorted({dataset.settings_of(part)["tier"] for part in data.values()})
+    parts = [f"{tier} tier" for tier in tiers]
+    parts += [f"{study}: {', '.join(sample_texts(part))}" for study, part in data.items()]
     parts.append("errors to two digits; ensemble error: one standard error over members")
     parts.append("grid error: change on halving the points, and what the increments of a path leave open")
     parts.append("not decidable: an edge of the band is nearer than both errors in quadrature")

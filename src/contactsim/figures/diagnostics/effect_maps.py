@@ -1,24 +1,30 @@
-"""What leaving effects out changes, drawn: one panel a cut through a map."""
+"""Relative change of the results without an effect: one panel a cut through a map."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 
 from contactsim import dataset
-from contactsim.figures.layout import framed, save
+from contactsim.figures import style
+from contactsim.figures.layout import empty_figure, save
 
-COLUMNS = 4
-LEAST, MOST = 1e-4, 1.0
+PANELS_IN_ROW = 4
+SMALLEST_CHANGE, LARGEST_CHANGE = 1e-4, 1.0
 """Ends of the colours."""
-NUMBER = {"fontsize": 5.5, "color": "#222222"}
-LINES = {0.01: ":", 0.05: "-"}
-NAMES = {
+NUMBER_LOOK: dict[str, Any] = {"fontsize": 5.5, "color": "#222222", "ha": "center", "va": "center"}
+CONDITION_BOX = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": style.CONTACT, "lw": 0.6}
+CONTOURS = {0.01: ":", 0.05: "-"}
+"""Lines of equal change."""
+AXIS_LABELS = {
     "poisson_ratio": "Poisson's ratio ν",
     "work_ratio": "φt/φn",
     "spacing": "w/R",
@@ -30,65 +36,78 @@ NAMES = {
 }
 
 
-def render(plan: Mapping, data: Sequence[str], targets: Mapping[str, str]) -> None:
-    """Draw all panels into their files; plan: of `contactsim.evaluation.effects.survey.figure`; data: the maps, by
-    name.
+@mpl.rc_context(style.RC_PARAMS)
+def write_effect_maps(plan: Mapping[str, Any], data: Sequence[str], targets: Mapping[str, str]) -> None:
+    """Plot all cuts and write the files.
+
+    Parameters
+    ----------
+    plan : of `contactsim.evaluation.effects.survey.figure`
+    data : paths of the maps, in the order of their names
+    targets : png, pdf and csv
     """
     maps = dict(zip(sorted(plan["titles"]), map(dataset.load_dataset, data), strict=True))
-    panels = plan["settings"]["panels"]
-    rows = -(-len(panels) // COLUMNS)
-    places = sum(one.change_without.size for one in maps.values())
-    footer = f"{plan['tier']} tier · {len(maps)} maps, {places} scenes, each with the effect and without"
-    figure, axes = framed(plan["settings"] | {"panels": COLUMNS}, footer, rows=rows)
-    shown = None
-    for panel, one in zip(axes, panels, strict=False):
-        shown = draw(panel, maps[one["map"]], one, plan["titles"][one["map"]])
-    for panel in axes[len(panels) :]:
+    cuts = plan["settings"]["panels"]
+    scenes = sum(part.change_without.size for part in maps.values())
+    footer = f"{plan['tier']} tier · {len(maps)} maps, {scenes} scenes, each with the effect and without"
+    rows = -(-len(cuts) // PANELS_IN_ROW)
+    figure, panels = empty_figure(plan["settings"] | {"panels": PANELS_IN_ROW}, footer, rows=rows)
+    meshes = [
+        plot_cut(panel, maps[cut["map"]], cut, plan["titles"][cut["map"]])
+        for panel, cut in zip(panels, cuts, strict=False)
+    ]
+    for panel in panels[len(cuts) :]:
         panel.axis("off")
-    figure.colorbar(shown, ax=axes, label="largest relative change without it", shrink=0.7, pad=0.01)
-    tables = [one.change_without.to_dataframe().reset_index().assign(map=name) for name, one in maps.items()]
+    figure.colorbar(meshes[-1], ax=panels, label="largest relative change without it", shrink=0.7, pad=0.01)
+    tables = [part.change_without.to_dataframe().reset_index().assign(map=name) for name, part in maps.items()]
     save(figure, pd.concat(tables), targets)
 
 
-def draw(axes: Axes, data: xr.Dataset, panel: Mapping, title: str):
-    """One cut: the change over two axes of the map, at values of the others."""
-    cut = data.change_without.sel(panel["at"], method="nearest").transpose(panel["up"], panel["across"])
-    x, y = np.arange(cut.shape[1]), np.arange(cut.shape[0])
-    values = np.clip(cut.values, LEAST, MOST)
-    shown = axes.pcolormesh(x, y, values, norm=LogNorm(LEAST, MOST), cmap="YlOrBr", shading="nearest")
-    if min(cut.shape) > 1:
-        found = [level for level in LINES if values.min() < level < values.max()]
-        if found:
-            axes.contour(
-                x, y, np.log(values), np.log(found), colors="#1f4e9c", linestyles=[LINES[one] for one in found]
-            )
-    for row in y:
-        for column in x:
-            axes.text(column, row, _per_cent(cut.values[row, column]), ha="center", va="center", **NUMBER)
-    axes.set(xticks=x, yticks=y, xlabel=_words(panel["across"]), ylabel=_words(panel["up"]))
-    axes.set_xticklabels([_short(value) for value in cut[panel["across"]].values], fontsize=6)
-    axes.set_yticklabels([_short(value) for value in cut[panel["up"]].values], fontsize=6)
+def plot_cut(axes: Axes, data: xr.Dataset, cut: Mapping[str, Any], title: str) -> QuadMesh:
+    """Plot the change over two axes of a map, with its numbers in per cent.
+
+    Parameters
+    ----------
+    axes : to plot on
+    data : the map
+    cut : its axes `across` and `up`, the values of the others in `at`, and texts of `conditions` with their places
+    title : of the map
+    """
+    changes = data.change_without.sel(cut["at"], method="nearest").transpose(cut["up"], cut["across"])
+    x, y = np.arange(changes.shape[1]), np.arange(changes.shape[0])
+    values = np.clip(changes.values, SMALLEST_CHANGE, LARGEST_CHANGE)
+    norm = LogNorm(SMALLEST_CHANGE, LARGEST_CHANGE)
+    mesh = axes.pcolormesh(x, y, values, norm=norm, cmap="YlOrBr", shading="nearest")
+    levels = [level for level in CONTOURS if values.min() < level < values.max()]
+    if min(changes.shape) > 1 and levels:
+        lines = {"colors": style.CONTACT, "linestyles": [CONTOURS[level] for level in levels]}
+        axes.contour(x, y, np.log(values), np.log(levels), **lines)
+    for (row, column), change in np.ndenumerate(changes.values):
+        axes.text(column, row, per_cent_text(change), **NUMBER_LOOK)
+    axes.set(xticks=x, yticks=y, xlabel=axis_label(cut["across"]), ylabel=axis_label(cut["up"]))
+    axes.set_xticklabels([value_text(value) for value in changes[cut["across"]].values], fontsize=6)
+    axes.set_yticklabels([value_text(value) for value in changes[cut["up"]].values], fontsize=6)
     axes.tick_params(length=0)
-    others = ", ".join(f"{_words(name)} {_short(value)}" for name, value in panel["at"].items())
-    axes.set_title(title + f"\n{others}" * bool(others), fontsize=7)
-    for words, place in panel["conditions"].items():
-        box = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": "#1f4e9c", "lw": 0.6}
-        axes.text(*place, words, transform=axes.transAxes, fontsize=6.5, color="#1f4e9c", ha="center", bbox=box)
-    return shown
+    fixed = ", ".join(f"{axis_label(name)} {value_text(value)}" for name, value in cut["at"].items())
+    axes.set_title(f"{title}\n{fixed}" if fixed else title, fontsize=7)
+    box = {"fontsize": 6.5, "color": style.CONTACT, "ha": "center", "bbox": CONDITION_BOX}
+    for text, place in cut["conditions"].items():
+        axes.text(*place, text, transform=axes.transAxes, **box)
+    return mesh
 
 
-def _words(axis: str) -> str:
-    """What an axis is called."""
-    return NAMES.get(axis, axis.replace("_", " "))
+def axis_label(axis: str) -> str:
+    """Return the label of an axis of a map."""
+    return AXIS_LABELS.get(axis, axis.replace("_", " "))
 
 
-def _per_cent(change: float) -> str:
-    """A change in per cent, to two digits."""
+def per_cent_text(change: float) -> str:
+    """Return a change in per cent with two digits; a dash if it is not known."""
     if not np.isfinite(change):
         return "–"
     return "<0.01" if change < 1e-4 else f"{float(f'{100 * change:.2g}'):g}"
 
 
-def _short(value: float) -> str:
-    """A value of an axis; a small part as one over a whole number."""
+def value_text(value: float) -> str:
+    """Return a value of an axis; a small fraction as one over a whole number."""
     return f"1/{1 / value:.0f}" if 0 < value < 0.1 and abs(1 / value - round(1 / value)) < 1e-9 else f"{value:g}"

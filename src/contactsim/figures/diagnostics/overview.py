@@ -1,64 +1,66 @@
-"""All kinds of scene on one page: error against seconds, a panel a case, two lines a solver."""
+"""Accuracy versus cost of all kinds of scene on one page: one panel a case, two curves a solver."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from contactsim import notation
 from contactsim.evaluation.work_precision import error_cost
 from contactsim.figures import style
-from contactsim.figures.diagnostics.knobs import LOOKS
-from contactsim.figures.layout import framed, save
+from contactsim.figures.diagnostics.knobs import OTHER_LOOK, SOLVER_LOOKS
+from contactsim.figures.layout import empty_figure, save
+from contactsim.notation import SYMBOLS
 
-COLUMNS = 3
-LINES = {"points": "-", "tolerance": ":"}
-"""Knobs whose curves are drawn: against a finer grid, and against the same grid solved tightly."""
-LEAST = 1e-7
-"""Errors below it are drawn there: they are rounding, or as good as that."""
+PANELS_IN_ROW = 3
+KNOB_LINES = {"points": "-", "tolerance": ":"}
+"""Lines of the knobs that are shown: error against a finer grid, and against the same grid with a small tolerance."""
+SMALLEST_ERROR = 1e-7
+"""Smaller errors, which are rounding, are plotted here."""
+COLUMNS = ["case", "quantity", "solver", "knob", "error", "work", "seconds", "unconverged", "own"]
 
 
-def render(plan: Mapping, tables: Sequence[str], targets: Mapping[str, str]) -> None:
-    """Draw all cases into their files.
+@mpl.rc_context(style.RC_PARAMS)
+def write_overview(plan: Mapping[str, Any], paths: Sequence[str], targets: Mapping[str, str]) -> None:
+    """Plot all cases and write the files.
 
-    plan: settings, and title and quantity of each case; tables: the CSVs of their own figures, by name.
+    Parameters
+    ----------
+    plan : tier, settings of the figure, and title and quantity of each case
+    paths : of the CSV files of the cases' own figures, in the order of their names
+    targets : png, pdf and csv
     """
     cases = {name: plan["cases"][name] for name in sorted(plan["cases"])}
-    found = {name: pd.read_csv(path) for name, path in zip(cases, tables, strict=True)}
-    rows = -(-len(cases) // COLUMNS)
-    count = sum(len(_priced(table)) for table in found.values())
-    figure, panels = framed(
-        plan["settings"] | {"panels": COLUMNS}, f"{plan['tier']} tier · {count} settings", rows=rows
-    )
-    kept = []
-    for panel, (name, table) in zip(panels, found.items(), strict=False):
+    tables = {name: pd.read_csv(path) for name, path in zip(cases, paths, strict=True)}
+    tables = {name: table[table.knob.isin(KNOB_LINES)] for name, table in tables.items()}
+    footer = f"{plan['tier']} tier · {sum(map(len, tables.values()))} settings"
+    layout = plan["settings"] | {"panels": PANELS_IN_ROW}
+    figure, panels = empty_figure(layout, footer, rows=-(-len(cases) // PANELS_IN_ROW))
+    parts = []
+    for panel, (name, table) in zip(panels, tables.items(), strict=False):
         quantity = cases[name]["quantity"]
-        draw(panel, _priced(table), quantity)
-        panel.set_title(f"{cases[name]['title']}: {notation.SYMBOLS[quantity]}", fontsize=7.5)
-        kept.append(_priced(table).assign(case=name, quantity=quantity, error=_priced(table)[quantity]))
-    for panel in panels[len(found) :]:
+        plot_case(panel, table, quantity)
+        panel.set_title(f"{cases[name]['title']}: {SYMBOLS[quantity]}", fontsize=7.5)
+        parts.append(table.assign(case=name, quantity=quantity, error=table[quantity]))
+    for panel in panels[len(tables) :]:
         panel.axis("off")
-    columns = ["case", "quantity", "solver", "knob", "error", "work", "seconds", "unconverged", "own"]
-    save(figure, pd.concat(kept)[columns], targets)
+    save(figure, pd.concat(parts)[COLUMNS], targets)
 
 
-def _priced(table: pd.DataFrame) -> pd.DataFrame:
-    """Settings of the knobs that are drawn."""
-    return table[table.knob.isin(LINES)]
-
-
-def draw(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
-    """One case: for each solver a curve of grids and one of tolerances, whose errors are of two kinds."""
+def plot_case(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
+    """Plot seconds against the error of a quantity: for each solver a curve of grids and one of tolerances."""
     good = error_cost.met(table, quantity)
     for kind, rows in good.groupby("solver", sort=False):
-        marker, color = LOOKS.get(kind, ("v", "#777777"))
-        for knob, line in LINES.items():
+        marker, colour = SOLVER_LOOKS.get(str(kind), OTHER_LOOK)
+        width = 1.8 if rows.own.any() else 1.0
+        for knob, line in KNOB_LINES.items():
             curve = rows[rows.knob == knob].sort_values(quantity)
-            look = {"color": color, "ls": line, "lw": 1.8 if rows.own.any() else 1.0, "marker": marker, "ms": 3}
-            label = style.solver(kind) if knob == "points" else None
-            axes.plot(np.maximum(curve[quantity], LEAST), curve.seconds, label=label, **look)
+            look = {"color": colour, "ls": line, "lw": width, "marker": marker, "ms": 3}
+            label = style.solver_name(str(kind)) if knob == "points" else None
+            axes.plot(np.maximum(curve[quantity], SMALLEST_ERROR), curve.seconds, label=label, **look)
     axes.set(xscale="log", yscale="log", xlabel="relative error", ylabel="CPU seconds")
     axes.legend(fontsize=6, loc="best")

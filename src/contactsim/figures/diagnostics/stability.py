@@ -1,9 +1,10 @@
-"""The map of stability: outcome and cost of every solver on every hazard, at every severity."""
+"""Map of robustness: outcome and cost of every solver on every hazard, at every severity."""
 
 from __future__ import annotations
 
 import re
 from itertools import groupby
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -24,84 +25,90 @@ COLOURS = {
     Outcome.WRONG: "#d55e00",
     Outcome.NON_FINITE: "#000000",
 }
-"""Told apart without seeing red and green, and in grey (Okabe and Ito's)."""
-FONT = 5.2
-"""Points of the text in cells, which fits 21 columns."""
-HEAD = 1.25
-"""Rows that a block takes beside its solvers'."""
+"""Distinct without red and green, and in grey (Okabe and Ito)."""
+CELL_LOOK: dict[str, Any] = {"fontsize": 5.2, "ha": "center", "va": "center"}
+"""Text in cells, which fits 21 columns."""
+HEAD_HEIGHT = 1.25
+"""Height of the head of a hazard's block, in rows."""
+HEAD_LETTERS = 118
+"""Letters of a head at its usual size."""
+TICKS = 11
+"""Largest number of labels along the severity."""
 
 
 def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Cells hazard × solver × severity by outcome, with the cost as a number in each."""
-    parts = [taken(data.sel(hazard=hazard)) for hazard in data.hazard.values]
-    tops = np.cumsum([0.0, *(part.solver.size + HEAD for part in parts)])
-    places = np.searchsorted(tops[-1] * np.arange(1, len(axes)) / len(axes), (tops[:-1] + tops[1:]) / 2)
-    panels = [[part for part, at in zip(parts, places, strict=True) if at == place] for place in range(len(axes))]
-    room = max(sum(part.solver.size + HEAD for part in own) for own in panels)
-    for own, panel in zip(panels, axes, strict=True):
-        _blocks(own, panel, room)
-    cells = np.concatenate([part.outcome.values.ravel() for part in parts])
-    counts = {outcome: int((cells == outcome.value[0]).sum()) for outcome in Outcome}
-    keys = [
-        Patch(facecolor=COLOURS[outcome], edgecolor="#999999", lw=0.4, label=f"{outcome.value[1]}: {counts[outcome]}")
+    """Map the cells hazard × solver × severity by outcome, with the cost as a number in each."""
+    blocks = [supported(data.sel(hazard=hazard)) for hazard in data.hazard.values]
+    tops = np.cumsum([0.0, *(block.solver.size + HEAD_HEIGHT for block in blocks)])
+    limits = tops[-1] * np.arange(1, len(axes)) / len(axes)
+    columns = np.searchsorted(limits, (tops[:-1] + tops[1:]) / 2)
+    panels = [[block for block, own in zip(blocks, columns, strict=True) if own == panel] for panel in range(len(axes))]
+    height = max(sum(block.solver.size + HEAD_HEIGHT for block in own) for own in panels)
+    for panel, own in zip(axes, panels, strict=True):
+        _plot_blocks(panel, own, height)
+    _add_legend(axes[0], np.concatenate([block.outcome.values.ravel() for block in blocks]))
+    names = {outcome.value[0]: outcome.name.lower() for outcome in Outcome}
+    table = data[["outcome", "transforms", "reason"]].to_dataframe().reset_index()
+    return table.assign(outcome=table.outcome.map(names))
+
+
+def supported(data: xr.Dataset) -> xr.Dataset:
+    """Return one hazard without the solvers that do not support its kind of case; all if none does."""
+    solvers = data.applicable.values > 0
+    return data.isel(solver=solvers) if solvers.any() else data
+
+
+def _add_legend(axes: Axes, cells: np.ndarray) -> None:
+    """Add the outcomes with their numbers of cells."""
+    handles = [
+        Patch(
+            facecolor=COLOURS[outcome],
+            edgecolor=style.LIGHT_GREY,
+            lw=0.4,
+            label=f"{outcome.value[1]}: {int((cells == outcome.value[0]).sum())}",
+        )
         for outcome in Outcome
     ]
-    axes[0].figure.legend(handles=keys, loc="outside upper right", ncols=3)
-    names = {outcome.value[0]: outcome.name.lower() for outcome in Outcome}
-    rows = data[["outcome", "transforms", "reason"]].to_dataframe().reset_index()
-    return rows.assign(outcome=rows.outcome.map(names))
+    axes.figure.legend(handles=handles, loc="outside upper right", ncols=3)
 
 
-def taken(one: xr.Dataset) -> xr.Dataset:
-    """One hazard without the solvers that do not take its kind of case at all; whole if that would leave none."""
-    takes = one.applicable.values > 0
-    return one.isel(solver=takes) if takes.any() else one
-
-
-LETTERS = 118
-"""How many a head has room for at its usual size."""
-
-
-def _blocks(parts: list[xr.Dataset], axes: Axes, room: float) -> None:
-    """One block a hazard: its name and what gets harder, then a row a solver; room: height of the panel in rows."""
-    columns = parts[0].severity.size
-    colours = ListedColormap([COLOURS[outcome] for outcome in Outcome])
-    ticks, bottom = [], 0.0
-    for one in parts:
-        hazard, solvers, top = str(one.hazard.values), one.solver.size, bottom + HEAD - 0.15
-        bottom += solvers + HEAD
-        axes.pcolormesh(
-            np.arange(columns + 1),
-            top + np.arange(solvers + 1),
-            one.outcome.values,
-            cmap=colours,
-            vmin=-0.5,
-            vmax=len(COLOURS) - 0.5,
-            edgecolors="white",
-            linewidth=0.4,
-        )
-        harder = str(one.difficulty.values)
-        head = {"fontsize": 6 * min(1.0, LETTERS / len(hazard + harder)), "va": "bottom"}
-        axes.text(0, top - 0.15, f"{hazard}: ", ha="left", weight="bold", **head)
-        axes.annotate(harder, (1, 0), xycoords=axes.texts[-1], annotation_clip=False, **head)
-        look = {"fontsize": FONT, "ha": "center", "va": "center"}
-        for (row, column), cost in np.ndenumerate(one.transforms.values):
-            axes.text(column + 0.5, top + row + 0.53, _short(cost), **look)
-        for row, refused in enumerate(refusals(one)):
-            for (start, stop), reason in refused.items():
-                under = {"facecolor": COLOURS[Outcome.REFUSED], "linewidth": 0, "pad": 0.5}
-                axes.text((start + stop) / 2, top + row + 0.53, reason, bbox=under, **look)
-        ticks += [(top + row + 0.5, style.solver(name)) for row, name in enumerate(one.solver.values)]
-    axes.set(xlim=(0, columns), ylim=(room, 0), xlabel="severity")
-    axes.set_yticks([at for at, _ in ticks], [name for _, name in ticks], fontsize=6)
-    shown = np.unique(np.linspace(0, columns - 1, min(columns, 11)).round().astype(int))
-    axes.set_xticks(shown + 0.5, [f"{value:g}" for value in parts[0].severity.values[shown]], fontsize=7)
+def _plot_blocks(axes: Axes, blocks: list[xr.Dataset], height: float) -> None:
+    """Plot one block a hazard; height: of the panel, in rows."""
+    ticks, bottom = {}, 0.0
+    for block in blocks:
+        top = bottom + HEAD_HEIGHT - 0.15
+        bottom += block.solver.size + HEAD_HEIGHT
+        _plot_block(axes, block, top)
+        ticks |= {top + row + 0.5: style.solver_name(name) for row, name in enumerate(block.solver.values)}
+    severity = blocks[0].severity
+    axes.set(xlim=(0, severity.size), ylim=(height, 0), xlabel="severity")
+    axes.set_yticks(list(ticks), list(ticks.values()), fontsize=6)
+    columns = np.unique(np.linspace(0, severity.size - 1, min(severity.size, TICKS)).round().astype(int))
+    axes.set_xticks(columns + 0.5, [f"{value:g}" for value in severity.values[columns]], fontsize=7)
     axes.tick_params(length=0, top=False, right=False)
     axes.spines[:].set_visible(False)
 
 
+def _plot_block(axes: Axes, block: xr.Dataset, top: float) -> None:
+    """Plot one hazard: its name and what gets harder, then a row a solver with costs and reasons of refusal."""
+    x, y = np.arange(block.severity.size + 1), top + np.arange(block.solver.size + 1)
+    colours = ListedColormap([COLOURS[outcome] for outcome in Outcome])
+    look: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(COLOURS) - 0.5}
+    axes.pcolormesh(x, y, block.outcome.values, edgecolors="white", linewidth=0.4, **look)
+    hazard, harder = str(block.hazard.values), str(block.difficulty.values)
+    head: dict[str, Any] = {"fontsize": 6 * min(1.0, HEAD_LETTERS / len(hazard + harder)), "va": "bottom"}
+    name = axes.text(0, top - 0.15, f"{hazard}: ", ha="left", weight="bold", **head)
+    axes.annotate(harder, (1, 0), xycoords=name, annotation_clip=False, **head)
+    for (row, column), cost in np.ndenumerate(block.transforms.values):
+        axes.text(column + 0.5, top + row + 0.53, cost_text(cost), **CELL_LOOK)
+    for row, reasons in enumerate(refusals(block)):
+        for (start, stop), reason in reasons.items():
+            box = {"facecolor": COLOURS[Outcome.REFUSED], "linewidth": 0, "pad": 0.5}
+            axes.text((start + stop) / 2, top + row + 0.53, reason, bbox=box, **CELL_LOOK)
+
+
 def refusals(data: xr.Dataset) -> list[dict[tuple[int, int], str]]:
-    """Of each solver on one hazard, the short reason of each run of cells that were refused for it."""
+    """Return, for each solver on one hazard, the short reason of each run of refused cells by its first and last."""
     refused = data.outcome.values == Outcome.REFUSED.value[0]
     rows = []
     for cells, reasons in zip(refused, data.reason.values, strict=True):
@@ -116,21 +123,22 @@ def refusals(data: xr.Dataset) -> list[dict[tuple[int, int], str]]:
 
 
 def short_reason(reason: str) -> str:
-    """The heart of a refusal: the trait that a solver does not take, or the last clause."""
+    """Return the trait that a solver does not accept, or the last clause of a reason."""
     trait = re.search(r"one that accepts (\w+)", reason)
     return f"takes no {trait[1].lower().replace('_', ' ')}" if trait else reason.rpartition(": ")[2]
 
 
-def _short(cost: float) -> str:
+def cost_text(cost: float) -> str:
+    """Return a number of transforms; a large one in thousands."""
     if cost == 0:
         return ""
     return f"{cost:.0f}" if cost < 9999.5 else f"{cost / 1000:.0f}k"
 
 
 def footer(data: xr.Dataset) -> str:
-    """Tier, cells, those not drawn, and what must not occur."""
-    settings = dataset.settings_of(data)
-    bad = [int((data.outcome == outcome.value[0]).sum()) for outcome in (Outcome.WRONG, Outcome.NON_FINITE)]
-    left_out = int((data.applicable == 0).sum()) * data.severity.size
-    beside = f" · refused and left out, as their solver does not take the kind of case: {left_out}" * bool(left_out)
-    return f"{settings['tier']} tier · {data.outcome.size} cells{beside} · {bad[0]} wrong, {bad[1]} not finite"
+    """Return tier, number of cells, cells that are not shown, and those that must not occur."""
+    tier = dataset.settings_of(data)["tier"]
+    wrong, non_finite = (int((data.outcome == bad.value[0]).sum()) for bad in (Outcome.WRONG, Outcome.NON_FINITE))
+    hidden = int((data.applicable == 0).sum()) * data.severity.size
+    text = f" · refused and left out, as their solver does not take the kind of case: {hidden}" if hidden else ""
+    return f"{tier} tier · {data.outcome.size} cells{text} · {wrong} wrong, {non_finite} not finite"

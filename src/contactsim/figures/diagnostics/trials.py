@@ -1,11 +1,13 @@
-"""Accuracy asked for and reached, drawn: error, cost over the least possible, time predicted and spent."""
+"""Error-controlled runs on trial: error reached, cost over the least possible, time predicted and spent."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -13,34 +15,45 @@ from matplotlib.axes import Axes
 
 from contactsim import dataset
 from contactsim.figures import style
-from contactsim.figures.layout import framed, save
+from contactsim.figures.layout import empty_figure, save
 
-LOOKS = {
+SCENE_LOOKS = {
     "line": ("o", style.WHOLE, "line, wall"),
     "surface": ("s", style.CONTACT, "surface, wall"),
     "path": ("^", style.PAIRS, "asperity, adhesion"),
-    "rough_path": ("D", "#8c6d31", "rough line, adhesion"),
-    "slide": ("v", "#7b4fa3", "asperity, sliding"),
+    "rough_path": ("D", style.BROWN, "rough line, adhesion"),
+    "slide": ("v", style.PURPLE, "asperity, sliding"),
 }
-LEAST = 1e-5
-"""Errors below it are drawn there."""
+"""Marker, colour and label of each kind of scene."""
+SMALLEST_ERROR = 1e-5
+"""Smaller errors are plotted here."""
+DIAGONAL: dict[str, Any] = {"color": style.EXACT, "lw": 0.8}
+GUIDE: dict[str, Any] = {"color": style.LIGHT_GREY, "lw": 0.8, "ls": "--"}
 
 
-def render(plan: Mapping, data: Sequence[str], costs: Sequence[str], targets: Mapping[str, str]) -> None:
-    """All trials into one dataset, a table and a figure; data, costs: of
-    `contactsim.evaluation.calibration.validation.trial`, scene by scene.
+@mpl.rc_context(style.RC_PARAMS)
+def write_trials(
+    plan: Mapping[str, Any], data: Sequence[str], costs: Sequence[str], targets: Mapping[str, str]
+) -> None:
+    """Join all trials, plot them and write the files.
+
+    Parameters
+    ----------
+    plan : of `contactsim.evaluation.calibration.validation.figure`
+    data, costs : paths of the files of `contactsim.evaluation.calibration.validation.trial`, scene by scene
+    targets : data (netCDF), png, pdf and csv
     """
-    found = xr.concat([dataset.load_dataset(path) for path in data], "scene")
-    dataset.write(dataset.stamped(found, plan["settings"]["title"], plan, plan["data"]), targets["data"])
-    table = tabulated(found, [json.loads(Path(path).read_text()) for path in costs])
-    figure, panels = framed(plan["settings"] | {"panels": 3}, _footer(table, plan))
-    draw(table, panels)
+    trials = xr.concat([dataset.load_dataset(path) for path in data], "scene")
+    dataset.write(dataset.stamped(trials, plan["settings"]["title"], plan, plan["data"]), targets["data"])
+    table = trial_table(trials, [json.loads(Path(path).read_text()) for path in costs])
+    figure, panels = empty_figure(plan["settings"] | {"panels": 3}, footer_text(table, plan))
+    plot_trials(table, panels)
     save(figure, table, targets)
 
 
-def tabulated(found: xr.Dataset, spent: list[dict]) -> pd.DataFrame:
-    """One row a scene: what was asked and reached, cost over the least, seconds predicted and spent."""
-    table = pd.concat([found.to_dataframe().reset_index(), pd.DataFrame(spent)], axis=1)
+def trial_table(trials: xr.Dataset, costs: list[dict[str, float]]) -> pd.DataFrame:
+    """Return one row a scene: error asked for and reached, cost over the least, seconds predicted and spent."""
+    table = pd.concat([trials.to_dataframe().reset_index(), pd.DataFrame(costs)], axis=1)
     return table.assign(
         met=table.true_error <= table.requested_error,
         cost=table.work / table.min_work,
@@ -49,48 +62,51 @@ def tabulated(found: xr.Dataset, spent: list[dict]) -> pd.DataFrame:
     )
 
 
-def _footer(table: pd.DataFrame, plan: Mapping) -> str:
-    """How many met what was asked, and at which cost."""
-    near = table.prediction.between(0.5, 2.0)
+def footer_text(table: pd.DataFrame, plan: Mapping[str, Any]) -> str:
+    """Return how many scenes met the error asked for, and at which cost."""
+    within_two = table.prediction.between(0.5, 2.0)
     return " · ".join(
         [
             f"{plan['tier']} tier, seed {plan['seed']}",
             f"{int(table.met.sum())} of {len(table)} scenes within the error asked for",
             f"median cost {table.cost.median():.3g} times the least ({table.cost_in_seconds.median():.3g} in seconds)",
-            f"time within a factor of two in {int(near.sum())} of {len(table)}",
+            f"time within a factor of two in {int(within_two.sum())} of {len(table)}",
             f"refined in {int((table.solve_count > 2).sum())}",
         ]
     )
 
 
-def draw(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
-    """The three panels."""
-    errors, cost, seconds = panels
-    for kind, (marker, color, words) in LOOKS.items():
+def plot_trials(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
+    """Plot error, cost and seconds of all scenes on three panels."""
+    error, cost, seconds = panels
+    for kind, (marker, colour, label) in SCENE_LOOKS.items():
         rows = table[table.kind == kind]
-        look = {"marker": marker, "color": color, "ls": "", "ms": 5, "mfc": "white"}
         if rows.empty:
             continue
-        errors.plot(rows.requested_error, np.maximum(rows.true_error, LEAST), label=words, **look)
-        cost.plot(rows.true_error.clip(lower=LEAST) / rows.requested_error, rows.cost, **look)
+        look = style.marker_look(colour, marker, 5) | {"ls": ""}
+        error.plot(rows.requested_error, np.maximum(rows.true_error, SMALLEST_ERROR), label=label, **look)
+        cost.plot(rows.true_error.clip(lower=SMALLEST_ERROR) / rows.requested_error, rows.cost, **look)
         seconds.plot(rows.seconds, rows.predicted, **look)
-    ends = np.array([table.requested_error.min() / 1.5, table.requested_error.max() * 1.5])
-    errors.plot(ends, ends, color=style.EXACT, lw=0.8)
-    errors.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="true relative error")
-    errors.set_xticks(
-        sorted(set(table.requested_error)), [f"{value:g}" for value in sorted(set(table.requested_error))]
-    )
-    errors.minorticks_off()
-    errors.legend(fontsize=6.5)
-    cost.axvline(1, color=style.EXACT, lw=0.8)
-    cost.axhline(table.cost.median(), color="#999999", lw=0.8, ls="--")
-    cost.set(
-        xscale="log", yscale="log", xlabel="true error over that asked for", ylabel="work over the least that meets it"
-    )
+    _label_errors(error, table)
+    cost.axvline(1, **DIAGONAL)
+    cost.axhline(table.cost.median(), **GUIDE)
+    cost.set(xscale="log", yscale="log", xlabel="true error over that asked for")
+    cost.set(ylabel="work over the least that meets it")
     ends = np.array([table.seconds.min() / 2, table.seconds.max() * 2])
-    seconds.plot(ends, ends, color=style.EXACT, lw=0.8)
+    seconds.plot(ends, ends, **DIAGONAL)
     for factor in (0.5, 2.0):
-        seconds.plot(ends, factor * ends, color="#999999", lw=0.8, ls="--")
+        seconds.plot(ends, factor * ends, **GUIDE)
     seconds.set(xscale="log", yscale="log", xlabel="CPU seconds spent", ylabel="CPU seconds predicted")
-    style.ticks(cost.yaxis, *cost.get_ylim())
-    style.letters(panels)
+    style.set_log_ticks(cost.yaxis, *cost.get_ylim())
+    style.add_letters(panels)
+
+
+def _label_errors(axes: Axes, table: pd.DataFrame) -> None:
+    """Label the panel of errors, with the line on which the error is that asked for."""
+    asked = sorted(set(table.requested_error))
+    ends = np.array([asked[0] / 1.5, asked[-1] * 1.5])
+    axes.plot(ends, ends, **DIAGONAL)
+    axes.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="true relative error")
+    axes.set_xticks(asked, [f"{value:g}" for value in asked])
+    axes.minorticks_off()
+    axes.legend(fontsize=6.5)

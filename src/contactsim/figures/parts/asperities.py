@@ -1,108 +1,106 @@
-"""Smooth adhesive asperities: traction across contacts and their size, both legs of the load by two laws, pull-offs."""
+"""Curves of smooth adhesive asperities: traction across the contact, contact size, load by two laws, pull-off."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
+from contactsim.analysis.asperities import centred_nodes, contact_sizes, pull_off_table
+from contactsim.analysis.scales import radius, reduced_line_load
 from contactsim.figures import style
-from contactsim.figures.parts import load_curves as curves
+from contactsim.figures.parts.load_curves import plot_leg
 from contactsim.observables.adhesion import LEGS
 
-INDENTED = 10.0
-"""Approach (nm) of the largest indentation, at which fields are kept."""
-FRICTION = {0.0: "--", 0.1: "-.", 0.5: ":", 1.0: "-"}
-"""Lines of ratios of works."""
-FELT = 0.01
-"""Part of the largest load below which a curve is not worth showing."""
-COUPLING = {"coupled": "-", "uncoupled": "--"}
+LARGEST_APPROACH = 10.0
+"""Approach (nm) at which fields of the indented asperity are kept."""
+WORK_RATIO_LINES = {0.0: "--", 0.1: "-.", 0.5: ":", 1.0: "-"}
+"""Lines of ratios of works φt/φn."""
+NEGLIGIBLE_TRACTION = 0.01
+"""Part of the strength below which a traction is not shown."""
+COUPLING_LINES = {"coupled": "-", "uncoupled": "--"}
 
 
-def friction(ratio: float) -> object:
-    """Line of a ratio of works."""
-    return FRICTION.get(round(float(ratio), 6), (0, (1, 3)))
+def work_ratio_line(ratio: float) -> Any:
+    """Return the line of a ratio of works."""
+    return WORK_RATIO_LINES.get(round(float(ratio), 6), (0, (1, 3)))
 
 
-def ratio_words(ratio: float) -> str:
-    """A ratio of works in words."""
+def work_ratio_label(ratio: float) -> str:
+    """Return the label of a ratio of works."""
     return rf"$\varphi_t/\varphi_n={float(ratio):g}$"
 
 
-def profiles(panel: Axes, parts: list[xr.Dataset], work: float) -> pd.DataFrame:
-    """Normal traction over the strength across the contact, one curve a ratio of works."""
-    rows, widest = [], 0.0
-    for one in parts:
-        radius, ratio = curves.radius(one), float(one.work_ratio)
-        place, order = curves.centred(one)
-        here = one.isel(member=0).sel(snapshot=INDENTED, method="nearest", tolerance=style.SAME)
-        strength = float(one.strength.isel(member=0)) if "member" in one.strength.dims else float(one.strength)
-        traction = here.normal_traction.values[order] / strength
-        size = float(one.final_contact_length.isel(member=0))
-        words = rf"{ratio_words(ratio)}, $l_{{\mathrm{{rep}}}}/R$ = {size / radius:.4f}"
-        color = style.CONTACT if ratio else style.WHOLE
-        panel.plot(place / radius, traction, color=color, ls=friction(ratio), lw=1.1, label=words)
-        widest = max(widest, float(np.abs(place[np.abs(traction) > 0.01]).max()))
-        rows.append(
-            pd.DataFrame({"position": place, "normal_traction": traction * strength}).assign(
-                work_ratio=ratio, contact_length=size
-            )
-        )
-    panel.axhline(0.0, color=style.EXACT, lw=0.5)
-    panel.set(xlim=(-1.1 * widest / radius, 1.1 * widest / radius), xlabel=r"$x/R$")
-    panel.set_ylabel(r"$T_n/\sigma_{\max}$ (pull positive)")
-    low, high = panel.get_ylim()
-    panel.set_ylim(low, high + 0.28 * (high - low))
-    panel.legend(loc="upper center")
-    shown = pd.concat(rows)
-    return shown[np.abs(shown.position) <= 1.1 * widest].assign(strength=work / np.e)
+def at_approach(data: xr.Dataset, approach: float) -> xr.Dataset:
+    """Return the fields of the first member at an approach, nm."""
+    return data.isel(member=0).sel(snapshot=approach, method="nearest", tolerance=style.PLACE_TOLERANCE)
 
 
-def sizes(parts: list[xr.Dataset]) -> pd.DataFrame:
-    """Contact size over the radius at each ratio of works, with its grid error, sorted."""
-    rows = []
-    for one in parts:
-        radius = curves.radius(one)
-        found = {"work_ratio": one.work_ratio.values}
-        found["size_ratio"] = one.final_contact_length.isel(member=0).values / radius
-        error = one.get("final_contact_length_grid_error")
-        found["error"] = np.full(one.work_ratio.size, np.nan) if error is None else error.values / radius
-        rows.append(pd.DataFrame(found))
-    return pd.concat(rows).sort_values("work_ratio", ignore_index=True)
+def plot_profiles(axes: Axes, parts: list[xr.Dataset], work: float) -> pd.DataFrame:
+    """Plot the normal traction over the strength across the contact, one curve a ratio of works.
+
+    work: of separation, N/m
+    """
+    profiles = [_plot_profile(axes, data) for data in parts]
+    size, width = radius(parts[0]), max(profile[1] for profile in profiles)
+    axes.axhline(0.0, **style.ZERO)
+    axes.set(xlim=(-1.1 * width / size, 1.1 * width / size), xlabel=r"$x/R$")
+    axes.set_ylabel(r"$T_n/\sigma_{\max}$ (pull positive)")
+    style.add_headroom(axes, 0.28)
+    axes.legend(loc="upper center")
+    table = pd.concat([profile[0] for profile in profiles])
+    return table[np.abs(table.position) <= 1.1 * width].assign(strength=work / np.e)
 
 
-def both_legs(panels: list[Axes], pair: tuple, color: str, panel: str, **place: float) -> pd.DataFrame:
-    """Loading and unloading of the coupled and the uncoupled law."""
-    rows = []
-    for (name, line), one in zip(COUPLING.items(), pair, strict=True):
-        for leg, axes in zip(LEGS, panels, strict=True):
-            shown = curves.branch(axes, one.isel(member=0), leg, color=color, ls=line, lw=1.0)
-            rows.append(shown.assign(panel=panel, law=name, leg=leg, **place))
-    return pd.concat(rows)
+def _plot_profile(axes: Axes, data: xr.Dataset) -> tuple[pd.DataFrame, float]:
+    """Plot one profile; return it, and how far from the middle (nm) its traction is not negligible."""
+    size, ratio = radius(data), float(data.work_ratio)
+    position, nodes = centred_nodes(data)
+    strength = float(data.strength.isel(member=0) if "member" in data.strength.dims else data.strength)
+    traction = at_approach(data, LARGEST_APPROACH).normal_traction.values[nodes] / strength
+    contact = float(data.final_contact_length.isel(member=0))
+    label = rf"{work_ratio_label(ratio)}, $l_{{\mathrm{{rep}}}}/R$ = {contact / size:.4f}"
+    colour = style.CONTACT if ratio else style.WHOLE
+    axes.plot(position / size, traction, color=colour, ls=work_ratio_line(ratio), lw=1.1, label=label)
+    table = pd.DataFrame({"position": position, "normal_traction": traction * strength})
+    width = float(np.abs(position[np.abs(traction) > NEGLIGIBLE_TRACTION]).max())
+    return table.assign(work_ratio=ratio, contact_length=contact), width
 
 
-def load_axes(axes: list[Axes], titles: tuple[str, ...]) -> None:
-    """Labels and titles of panels of load against approach, from where the surfaces first or last pull."""
-    for panel, title in zip(axes, titles, strict=True):
-        points = np.concatenate([line.get_xydata() for line in panel.lines])
-        felt = points[np.abs(points[:, 1]) > FELT * np.nanmax(np.abs(points[:, 1])), 0]
-        panel.set_xlim(felt.min() - 2.0, felt.max() + 1.0)
-        panel.axhline(0.0, color=style.EXACT, lw=0.5)
-        panel.set(xlabel=r"approach $\delta/\delta_n$", ylabel=curves.LOAD_LABEL)
-        panel.set_title(title, fontsize=9)
-    style.letters(axes)
+def plot_sizes(axes: Axes, parts: list[xr.Dataset], label: str, change: Axes | None, **look: Any) -> pd.DataFrame:
+    """Plot the contact size against the ratio of works, and on another axes its change from no friction in per cent."""
+    sizes = contact_sizes(parts)
+    curve = {"marker": "o", "ms": 3, "mfc": "white", "lw": 1.0} | look
+    axes.errorbar(sizes.work_ratio, sizes.size_ratio, sizes.error, label=label, elinewidth=0.8, **curve)
+    if change is not None:
+        change.plot(sizes.work_ratio, 100 * (sizes.size_ratio / sizes.size_ratio.iloc[0] - 1), **curve)
+    return sizes
 
 
-def pull_offs(panel: Axes, one: xr.Dataset, color: str) -> pd.DataFrame:
-    """Pull-off on loading and on unloading against work, with grid errors as bars."""
-    shown = pd.DataFrame({"work_of_separation": one.work_of_separation.values})
-    for leg, fill in zip(LEGS, (color, "white"), strict=True):
-        name = f"pull_off_load_{leg}"
-        shown[name] = one[name].values
-        error = one.get(f"{name}_grid_error")
-        shown[f"{name}_grid_error"] = np.nan if error is None else error.values
-        bars = curves.normalised(shown[f"{name}_grid_error"], one) if error is not None else None
-        look = {"color": color, "marker": "o", "ms": 4, "mfc": fill, "lw": 0.7 if fill == color else 0.0}
-        panel.errorbar(shown.work_of_separation, curves.normalised(shown[name], one), bars, elinewidth=0.8, **look)
-    return shown
+def plot_both_laws(
+    axes: list[Axes], coupled: xr.Dataset, uncoupled: xr.Dataset, colour: str, panel: str, **place: object
+) -> pd.DataFrame:
+    """Plot loading and unloading, one panel each, by the coupled and the uncoupled law.
+
+    panel, place: columns of the table
+    """
+    tables = []
+    for (law, line), data in zip(COUPLING_LINES.items(), (coupled, uncoupled), strict=True):
+        for leg, leg_axes in zip(LEGS, axes, strict=True):
+            curve = plot_leg(leg_axes, data.isel(member=0), leg, color=colour, ls=line, lw=1.0)
+            tables.append(curve.assign(panel=panel, law=law, leg=leg, **place))
+    return pd.concat(tables)
+
+
+def plot_pull_off(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
+    """Plot the pull-off on loading and on unloading against the work of separation, with grid errors as bars."""
+    table = pull_off_table(data, LEGS)
+    for leg, fill in zip(LEGS, (colour, "white"), strict=True):
+        load, error = (table[f"pull_off_load_{leg}{suffix}"] for suffix in ("", "_grid_error"))
+        bars = None if error.isna().all() else reduced_line_load(error, data)
+        look = style.marker_look(colour, fill=fill) | {"lw": 0.7 if fill == colour else 0.0, "elinewidth": 0.8}
+        axes.errorbar(table.work_of_separation, reduced_line_load(load, data), bars, **look)
+    return table

@@ -1,64 +1,60 @@
-"""Paths of adhesive contacts as curves: load against approach in its two legs, jumps dotted, and what they need."""
+"""Curves of load against approach, with their jumps and their largest pull."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import dataset
 from contactsim.analysis.ensemble import converged
-from contactsim.grid import Array
+from contactsim.analysis.scales import LawScales, reduced_line_load
+from contactsim.figures import style
 from contactsim.observables.adhesion import LEGS, legs
 
-THICKNESS, WORK_UNIT = 1000.0, 1.0
-"""Of the bodies, nm, and φ0, N/m: what makes the thesis's loads numbers."""
 LOAD_LABEL = r"$\bar L=L/(\pi R\varphi_0)$, thickness 1 µm"
+NEGLIGIBLE_LOAD = 0.01
+"""Part of the largest load below which a curve is not shown."""
 
 
-def settings(data: xr.Dataset) -> dict:
-    """The settings of the study."""
-    return dataset.settings_of(data)
+def plot_leg(axes: Axes, data: xr.Dataset, leg: str, **look: Any) -> pd.DataFrame:
+    """Plot loading or unloading of one path; the largest pull is a dot, jumps are dotted lines.
 
+    Parameters
+    ----------
+    axes : to plot on
+    data : one path; states that did not converge are left out
+    leg : one of `LEGS`
+    look : of the curve, with its color
 
-def radius(data: xr.Dataset) -> float:
-    """Radius of the cylinder, nm."""
-    return settings(data)["surface"]["radius"]
-
-
-def normal_length(data: xr.Dataset) -> float:
-    """Normal characteristic length of the first effect, nm."""
-    known = settings(data)
-    return known[known["effects"][0]]["normal_length"]
-
-
-def normalised(load: Array, data: xr.Dataset) -> Array:
-    """Line loads (N/m) over πRφ0, of bodies 1 µm thick (Eq. 4.3)."""
-    return load * THICKNESS / (np.pi * radius(data) * WORK_UNIT)
-
-
-def centred(data: xr.Dataset) -> tuple[Array, Array]:
-    """Positions from the highest point of the upper surface, nm, ascending, and the nodes that they belong to."""
-    heights = data.heights.isel(member=0) if "member" in data.heights.dims else data.heights
-    middle, count = int(np.argmax(heights.values)), data.x.size
-    order = (np.arange(count) - count // 2 + middle) % count
-    return (np.arange(count) - count // 2) * float(data.length) / count, order
-
-
-def branch(axes: Axes, one: xr.Dataset, leg: str, **look: object) -> pd.DataFrame:
-    """One leg of a path, its largest pull a dot, its jumps dotted lines; what did not converge is left out."""
-    part = legs(one.approach.values)[LEGS.index(leg)]
-    approach = one.approach.values[part] / normal_length(one)
-    load = normalised(converged(one.line_load, one).values[part], one)
-    jumps = np.flatnonzero(one.jump.values[part] > 0)
-    words = {"label": look.pop("label", None)}
-    for piece in np.split(np.arange(load.size), jumps):
-        axes.plot(approach[piece], load[piece], **look, **words)
-        words = {}
+    Returns
+    -------
+    table : approach over δn, reduced load and jump of the states
+    """
+    states = legs(data.approach.values)[LEGS.index(leg)]
+    approach = data.approach.values[states] / LawScales.of(data).normal_length
+    load = reduced_line_load(converged(data.line_load, data).values[states], data)
+    jumps = np.flatnonzero(data.jump.values[states] > 0)
+    label = look.pop("label", None)
+    for number, piece in enumerate(np.split(np.arange(load.size), jumps)):
+        axes.plot(approach[piece], load[piece], **look, label=label if number == 0 else None)
     for jump in jumps[jumps > 0]:
         axes.plot(approach[jump - 1 : jump + 1], load[jump - 1 : jump + 1], color=look["color"], ls=":", lw=0.7)
     if np.isfinite(load).any():
-        least = np.nanargmin(load)
-        axes.plot(approach[least], load[least], "o", color=look["color"], ms=3)
-    return pd.DataFrame({"approach": approach, "load": load, "jump": one.jump.values[part]})
+        lowest = np.nanargmin(load)
+        axes.plot(approach[lowest], load[lowest], "o", color=look["color"], ms=3)
+    return pd.DataFrame({"approach": approach, "load": load, "jump": data.jump.values[states]})
+
+
+def label_panels(axes: list[Axes], titles: tuple[str, ...]) -> None:
+    """Label panels of load against approach, and limit them to where the load is not negligible."""
+    for panel, title in zip(axes, titles, strict=True):
+        points = np.concatenate([line.get_xydata() for line in panel.lines])
+        loaded = points[np.abs(points[:, 1]) > NEGLIGIBLE_LOAD * np.nanmax(np.abs(points[:, 1])), 0]
+        panel.set_xlim(loaded.min() - 2.0, loaded.max() + 1.0)
+        panel.axhline(0.0, **style.ZERO)
+        panel.set(xlabel=r"approach $\delta/\delta_n$", ylabel=LOAD_LABEL)
+        panel.set_title(title, fontsize=9)
+    style.add_letters(axes)

@@ -1,69 +1,80 @@
-"""Slides as curves: force, load and contact against what has been slid, in the thesis's own numbers."""
+"""Labels and panels of slides: force and contact against the sliding distance."""
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any
+
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import dataset, reference
-from contactsim.analysis.ensemble import converged
-from contactsim.grid import Array
+from contactsim.analysis.scales import LawScales
+from contactsim.analysis.slides import FIRST_APPROACH, slide_table, stages
+from contactsim.figures import style
 
-MODULUS, START = 70.0, 10.0
-"""Young's modulus (GPa) over which forces are given, and δ0 (nm) over which approaches are."""
 SLIDE = r"$\bar U_x=U_x/w$"
+SLIDE_NM = r"$U_x$ (nm)"
 FORCE = r"$\bar F=F/(wE)$"
+BOTH_FORCES = r"$\bar F$, $\bar L$"
 AREA = r"contact $\bar A=A/w$"
-BARELY = 0.5
-"""Part of the way to the onset at which stage B is taken; C lies half way from there to the onset."""
+POSITION = "$x/w$ of the undeformed probe"
+STAGES = "ABCDE"
+STAGE_SPACING = 6
+"""Distance of cases along the axis of stages, in stages."""
 
 
-def curve(one: xr.Dataset) -> pd.DataFrame:
-    """The states of a slide: slide in nm and over the period, force, load, area, edges of the contact over the period.
+def approach_label(approach: float) -> str:
+    """Return the label of an approach (nm), over δ0."""
+    return rf"$\bar\delta={approach / FIRST_APPROACH:g}$"
 
-    one: one member of one variant; states that did not converge are NaN.
+
+def work_ratio_label(data: xr.Dataset) -> str:
+    """Return the label of the ratio of works of a study."""
+    return rf"$\varphi_t/\varphi_n={LawScales.of(data).work_ratio:g}$"
+
+
+def plot_forces(axes: Axes, x: pd.Series, table: pd.DataFrame, width: float) -> None:
+    """Plot tangential and normal force of a slide."""
+    axes.plot(x, table.force, color=style.CONTACT, lw=width, label=r"$\bar F$")
+    axes.plot(x, table.load, color=style.CONTACT, lw=width, ls="--", label=r"$\bar L$")
+    axes.axhline(0.0, **style.ZERO)
+    axes.set_ylabel(BOTH_FORCES)
+
+
+def plot_gap(axes: Axes, x: Any, gap: Any, width: float, alpha: float | None = None) -> None:
+    """Plot a gap, filled where it is closed."""
+    axes.plot(x, gap, color=style.EXACT, lw=width)
+    fill = {"color": style.CONTACT} | ({} if alpha is None else {"alpha": alpha, "lw": 0})
+    axes.fill_between(x, gap, 0.0, where=gap < 0, **fill)
+
+
+def plot_stages(left: Axes, right: Axes, data: xr.Dataset, label: str, colour: str, case: int) -> pd.DataFrame:
+    """Plot the contact of one slide with its stages on one panel, where the contact is at each stage on another.
+
+    case: number of the slide, from 0; returns one row a stage
     """
-    part = one.isel(step=np.flatnonzero(np.isfinite(one.sliding_distance.values)))
-    period = float(one.length)
-    numbers = {name: converged(part[name], part).values for name in NUMBERS}
-    found = {"slide": part.sliding_distance.values, "relative_slide": part.sliding_distance.values / period}
-    found |= {word: numbers[name] / period / (MODULUS if is_force else 1) for name, (word, is_force) in NUMBERS.items()}
-    return pd.DataFrame(found)
+    table = slide_table(data)
+    places = stages(data, table)
+    left.plot(table.relative_slide, table.area, color=colour, lw=1.1, label=label)
+    points = table.iloc[places]
+    left.plot(points.relative_slide, points.area, ls="none", **style.marker_look(colour, size=3.5))
+    for number, (stage, point) in enumerate(zip(STAGES, points.itertuples(), strict=True)):
+        offset = (2, -9) if stage == "D" else (2, 3)
+        left.annotate(stage, (point.relative_slide, point.area), offset, textcoords="offset points", fontsize=6.5)
+        x = number + STAGE_SPACING * case
+        right.plot([x, x], [point.trailing, point.leading], color=colour, lw=5, solid_capstyle="butt")
+    ends = [STAGE_SPACING * case - 0.5, STAGE_SPACING * case + 4.5]
+    for edge in (table.trailing.iloc[0], table.leading.iloc[0]):
+        right.plot(ends, [edge] * 2, color=colour, lw=0.6, ls=":")
+    columns = ["slide", "area", "force", "trailing", "leading"]
+    return points[columns].reset_index(drop=True).assign(stage=list(STAGES))
 
 
-NUMBERS = {
-    "friction_force": ("force", True),
-    "line_load": ("load", True),
-    "contact_length": ("area", False),
-    "contact_trailing_edge": ("trailing", False),
-    "contact_leading_edge": ("leading", False),
-}
-"""What is read off states, its name in a curve, and whether it is a force."""
-
-
-def stages(one: xr.Dataset, states: pd.DataFrame) -> list[int]:
-    """The states A to E of a slide: before it, peeling, before the first slip, and after it."""
-    slips = one.event_sliding_distance.dropna("event").values
-    after = int(np.searchsorted(states.slide.values, slips[0] - 1e-9)) if slips.size else len(states) - 1
-    before = after - 1
-    half = int(BARELY * before)
-    return [0, half, (half + before) // 2, before, after]
-
-
-def exact_flat(one: xr.Dataset, slides: Array) -> Array:
-    """Force over the period and `MODULUS` of the exact slide of a flat."""
-    known = dataset.settings_of(one)
-    law = known["cohesive_zone"] | {"work_ratio": float(one.work_ratio)}
-    body = known["counter_body"]
-    stiffness = float(one.counter_body_youngs_modulus) / (2 * (1 + body["poisson_ratio"])) / body["thickness"]
-    strength = law["work_of_separation"] * law["work_ratio"] / law["tangential_length"]
-    lattice = known["pairing"]["lattice_constant"]
-    return reference.uniform_slide(slides, stiffness, strength, lattice, law["tangential_length"]) / MODULUS
-
-
-def headroom(axes: Axes, share: float) -> None:
-    """Room above the curves for a legend, as a part of their range."""
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + share * (high - low))
+def label_stages(axes: Axes, cases: int) -> None:
+    """Label the panel of the stages of some slides."""
+    ticks = [number + STAGE_SPACING * case for case in range(cases) for number in range(len(STAGES))]
+    axes.set_xticks(ticks, list(STAGES) * cases)
+    axes.tick_params(axis="x", top=False)
+    axes.set(ylabel="contact, $x/w$ of the undeformed probe")
+    axes.text(0.02, 0.02, "trailing", transform=axes.transAxes, fontsize=7)
+    axes.text(0.02, 0.95, "leading", transform=axes.transAxes, fontsize=7)

@@ -10,34 +10,45 @@ from matplotlib.axes import Axes
 
 from contactsim.elasticity.subsurface import Fields
 from contactsim.figures import style
+from contactsim.grid import Array
 
 STRESSES = {"stress_xx": r"$\sigma_{xx}$", "stress_zz": r"$\sigma_{zz}$", "stress_xz": r"$\sigma_{xz}$"}
 COLOURS = "RdBu_r"
 """Tension red, compression blue, none white."""
 
 
-def draw(fields: Fields, axes: Sequence[Axes], scale: float = 1.0, unit: str = "GPa") -> pd.DataFrame:
-    """Map σ_xx, σ_zz and σ_xz onto three axes, each on a colour scale of its own, symmetric about zero.
+def plot_stress(fields: Fields, axes: Sequence[Axes], scale: float = 1.0, unit: str = "GPa") -> pd.DataFrame:
+    """Map σ_xx, σ_zz and σ_xz onto three axes, each on its own colour scale, symmetric about zero.
 
-    scale: stress (GPa) that the colours count in, with its name in `unit`, such as a peak pressure and "$p_0$".
-    Returns what is shown: one row for each depth and position.
+    Parameters
+    ----------
+    fields : inside the body
+    axes : three panels
+    scale : unit of the colours, GPa, such as a peak pressure
+    unit : its name, such as "$p_0$"
+
+    Returns
+    -------
+    table : depth, x and the three stresses, one row for each depth and position
     """
-    shown = pd.DataFrame(
+    table = pd.DataFrame(
         {"depth": np.repeat(fields.depth, fields.position.size), "x": np.tile(fields.position, fields.depth.size)}
     )
-    for panel, values, (name, symbol) in zip(axes, np.moveaxis(fields.stress, 1, 0), STRESSES.items(), strict=True):
-        values = values / scale
-        shown[name] = values.ravel()
-        limit = np.abs(values).max() or 1.0
-        colours = {"cmap": COLOURS, "vmin": -limit, "vmax": limit}
-        mesh = panel.pcolormesh(fields.position, fields.depth, values, shading="gouraud", rasterized=True, **colours)
-        panel.contour(
-            fields.position, fields.depth, values, levels=limit * np.linspace(-0.9, 0.9, 10), colors="k", linewidths=0.3
-        )
-        panel.figure.colorbar(mesh, ax=panel, label=f"{symbol} ({unit})", location="bottom", aspect=25)
-        panel.set(
-            xlabel=r"$x$ (nm)", ylabel="depth (nm)", aspect="equal", ylim=(fields.depth.max(), fields.depth.min())
-        )
-        panel.tick_params(direction="out", top=False, right=False)
-    style.letters(axes)
-    return shown
+    for panel, stress, (name, symbol) in zip(axes, np.moveaxis(fields.stress, 1, 0), STRESSES.items(), strict=True):
+        table[name] = (stress / scale).ravel()
+        _plot_map(panel, fields, stress / scale, f"{symbol} ({unit})")
+    style.add_letters(axes)
+    return table
+
+
+def _plot_map(axes: Axes, fields: Fields, values: Array, label: str) -> None:
+    """Map one stress, with lines at tenths of its largest value."""
+    limit = np.abs(values).max() or 1.0
+    place = fields.position, fields.depth
+    colours = {"cmap": COLOURS, "vmin": -limit, "vmax": limit}
+    mesh = axes.pcolormesh(*place, values, shading="gouraud", rasterized=True, **colours)
+    axes.contour(*place, values, levels=limit * np.linspace(-0.9, 0.9, 10), colors="k", linewidths=0.3)
+    axes.figure.colorbar(mesh, ax=axes, label=label, location="bottom", aspect=25)
+    depths = fields.depth.max(), fields.depth.min()
+    axes.set(xlabel=r"$x$ (nm)", ylabel="depth (nm)", aspect="equal", ylim=depths)
+    axes.tick_params(direction="out", top=False, right=False)

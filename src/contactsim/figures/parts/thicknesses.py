@@ -1,79 +1,81 @@
-"""Bodies of several thicknesses: curves, labels and legends of what is drawn of them."""
+"""Curves of bodies of several thicknesses, with labels and legends."""
 
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
-from contactsim import notation
 from contactsim.figures import style
+from contactsim.notation import SYMBOLS
 
-FAINT = 0.35
-"""Opacity of what is drawn beside what counts."""
 LINES = ("-", ":", "-.", "--")
 """Lines of thicknesses, the largest first."""
-SHADES = {"kappa_r": 1.0, "relative_contact_area": FAINT}
-"""Opacity of the changes drawn; the grid errors over pairs are as faint as those of the area."""
+CHANGE_OPACITIES = {"kappa_r": 1.0, "relative_contact_area": style.FAINT}
+"""Opacity of the changes of each quantity."""
+FACTOR_OPACITIES = {"Eq. 3.8": 1.0, "pairs in contact": style.FAINT}
+"""Opacity of κ_r and of its grid error, by definition."""
 
 
-def _line(data: xr.Dataset, thickness: float) -> str:
-    """Line style of a thickness."""
+def thickness_line(data: xr.Dataset, thickness: float) -> str:
+    """Return the line style of a thickness."""
     place = list(np.sort(data.thickness.values)[::-1]).index(thickness)
     return LINES[min(place, len(LINES) - 1)]
 
 
-def curves(data: xr.Dataset, axes: list[Axes]) -> None:
-    """Area, κ_r, their changes from the thickest body and the grid error: a curve for each H, Poisson's ratio and body.
+def plot_bodies(data: xr.Dataset, axes: list[Axes]) -> None:
+    """Plot area, κ_r, their changes from the thickest body and the grid error of each body.
 
-    Of the thickest body κ_r is drawn over pairs of neighbours in contact too.
+    There is a curve for each Hurst exponent, Poisson's ratio and thickness. κ_r of the thickest body is plotted over
+    pairs of points in contact too.
     """
-    area, factor, change, last = axes
-    thickest = float(data.thickness.max())
     for hurst, ratio, thickness in product(data.hurst.values, data.poisson_ratio.values, data.thickness.values):
-        one = data.sel(hurst=hurst, poisson_ratio=ratio, thickness=thickness)
-        look = style.poisson(ratio) | {"color": style.hurst_colour(hurst), "linewidth": 0.9}
-        look["linestyle"] = _line(data, thickness)
-        pressure = one.reduced_pressure_contact_mean
-        style.with_errors(area, pressure, one, "relative_contact_area", **look)
-        style.with_errors(factor, pressure, one, "kappa_r", **look)
-        if thickness == thickest:
-            style.with_errors(factor, pressure, one, "kappa_r_pairs", **look, alpha=FAINT)
-        style.grid_error(last, pressure, one, "kappa_r", **look)
-        style.grid_error(last, pressure, one, "kappa_r_pairs", **look, alpha=FAINT)
-        if thickness < thickest:
-            for name, alpha in SHADES.items():
-                moved, error = one[f"{name}_change"], one[f"{name}_change_standard_error"]
-                style.bars(change, one.reduced_pressure, moved, error, **look, alpha=alpha)
+        body = data.sel(hurst=hurst, poisson_ratio=ratio, thickness=thickness)
+        look = style.poisson_look(ratio) | {"color": style.hurst_colour(hurst), "linewidth": 0.9}
+        look["linestyle"] = thickness_line(data, thickness)
+        _plot_body(body, axes, look, thickness == data.thickness.max())
 
 
-def frame(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
-    """Labels, letters and legends."""
-    area, factor, change, last = axes
+def _plot_body(body: xr.Dataset, axes: list[Axes], look: dict[str, Any], thickest: bool) -> None:
+    """Plot the curves of one body; of the thickest there is no change, but κ_r over pairs."""
+    area, factor, change, error = axes
+    pressure = body.reduced_pressure_contact_mean
+    style.plot_means(area, pressure, body, "relative_contact_area", **look)
+    style.plot_means(factor, pressure, body, "kappa_r", **look)
+    if thickest:
+        style.plot_means(factor, pressure, body, "kappa_r_pairs", **look, alpha=style.FAINT)
+    style.plot_grid_error(error, pressure, body, "kappa_r", **look)
+    style.plot_grid_error(error, pressure, body, "kappa_r_pairs", **look, alpha=style.FAINT)
+    if not thickest:
+        for name, alpha in CHANGE_OPACITIES.items():
+            changes = body[f"{name}_change"], body[f"{name}_change_standard_error"]
+            style.errorbars(change, body.reduced_pressure, *changes, **look, alpha=alpha)
+
+
+def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
+    """Add labels, letters and legends; kappa_r: the thesis's value."""
+    area, factor, change, error = axes
     area.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
     factor.set(ylabel=r"$\kappa_r^{1D}$")
-    style.keep_in_view(factor, kappa_r - 0.1, kappa_r + 0.1)
-    change.set(ylabel=rf"relative change from $h={_power(data.thickness.max())}$ nm")
-    last.set(yscale="log", ylabel=r"grid error of $\kappa_r^{1D}$")
-    for panel, letter in zip(axes, "abcd", strict=True):
+    style.include_range(factor, kappa_r - 0.1, kappa_r + 0.1)
+    change.set(ylabel=rf"relative change from $h={_number(data.thickness.max())}$ nm")
+    error.set(yscale="log", ylabel=r"grid error of $\kappa_r^{1D}$")
+    for panel in axes:
         panel.set(xscale="log", xlabel="reduced pressure " + (r"$p^*$" if panel is change else r"$p_r^*$"))
-        style.letter(panel, letter)
+    style.add_letters(axes)
     colours = {f"$H={value:g}$": style.hurst_colour(value) for value in data.hurst.values}
-    bodies = {f"$h={_power(value)}$ nm": _line(data, value) for value in data.thickness.values}
-    keys = style.key(colours, bodies | {f"thesis, {kappa_r:g}": (0, (6, 3))})
-    area.legend(handles=keys + style.poisson_key(data.poisson_ratio.values), loc="upper left")
-    change.legend(handles=_shades({notation.SYMBOLS[name]: alpha for name, alpha in SHADES.items()}), loc="lower right")
-    factor.legend(handles=_shades({"Eq. 3.8": 1.0, "pairs in contact": FAINT}), loc="upper right")
-    last.legend(handles=_shades({"Eq. 3.8": 1.0, "pairs in contact": FAINT}), loc="lower left")
+    lines = {f"$h={_number(value)}$ nm": thickness_line(data, value) for value in data.thickness.values}
+    handles = style.colour_handles(colours) + style.line_handles(lines | {f"thesis, {kappa_r:g}": style.THESIS})
+    area.legend(handles=handles + style.poisson_handles(data.poisson_ratio.values), loc="upper left")
+    opacities = {SYMBOLS[name]: alpha for name, alpha in CHANGE_OPACITIES.items()}
+    change.legend(handles=style.opacity_handles(opacities), loc="lower right")
+    factor.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="upper right")
+    error.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="lower left")
 
 
-def _shades(names: dict[str, float]) -> list[Line2D]:
-    return [Line2D([], [], color=style.EXACT, alpha=alpha, lw=1.5, label=name) for name, alpha in names.items()]
-
-
-def _power(value: float) -> str:
-    """A number as it is, a large one as a power of ten."""
+def _number(value: float) -> str:
+    """Return a number as it is, a large one as a power of ten."""
     return f"{value:g}" if value < 1e5 else f"10^{{{np.log10(value):.3g}}}"

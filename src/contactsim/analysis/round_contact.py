@@ -1,0 +1,36 @@
+"""Contact of a cylinder and of a sphere beside the exact answers (Table 3.1)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from contactsim import reference
+
+KAPPA_R = {"cylinder": reference.CYLINDER_KAPPA_R, "sphere": reference.SPHERE_KAPPA_R}
+"""Exact κ_r by the kind of body."""
+
+
+def beside_exact(data: xr.Dataset, body: str) -> xr.Dataset:
+    """Return the one member of a study of a cylinder or sphere with its exact answers.
+
+    Parameters
+    ----------
+    data : dataset of a study with one member, by contact_ratio c/R
+    body : "cylinder" or "sphere"
+
+    Returns
+    -------
+    data : with `area` and its exact value, over R (line) or R² (sphere); `load`, over E*R or E*R²; `kappa_r_exact`
+    """
+    member = data.isel(member=0)
+    size = "contact_radius" if "contact_radius" in member else "half_width"
+    radius = float(member[f"{size}_exact"][0] / member.contact_ratio[0])
+    nominal = member.length / radius * (member.length_y / radius if "length_y" in member else 1.0)
+    ratio = member.contact_ratio
+    return member.assign(
+        area=member.relative_contact_area * nominal,
+        area_exact=2 * ratio if size == "half_width" else np.pi * ratio**2,
+        load=member.mean_pressure * nominal / member.contact_modulus,
+        kappa_r_exact=KAPPA_R[body],
+    )

@@ -1,0 +1,37 @@
+"""Stress inside the body below an adhesive contact, from the tractions that a dataset keeps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.elasticity.subsurface import Fields, inside
+from contactsim.grid import Grid
+from contactsim.study.scenes import build_elasticity
+
+DEPTHS, MARGIN = 81, 1.2
+"""Number of depths, and the largest of them over the length of contact, which also bounds the positions."""
+
+
+def stress_below_contact(state: xr.Dataset) -> Fields:
+    """Return displacement and stress in the lower body around the contact (Section 2.2).
+
+    Parameters
+    ----------
+    state : one snapshot of one path, with tractions (x), heights (x) and the contact length at the end of the path
+
+    Returns
+    -------
+    fields : positions (nm) from the highest point of the upper surface, depths from the surface down
+    """
+    grid = Grid((state.x.size,), (float(state.length),))
+    shift = state.x.size // 2 - int(np.argmax(state.heights.values))
+    traction = np.stack([np.roll(state[f"{name}_traction"].values, shift) for name in ("normal", "tangential")])
+    reach = MARGIN * float(state.final_contact_length)
+    middle = grid.positions()[state.x.size // 2]
+    body = build_elasticity(dataset.settings_of(state)["body"])
+    fields = inside(body, grid, traction, np.linspace(0.0, reach, DEPTHS)).between(middle - reach, middle + reach)
+    return replace(fields, position=fields.position - middle)

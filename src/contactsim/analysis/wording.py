@@ -1,0 +1,136 @@
+"""Text about results: names and symbols of quantities, rounded values, grids, errors and the summary of a dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from contactsim import dataset, status, variables
+from contactsim.analysis import ensemble
+from contactsim.notation import READ, SYMBOLS
+
+TINY = 1e-9
+"""Numbers below it are written with a power of ten."""
+LIMIT = "_limit"
+"""Ending of the name of a quantity in the limit of fine grids."""
+SUMMARY_NAMES = {name: READ[name] for name in ("kappa", "kappa_r", "kappa_r_pairs")} | {
+    "final_contact_length": "contact",
+    "pull_off_load_loading": "pull-off on loading",
+    "pull_off_load_unloading": "on unloading",
+}
+"""Quantities whose largest errors a summary gives, with their names in it."""
+SLIDE_SUMMARY_NAMES = {name: SYMBOLS[name] for name in ("static_friction", "first_force_drop", "reattached_fraction")}
+"""The same for slides."""
+INDEX_LETTERS = {"κ_r": "κᵣ", "p_r*": "pᵣ*"}
+"""Symbols of statements as they are printed."""
+
+
+def rounded_texts(value: float, *errors: float) -> list[str]:
+    """Return a value and its errors as texts, rounded as far as they are known.
+
+    Errors have two digits. The value has as many decimals as the smallest error that is not zero, or four digits
+    without one. A dash stands for NaN. A value that is zero but for rounding gets a power of ten.
+    """
+    if 0 < abs(value) < TINY:
+        return [f"{number:.1e}" if np.isfinite(number) else "–" for number in (value, *errors)]
+    decimals = {error: _decimals(error, 2) for error in errors if np.isfinite(error) and error > 0}
+    finest = decimals[min(decimals)] if decimals else _decimals(value, 4)
+    texts = [f"{value:.{finest}f}" if np.isfinite(value) else "–"]
+    return texts + [f"{error:.{decimals.get(error, 0)}f}" if np.isfinite(error) else "–" for error in errors]
+
+
+def _decimals(value: float, digits: int) -> int:
+    """Return the number of decimals that show so many significant digits."""
+    return max(0, digits - 1 - int(f"{abs(value):.{digits - 1}e}".split("e")[1])) if np.isfinite(value) else 0
+
+
+def quantity_text(name: str) -> str:
+    """Return a quantity's name as it is read in a sentence; an unknown word stays as it is."""
+    errors = {f"_{kind}_error": f"{kind.replace('_', ' ')} error of " for kind in variables.ERRORS}
+    for suffix, words in (errors | {LIMIT: "limit of "}).items():
+        if name.endswith(suffix):
+            return words + quantity_text(name.removesuffix(suffix))
+    return READ.get(name, name)
+
+
+def measure_text(measure: str) -> str:
+    """Return the measure of a claim with symbols in place of the names of quantities."""
+    return " ".join(quantity_text(word).replace("_", " ") for word in measure.split())
+
+
+def printed(text: str) -> str:
+    """Return a statement with its symbols as they are printed."""
+    for plain, letters in INDEX_LETTERS.items():
+        text = text.replace(plain, letters)
+    return text
+
+
+def grid_text(settings: Mapping[str, Any], *points: float) -> str:
+    """Return the number of grid points, with the points for each shortest wavelength and the thesis's own.
+
+    Parameters
+    ----------
+    settings : of a study, as its dataset stores them
+    points : grid points along x, of each grid of the study
+    """
+    surface, thesis = settings["surface"], settings["thesis_points"]
+    if settings.get("accuracy"):
+        return f"{min(points):.0f} to {max(points):.0f} points, for an accuracy of {settings['accuracy']['error']:g}"
+    grids = ", ".join(f"{count:.0f}" for count in points)
+    if surface["kind"] != "self_affine":
+        return f"{grids} points (thesis {thesis})" if thesis else f"{grids} points"
+    share = surface["shortest_wavelength"] / surface["length"]
+    thesis_text = f" (thesis {thesis * share:g})" if thesis else ""
+    per_wavelength = ", ".join(f"{count * share:g}" for count in points)
+    return f"{grids} points, {per_wavelength} per shortest wavelength{thesis_text}"
+
+
+def sample_texts(data: xr.Dataset) -> list[str]:
+    """Return grid, members and unconverged solutions of a dataset as short texts."""
+    unconverged, total = ensemble.unconverged(data)
+    members = data.member.size
+    return [
+        grid_text(dataset.settings_of(data), *data.points.values.ravel()),
+        f"{members} members" if members > 1 else "1 member",
+        f"{unconverged} of {total} solutions unconverged and left out",
+    ]
+
+
+def dataset_summary(data: xr.Dataset, costs: pd.DataFrame) -> str:
+    """Return tier, grid, members, unconverged solutions, largest errors and CPU time of a study in one line.
+
+    Parameters
+    ----------
+    data : dataset of the study, or the part of it that a figure shows
+    costs : table of the study's costs, with a column of seconds
+    """
+    settings = dataset.settings_of(data)
+    parts = [f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}", *sample_texts(data)]
+    if "validity_flags" in data and (excess := status.told(data)):
+        parts.append(f"beyond the model: {', '.join(excess)} of the states")
+    return " · ".join([*parts, *error_texts(data), f"study solved in {costs.seconds.sum():.3g} CPU s"])
+
+
+def error_texts(data: xr.Dataset) -> list[str]:
+    """Return the largest errors of a dataset's main quantities, one text for each kind of error."""
+    names = SLIDE_SUMMARY_NAMES if "static_friction" in data else SUMMARY_NAMES
+    texts = []
+    for error in variables.ERRORS:
+        sizes = [
+            f"{words} {float(data[f'{name}_{error}_error'].max()):.1g}{_unit_text(data[name])}"
+            for name, words in names.items()
+            if f"{name}_{error}_error" in data and not np.isnan(data[f"{name}_{error}_error"]).all()
+        ]
+        if sizes:
+            texts.append(f"{error.replace('_', ' ')} error up to: {', '.join(sizes)}")
+    return texts
+
+
+def _unit_text(values: xr.DataArray) -> str:
+    """Return the unit with a space before it, or nothing for a ratio."""
+    unit = values.attrs.get("units", "1")
+    return "" if unit == "1" else f" {unit}"
