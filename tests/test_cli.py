@@ -84,7 +84,7 @@ def test_a_run_keeps_what_its_scene_file_says_and_its_fields_can_be_mapped(scene
     stored = dataset.load_dataset(scene_file.with_suffix(".nc"))
     assert {"heights", "pressure", "gap"} <= set(stored)
     assert not {"contact_bits", "contact_pressure", "profile_real"} & set(stored)
-    image = maps.draw(stored.isel(mean_pressure=-1)).axes[0].images[0]
+    image = maps.plot_maps(stored.isel(mean_pressure=-1)).axes[0].images[0]
     assert image.get_array().mean() == stored.relative_contact_area[-1]
 
 

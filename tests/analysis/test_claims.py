@@ -14,7 +14,7 @@ from contactsim.analysis import aggregate, claims, reductions
 from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.uncertainty import Estimate, estimate
 from contactsim.errors import InputError
-from contactsim.figures.diagnostics.claims import COLOURS, COLUMNS, drawn
+from contactsim.figures.diagnostics.claims import COLOURS, COLUMNS, claims_figure
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
 from support.places import ROOT
@@ -428,7 +428,7 @@ def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
     rows = claims.judge_claims({name: one.settings for name, one in names.items()}, {"rough_line": made_up()})
     rows["verdict"] = list(COLOURS)
     rows["condition"] = ["", "somewhere " * 9, "", ""]
-    axes = drawn(rows, "Title", "footer " * 80).axes[0]
+    axes = claims_figure(rows, "Title", "footer " * 80).axes[0]
     shown = [text.get_text() for text in axes.texts]
     assert len(shown) == 2 + len(COLUMNS) * (1 + len(rows))
     assert any("somewhere" in text and "\n" in text for text in shown)

@@ -29,8 +29,8 @@ from contactsim.evaluation.robustness.survey import (
     robustness_job,
     survey_hazard,
 )
-from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, taken
-from contactsim.figures.layout import render
+from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, supported
+from contactsim.figures.layout import write_figure
 from contactsim.solvers.base import State
 from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
@@ -250,7 +250,8 @@ def drawn(tmp_path_factory):
     job = robustness_job(settings, plan)
     dataset.write(merge_surveys(parts, job["settings"], job["source"]), folder / "stability.nc")
     targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
-    render(json.loads(json.dumps(robustness_figure_job(settings, plan))), [folder / "stability.nc"], [], targets)
+    data = dataset.load_dataset(folder / "stability.nc")
+    write_figure(json.loads(json.dumps(robustness_figure_job(settings, plan))), [data], [], targets)
     return folder
 
 
@@ -311,7 +312,7 @@ def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(dra
     axes = Figure().subplots()
     stability(data, [axes])
     for mesh, hazard in zip(axes.collections, data.hazard.values, strict=True):
-        outcomes = taken(data.sel(hazard=hazard)).outcome.values
+        outcomes = supported(data.sel(hazard=hazard)).outcome.values
         wanted = [to_rgba(list(COLOURS.values())[value]) for value in outcomes.ravel()]
         assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
 
@@ -330,9 +331,9 @@ def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
     data = dataset.load_dataset(drawn / "stability.nc")
     assert "refused and left out, as their solver does not take the kind of case: 36 ·" in footer(data)
     one = data.sel(hazard="low_spike")
-    assert taken(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
+    assert supported(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
     alone = one.sel(solver=["conjugate_gradients"])
-    assert taken(alone).solver.values.tolist() == ["conjugate_gradients"]
+    assert supported(alone).solver.values.tolist() == ["conjugate_gradients"]
 
 
 def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):

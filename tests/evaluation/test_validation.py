@@ -74,11 +74,11 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
         costs.append(str(tmp_path / f"{name}.json"))
     targets = {kind: str(tmp_path / f"trials.{kind}") for kind in ("png", "pdf", "csv")} | {"data": tmp_path / "all.nc"}
     plan = validation.figure(SETTINGS, "quick")
-    trial_figure.render(plan, data, costs, targets)
+    trial_figure.write_trials(plan, data, costs, targets)
     table = pd.read_csv(targets["csv"])
     assert list(table.met) == list(table.true_error <= table.requested_error)
     assert np.allclose(table.cost, table.work / table.min_work)
-    assert f"{int(table.met.sum())} of 3 scenes" in trial_figure._footer(table, plan)
+    assert f"{int(table.met.sum())} of 3 scenes" in trial_figure.footer_text(table, plan)
 
 
 def test_relations_measured_anew_have_the_form_of_the_packages():
@@ -152,7 +152,7 @@ def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_pat
         files.append(str(tmp_path / f"{name}.nc"))
         dataset.write(dataset.stamped(data, name, {}, "source"), files[-1])
     targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
-    map_figure.render(survey.figure(settings, "quick"), files, targets)
+    map_figure.write_effect_maps(survey.figure(settings, "quick"), files, targets)
     assert set(pd.read_csv(targets["csv"])["map"]) == set(settings["maps"])
 
 
@@ -171,7 +171,7 @@ def test_the_overview_shows_every_case_and_leaves_ensembles_out(tmp_path):
         tables.append(str(tmp_path / f"{name}.csv"))
         pd.DataFrame(rows).to_csv(tables[-1], index=False)
     targets = {kind: str(tmp_path / f"overview.{kind}") for kind in ("png", "pdf", "csv")}
-    overview.render(told, tables, targets)
+    overview.write_overview(told, tables, targets)
     shown = pd.read_csv(targets["csv"])
     assert set(shown.case) == set(cases)
     assert set(shown.knob) == {"points", "tolerance"}

@@ -1,11 +1,16 @@
 from __future__ import annotations
 
+import subprocess
+import sys
+from importlib import import_module
+
 import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
 from contactsim import dataset, notation
+from contactsim.analysis import wording
 from contactsim.analysis.reductions import REDUCTIONS, mean_quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
@@ -15,6 +20,7 @@ from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
 from contactsim.study.claim_plan import quantities
+from contactsim.study.law_table import tabulated
 from contactsim.study.plan import Plan
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from support.places import ROOT
@@ -22,18 +28,54 @@ from support.places import ROOT
 PLAN = Plan.read(ROOT / "config", "quick")
 
 
+def figure_data(made, name):
+    """The datasets that a figure shows, as it shows them."""
+    figure = PLAN.figures[name]
+    if figure.settings["law"] is not None:
+        return [tabulated(figure.settings["law"])]
+    paths = [made / f"results/quick/datasets/{PLAN.dataset_name(study)}.nc" for study in figure.studies]
+    return [layout.selected(dataset.load_dataset(path), figure.settings["select"]) for path in paths]
+
+
 @pytest.mark.parametrize("name", PLAN.figures)
-def test_every_figure_is_drawn_and_gives_its_numbers(made, name):
-    folder = made / "results/quick/figures"
-    assert (folder / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    assert (folder / f"{name}.pdf").read_bytes().startswith(b"%PDF")
-    assert len(pd.read_csv(folder / f"{name}.csv")) > 2
+def test_every_panel_of_a_figure_has_labels_and_finite_data_and_its_csv_holds_what_is_plotted(made, name):
+    settings = PLAN.figures[name].settings
+    _, panels = layout.empty_figure(settings, "footer")
+    plot = getattr(import_module(f"contactsim.figures.{PLAN.figures[name].chapter}"), name)
+    table = plot(*figure_data(made, name), panels if len(panels) > 1 else panels[0], **settings["reference"])
+    for panel in panels:
+        lines = [np.asarray(line.get_ydata(), float) for line in panel.lines]
+        assert any(np.isfinite(line).sum() > 1 for line in lines) or panel.images or panel.collections or panel.tables
+        if panel.axison and not panel.images:
+            assert panel.get_xlabel() or panel.get_xticklabels()[0].get_text()
+            assert panel.get_ylabel() or panel.get_yticklabels()[0].get_text()
+    written = pd.read_csv(made / f"results/quick/figures/{name}.csv")
+    assert list(written) == list(table)
+    numbers = table.select_dtypes("number")
+    assert np.allclose(written[list(numbers)].to_numpy(float), numbers.to_numpy(float), rtol=1e-12, equal_nan=True)
+
+
+def test_plotting_chapter_3_imports_few_modules_of_the_package():
+    code = "import sys, contactsim.figures.layout, contactsim.figures.ch3, contactsim.dataset\n"
+    code += "print(*sorted(name for name in sys.modules if name.startswith('contactsim')))"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    modules = run.stdout.split()
+    assert len(modules) <= 45, modules
+    rooms = {name.split(".")[1] for name in modules if "." in name}
+    assert not rooms & {"study", "error_control", "evaluation", "simulation", "paths"}
+
+
+def test_importing_figures_changes_no_setting_of_matplotlib():
+    code = "import matplotlib as mpl; before = dict(mpl.rcParams); import contactsim.figures.ch5\n"
+    code += "print(dict(mpl.rcParams) == before)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "True"
 
 
 def test_a_footer_says_grid_members_losses_and_time(made):
     data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     costs = pd.read_csv(made / "results/quick/costs/ch3_rough_line.csv")
-    text = layout.footer_text(data, costs)
+    text = wording.dataset_summary(data, costs)
     for part in (
         "quick tier",
         "131072 points, 32 per shortest wavelength (thesis 64)",
@@ -44,22 +86,22 @@ def test_a_footer_says_grid_members_losses_and_time(made):
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
-    assert "1 of 45 solutions unconverged and left out" in layout.footer_text(data, costs)
+    assert "1 of 45 solutions unconverged and left out" in wording.dataset_summary(data, costs)
 
 
 def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):
     data = dataset.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
     data["kappa_r_grid_error"][data.contact_ratio < 0.05] = 7.0
     data["status"][..., data.contact_ratio.values < 0.05] = 1
-    dataset.write(data, tmp_path / "data.nc")
     plan, footers = PLAN.figure_settings("table_3_1"), []
     assert plan["settings"]["select"] == {"contact_ratio": [0.05, 0.25]}
-    framed = layout.framed
-    monkeypatch.setattr(layout, "framed", lambda settings, footer: footers.append(footer) or framed(settings, footer))
+    empty = layout.empty_figure
+    monkeypatch.setattr(layout, "empty_figure", lambda settings, text: footers.append(text) or empty(settings, text))
     targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
     names = ("ch3_smooth_line", "ch3_smooth_surface")
-    prices = [made / f"results/quick/costs/{name}.csv" for name in names]
-    layout.render(plan, [tmp_path / "data.nc", made / f"results/quick/datasets/{names[1]}.nc"], prices, targets)
+    costs = [pd.read_csv(made / f"results/quick/costs/{name}.csv") for name in names]
+    other = dataset.load_dataset(made / f"results/quick/datasets/{names[1]}.nc")
+    layout.write_figure(plan, [data, other], costs, targets)
     assert pd.read_csv(targets["csv"]).contact_ratio.between(0.05, 0.25).all()
     largest = data.kappa_r_grid_error.sel(contact_ratio=slice(0.049, 0.251)).max()
     assert f"grid error up to: κᵣ {float(largest):.1g}," in footers[0]
@@ -79,7 +121,7 @@ def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
     assert len(errors) == 2 * data.hurst.size
     for name, color in (("kappa_r", style.CONTACT), ("kappa_r_pairs", style.PAIRS)):
         for value in data.hurst.values:
-            drawn = errors[color, style.hurst(value)["linestyle"]]
+            drawn = errors[color, style.hurst_look(value)["linestyle"]]
             assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst=value))
 
 
@@ -106,7 +148,7 @@ def test_cylinder_and_sphere_are_drawn_beside_the_exact_lines(made):
 def test_the_table_lists_exact_and_computed(made):
     axes = Figure().subplots()
     rows = ch3.table_3_1(*smooth(made), axes)
-    assert list(rows) == ["body", *ch3.TABLE]
+    assert list(rows) == ["body", *ch3.TABLE_HEADS]
     line, sphere = (rows[rows.body == body] for body in ("cylinder", "sphere"))
     assert np.allclose(line.area_exact, 2 * line.contact_ratio)
     assert np.allclose(line.load, np.pi / 4 * line.contact_ratio**2)
@@ -129,12 +171,6 @@ def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(mad
 
 
 ROUGH = ("rough_line", "rough_line_coarse", "rough_surface", "line_resolution", "surface_resolution")
-
-
-def test_the_last_of_smooth_figures_counts_its_cells(made):
-    axes = Figure().subplots()
-    rows = ch3.table_3_1(*smooth(made), axes)
-    assert len(axes.tables[0].get_celld()) == (len(rows) + 1) * len(rows.columns)
 
 
 def test_the_fits_are_given_as_the_curves_that_they_draw(made):
@@ -184,19 +220,19 @@ def test_on_a_half_space_poissons_ratio_changes_no_contact(made):
 
 
 def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
-    assert style.hurst(0.35)["marker"] == "x"
+    assert style.hurst_look(0.35)["marker"] == "x"
     assert style.hurst_colour(0.35) not in style.HURST_COLOURS.values()
-    assert style.poisson(0.3)["marker"] not in [marker for marker, _ in style.POISSON.values()]
+    assert style.poisson_look(0.3)["marker"] not in [marker for marker, _ in style.POISSON_LOOKS.values()]
 
 
 def test_a_measured_surface_has_points_and_no_wavelength():
     settings = {"surface": {"kind": "measured"}, "thesis_points": None}
-    assert style.points_text(settings, 100) == "100 points"
+    assert wording.grid_text(settings, 100) == "100 points"
 
 
 def test_captions_and_footers_are_wrapped_below_the_panels():
     settings = {"size": [4.0, 3.0], "panels": 2, "title": "T", "caption": "word " * 60}
-    figure, panels = layout.framed(settings, "made " * 40)
+    figure, panels = layout.empty_figure(settings, "made " * 40)
     assert len(panels) == 2
     assert figure.get_size_inches()[1] > 3.0
     assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())
@@ -215,7 +251,7 @@ def test_captions_and_footers_are_wrapped_below_the_panels():
 def test_ticks_of_a_logarithmic_axis_lie_inside_its_range(low, high, labels):
     axes = Figure().subplots()
     axes.set(xscale="log", xlim=(low / 2, high * 2))
-    style.ticks(axes.xaxis, low, high)
+    style.set_log_ticks(axes.xaxis, low, high)
     format_tick = axes.xaxis.get_major_formatter()
     assert [format_tick(at) for at in axes.xaxis.get_majorticklocs()] == labels
     assert all(low <= at <= high for at in axes.xaxis.get_minorticklocs())
@@ -223,7 +259,7 @@ def test_ticks_of_a_logarithmic_axis_lie_inside_its_range(low, high, labels):
 
 @pytest.mark.parametrize(("values", "span"), [([0.2], 10.0), ([0.2, 0.3], 10.0), ([1e-3, 1.0], 1690.0), ([], 10.0)])
 def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(values, span):
-    low, high = style.limits(pd.Series(values, dtype=float))
+    low, high = style.log_range(pd.Series(values, dtype=float))
     assert high / low == pytest.approx(span)
     assert all(low < value < high for value in values)
 
@@ -246,7 +282,7 @@ def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(va
     ],
 )
 def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors, shown):
-    assert claims.rounded(value, *errors) == shown
+    assert wording.rounded_texts(value, *errors) == shown
 
 
 def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
@@ -254,8 +290,8 @@ def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
         *REDUCTIONS,
         *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions]),
     }
-    assert not [name for name in names if "_" in claims.symbol(name)]
-    assert claims.symbol("kappa_r_grid_error") == "grid error of κᵣ"
+    assert not [name for name in names if "_" in wording.quantity_text(name)]
+    assert wording.quantity_text("kappa_r_grid_error") == "grid error of κᵣ"
 
 
 def test_every_quantity_that_can_be_priced_has_a_symbol():
@@ -265,14 +301,14 @@ def test_every_quantity_that_can_be_priced_has_a_symbol():
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
     rows = pd.read_csv(made / "results/quick/claims/ch3.csv", keep_default_na=False, na_values=["", "nan"])
     rows = rows.fillna({"measure": "", "expected": "", "condition": ""})
-    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
     assert not [text for text in texts if "_" in text]
     assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts
     assert any("± ensemble error ± grid error" in text for text in texts[: len(claims.COLUMNS) + 1])
     rows.loc[0, ["condition", "condition_value", "condition_ensemble_error", "condition_grid_error"]] = [
         *("c/R up to 1", 0.995312, 0.0, 0.00471)
     ]
-    texts = [text.get_text() for text in claims.drawn(rows, "Title", "footer").axes[0].texts]
+    texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
     assert any("0.9953_±_0_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
 
 

@@ -44,7 +44,7 @@ def refusal(call):
 
 def test_a_result_is_drawn_with_all_that_it_holds_and_in_its_own_units():
     result = pressed()
-    panels, bars = drawn(maps.draw(result, spacing=SPACING))
+    panels, bars = drawn(maps.plot_result(result, spacing=SPACING))
     contact, pressure, gap = (panel.images[0].get_array() for panel in panels)
     assert np.array_equal(contact, result.contact)
     assert np.allclose(pressure, result.pressure * 1e3, rtol=1e-12)  # MPa
@@ -63,7 +63,7 @@ def test_a_result_is_drawn_with_all_that_it_holds_and_in_its_own_units():
 @pytest.mark.parametrize("pressure", [0.0, 1e-3, 0.05, 5.0])
 def test_the_colours_hold_all_that_is_drawn_from_no_contact_to_full(pressure):
     result = pressed(pressure)
-    for panel in maps.draw(result, spacing=SPACING).axes[:3]:
+    for panel in maps.plot_result(result, spacing=SPACING).axes[:3]:
         low, high = panel.images[0].get_clim()
         assert low <= panel.images[0].get_array().min() <= panel.images[0].get_array().max() <= high
         assert low <= 0 < high
@@ -72,8 +72,8 @@ def test_the_colours_hold_all_that_is_drawn_from_no_contact_to_full(pressure):
 
 def test_the_numbers_are_those_of_the_solution_not_of_the_pixels():
     result = pressed()
-    solved = maps.Solved(result.pressure, result.gap, LENGTHS)
-    table = maps.panels(solved, list(Figure(layout="constrained").subplots(1, 3))).set_index("map")
+    solved = maps.SurfaceFields(result.pressure, result.gap, LENGTHS)
+    table = maps.plot_fields(solved, list(Figure(layout="constrained").subplots(1, 3))).set_index("map")
     assert list(table["mean"]) == pytest.approx([result.relative_contact_area, 0.05, result.gap.mean()], rel=1e-3)
     assert table.largest["pressure"] == result.pressure.max()
     assert list(table.unit) == ["1", "GPa", "nm"]
@@ -84,7 +84,7 @@ def test_the_numbers_are_those_of_the_solution_not_of_the_pixels():
 @pytest.mark.parametrize("block", [1, 2, 3])
 def test_a_pixel_is_the_mean_of_its_points_and_the_last_may_have_fewer(shape, block):
     values = np.random.default_rng(1).random(shape)
-    pixels = maps.reduced(values, block)
+    pixels = maps.block_means(values, block)
     assert pixels.shape == (-(-shape[0] // block), -(-shape[1] // block))
     for (row, column), pixel in np.ndenumerate(pixels):
         part = values[row * block : (row + 1) * block, column * block : (column + 1) * block]
@@ -96,14 +96,14 @@ def test_a_fine_grid_is_reduced_and_its_panels_end_where_the_surface_does():
     contact = np.zeros((ny, nx))
     contact[:, ::2] = 1.0  # stripes that picking every third point would lose or turn into others
     axes = list(Figure(layout="constrained").subplots(1, 3))
-    table = maps.panels(maps.Solved(contact, 1 - contact, (600.0, 1200.0)), axes)
+    table = maps.plot_fields(maps.SurfaceFields(contact, 1 - contact, (600.0, 1200.0)), axes)
     image = axes[0].images[0]
     assert image.get_array().shape == (200, 400)
     assert set(np.unique(image.get_array().round(12))) == {round(1 / 3, 12), round(2 / 3, 12)}
     assert (table.pixel_points == 3).all()
-    odd = maps.Solved(contact[:, :1199], 1 - contact[:, :1199], (600.0, 1199.0))
+    odd = maps.SurfaceFields(contact[:, :1199], 1 - contact[:, :1199], (600.0, 1199.0))
     axes = list(Figure(layout="constrained").subplots(1, 3))
-    maps.panels(odd, axes)
+    maps.plot_fields(odd, axes)
     assert axes[0].images[0].get_extent() == [0, pytest.approx(1200), 0, pytest.approx(600)]  # one point is beyond
     assert axes[0].get_xlim() == (0, 1199)
 
@@ -130,7 +130,7 @@ def test_the_scale_bar_is_as_long_on_the_page_as_it_says(width, unit, text, shar
     figure = Figure()
     axes = figure.subplots()
     axes.set_xlim(0, width)
-    bar = maps.scale_bar(axes, width, unit)
+    bar = maps.add_scale_bar(axes, width, unit)
     assert bar.txt_label.get_text() == text
     figure.draw_without_rendering()
     (rectangle,) = bar.size_bar.get_children()
@@ -156,7 +156,7 @@ def test_the_scale_bar_is_as_long_on_the_page_as_it_says(width, unit, text, shar
     ],
 )
 def test_units_of_metres_and_pascals_get_the_prefix_that_fits_and_others_stay(value, unit, factor, shown):
-    found = maps.fitting(value, unit)
+    found = maps.fitting_unit(value, unit)
     assert found == (pytest.approx(factor, rel=1e-12), shown)
 
 
@@ -180,7 +180,7 @@ def test_colours_fall_evenly_from_light_to_dark(name):
 
 @pytest.mark.parametrize("unit", ["nm", "µm"])
 def test_units_of_a_result_are_those_given(unit):
-    _, bars = drawn(maps.draw(pressed(), spacing=SPACING, length_unit=unit, pressure_unit="bar"))
+    _, bars = drawn(maps.plot_result(pressed(), spacing=SPACING, length_unit=unit, pressure_unit="bar"))
     assert [bar.get_ylabel() for bar in bars[1:]] == ["pressure $p$ (bar)", f"gap $g$ ({unit})"]
 
 
@@ -204,11 +204,11 @@ def simulated(**options):
 
 def test_one_load_of_a_dataset_is_drawn_like_the_result_of_it():
     data = simulated()
-    panels, _ = drawn(maps.draw(data.isel(step=1)))
+    panels, _ = drawn(maps.plot_maps(data.isel(step=1)))
     kept = data.isel(step=1)
     assert np.allclose(panels[1].images[0].get_array(), kept.pressure * 1e3, rtol=1e-12)
     result = contactsim.press(data.heights.values, spacing=4.0, contact_modulus=1.0, mean_pressure=0.02)
-    again, _ = drawn(maps.draw(result, spacing=4.0))
+    again, _ = drawn(maps.plot_result(result, spacing=4.0))
     for one, other in zip(panels, again, strict=True):
         assert np.allclose(one.images[0].get_array(), other.images[0].get_array(), atol=1e-9)
         assert one.images[0].get_extent() == other.images[0].get_extent()
@@ -216,19 +216,18 @@ def test_one_load_of_a_dataset_is_drawn_like_the_result_of_it():
 
 def test_what_cannot_be_drawn_is_refused_with_key_and_what_is_allowed():
     line = contactsim.press([0.0, 1.0, 0.5, -1.0], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1)
-    error = refusal(lambda: maps.draw(line, spacing=1.0))
+    error = refusal(lambda: maps.plot_result(line, spacing=1.0))
     assert (error.key, error.value) == ("dimensions", 1)
     assert "surfaces" in error.allowed
     for spacing in (None, 0.0, -1.0, "1", (1.0, 2.0, 3.0), (1.0, np.nan)):
-        error = refusal(lambda spacing=spacing: maps.draw(pressed(), spacing=spacing))
+        error = refusal(lambda spacing=spacing: maps.plot_result(pressed(), spacing=spacing))
         assert (error.key, error.value) == ("spacing", spacing)
     lost = pressed(solver=make_solver("conjugate_gradients", budget=1, inner_budget=1), tolerance=1e-12)
-    assert refusal(lambda: maps.draw(lost, spacing=SPACING)).key == "status"
+    assert refusal(lambda: maps.plot_result(lost, spacing=SPACING)).key == "status"
     data = simulated()
-    assert refusal(lambda: maps.draw(data)).key == "step"
-    assert refusal(lambda: maps.draw(data.isel(step=0), spacing=4.0)).key == "spacing, length_unit, pressure_unit"
-    assert refusal(lambda: maps.draw(data.isel(step=0).assign(status=1))).key == "status"
-    assert refusal(lambda: maps.draw(simulated(keep=["contact"]).isel(step=0))).key == "keep"
+    assert refusal(lambda: maps.plot_maps(data)).key == "step"
+    assert refusal(lambda: maps.plot_maps(data.isel(step=0).assign(status=1))).key == "status"
+    assert refusal(lambda: maps.plot_maps(simulated(keep=["contact"]).isel(step=0))).key == "keep"
 
 
 def test_a_line_of_a_study_is_refused(made):

@@ -10,10 +10,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from contactsim import dataset
-from contactsim.analysis import aggregate
+from contactsim.analysis import aggregate, resolution
 from contactsim.errors import InputError
 from contactsim.figures import ch3, style
-from contactsim.figures.parts import resolution
+from contactsim.figures.parts import resolution as resolution_curves
 from contactsim.observables.forms import AVERAGED
 from contactsim.study.plan import Plan
 
@@ -49,7 +49,7 @@ COARSER, FINER = made([1024, 2048, 4096]), made([8192], members=1, hurst=[0.2])
 
 
 def test_the_table_has_means_changes_member_by_member_and_limits():
-    shown = resolution.table(COARSER, FINER)
+    shown = resolution.grid_table(COARSER, FINER)
     one = place(shown, "kappa", 0.2, 0.01)
     assert list(one.index) == ["4 points", "8 points", "16 points", "32 points", "limit"]
     mean = LEVELS.mean()
@@ -65,7 +65,7 @@ def test_the_table_has_means_changes_member_by_member_and_limits():
 
 
 def test_what_a_grid_costs_is_said_in_words():
-    text = resolution.in_words(resolution.table(COARSER, FINER), "kappa_r", "8 points")
+    text = "\n".join(resolution.change_texts(resolution.grid_table(COARSER, FINER), "kappa_r", "8 points"))
     for part in (
         "on 16 points: +0.062 to +0.062",
         "on 32 points: +0.094",
@@ -77,7 +77,7 @@ def test_what_a_grid_costs_is_said_in_words():
 
 def test_grids_are_drawn_by_points_per_wavelength_and_limits_beside_them():
     axes = Figure().subplots()
-    resolution.draw(resolution.table(COARSER, FINER), "kappa", axes)
+    resolution_curves.plot_factor(resolution.grid_table(COARSER, FINER), "kappa", axes)
     curves = [container.lines[0] for container in axes.containers if len(container.lines[0].get_xdata()) > 1]
     assert [list(curve.get_xdata()) for curve in curves] == [[4, 8, 16, 32]] * 2 + [[4, 8, 16]] * 2
     limits = [container.lines[0] for container in axes.containers if len(container.lines[0].get_xdata()) == 1]
@@ -86,21 +86,21 @@ def test_grids_are_drawn_by_points_per_wavelength_and_limits_beside_them():
 
 def test_ratios_are_taken_at_equal_points_per_wavelength():
     lines = made([256, 512, 1024], scale=0.9, surface=SURFACE | {"length": 128.0})
-    shown = resolution.ratios(lines, COARSER)
+    shown = resolution.ratio_table(lines, COARSER)
     one = place(shown, "kappa_r", 0.8, 0.1)
     mean = LEVELS.mean()
     assert one.value["8 points"] == pytest.approx(0.9 * (mean + 1 / 2) / (mean + 1 / 8), rel=1e-12)
     assert one.value["limit"] == pytest.approx(0.9, rel=1e-9)
     assert one.error["limit"] == pytest.approx(0.9 * np.sqrt(2 / 3) * LEVELS.std(ddof=1) / mean, rel=0.05)
     axes = Figure().subplots()
-    resolution.draw_limits(shown, axes)
+    resolution_curves.plot_ratio_limits(shown, axes)
     assert len(axes.containers) == 6
 
 
 def test_ratios_of_ensembles_on_unequal_grids_are_refused():
     lines = made([512, 1024, 2048], scale=0.9, surface=SURFACE | {"length": 128.0})
     with pytest.raises(InputError, match=r"points: got \[4.0, 8.0, 16.0\]; allowed: .*\[8.0, 16.0, 32.0\]"):
-        resolution.ratios(lines, COARSER)
+        resolution.ratio_table(lines, COARSER)
 
 
 @pytest.mark.parametrize("tier", ["quick", "standard", "full"])

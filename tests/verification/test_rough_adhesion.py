@@ -10,8 +10,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from contactsim import dataset
+from contactsim.analysis.scales import LawScales
 from contactsim.figures import ch5
-from contactsim.figures.parts import rough_curves
 from contactsim.observables.adhesion import CRITERION, INTERACTING
 from contactsim.status import Status
 
@@ -94,7 +94,7 @@ def test_the_cycle_dissipates_less_on_rougher_lines_and_pulls_more_when_it_is_pu
     assert (np.diff(ends.dissipated_work_mean) < 0).all()
     assert (ends.dissipated_work_mean > -ends.dissipated_work_error).all()
     assert (ends.pull_off_load_unloading_mean > 0.999 * ends.pull_off_load_loading_mean).all()
-    assert (ends.dissipated_work_mean < rough_curves.work(data)).all()
+    assert (ends.dissipated_work_mean < LawScales.of(data).work_of_separation).all()
 
 
 def test_contact_by_five_criteria_is_shown_for_both_ends_of_the_works(studies):

@@ -216,7 +216,7 @@ def test_a_part_of_the_fields_is_what_lies_between():
 def test_a_map_shows_each_stress_on_a_scale_symmetric_about_zero():
     found = hertz(0.3, 256, 8.0, np.linspace(0, 3, 12))
     figure, axes = plt.subplots(1, 3)
-    shown = stress.draw(found, axes, scale=2.0, unit="$2 p_0$")
+    shown = stress.plot_stress(found, axes, scale=2.0, unit="$2 p_0$")
     for panel, name, component in zip(axes, stress.STRESSES, range(3), strict=True):
         mesh = panel.collections[0]
         least, most = mesh.get_clim()
@@ -226,5 +226,5 @@ def test_a_map_shows_each_stress_on_a_scale_symmetric_about_zero():
         assert panel.get_ylim() == (3.0, 0.0)
     assert [bar.get_xlabel() for bar in figure.axes[3:]] == [f"{name} ($2 p_0$)" for name in stress.STRESSES.values()]
     nothing = replace(found, stress=np.zeros_like(found.stress))
-    stress.draw(nothing, plt.subplots(1, 3)[1])
+    stress.plot_stress(nothing, plt.subplots(1, 3)[1])
     plt.close("all")

@@ -82,7 +82,11 @@ def friction_against_modulus(data: xr.Dataset) -> pd.DataFrame:
     scale = 1 / (float(member.length) * MODULUS)
     names = ("mean_friction", "average_friction")
     table |= {name: scale * member[name].values for name in names}
-    table |= {"slip_count": member.slip_count.values, "thickness": body["thickness"], "critical": critical_modulus_ratio(data)}
+    table |= {
+        "slip_count": member.slip_count.values,
+        "thickness": body["thickness"],
+        "critical": critical_modulus_ratio(data),
+    }
     table |= {f"{name}_increment_error": scale * member[f"{name}_increment_error"].values for name in names}
     return pd.DataFrame(table)
 

@@ -16,7 +16,7 @@ from contactsim.analysis import ensemble
 from contactsim.analysis.resolution import ratio_table
 from contactsim.analysis.round_contact import KAPPA_R, beside_exact
 from contactsim.figures import style
-from contactsim.figures.maps import plot_fields
+from contactsim.figures.maps import SurfaceFields, plot_fields
 from contactsim.figures.parts import proportionality, resolution
 from contactsim.notation import PLACES
 
@@ -193,7 +193,7 @@ def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
     labels = [f"{PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
     axes[0].text(1, -0.03, ", ".join(labels), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")
-    return plot_fields(fields, axes).assign(**places)
+    return plot_fields(SurfaceFields.of_dataset(fields), axes).assign(**places)
 
 
 def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:

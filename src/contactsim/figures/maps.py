@@ -158,24 +158,19 @@ def plot_result(
 def _figure(fields: SurfaceFields, size: tuple[float, float]) -> Figure:
     """Return the maps in a figure of their own."""
     figure = Figure(figsize=size, layout="constrained", dpi=RESOLUTION)
-    _plot(fields, list(figure.subplots(1, 3)))
+    plot_fields(fields, list(figure.subplots(1, 3)))
     figure.draw_without_rendering()  # ticks take their look when they are first drawn
     return figure
 
 
-def plot_fields(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the maps of one load of a dataset on three axes of a figure with constrained layout.
+def plot_fields(fields: SurfaceFields, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the maps of one load on three axes of a figure with constrained layout.
 
     Returns
     -------
     table : one row a map; mean, least and largest of all points, in the unit given; shown_least, shown_largest: ends
         of the colours; pixel_points: points along the side of a pixel
     """
-    return _plot(SurfaceFields.of_dataset(data), axes)
-
-
-def _plot(fields: SurfaceFields, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the maps and return what they show."""
     figure = axes[0].figure
     constrained = figure.get_layout_engine().get() | {"wspace": 0.04}
     figure.set_layout_engine("compressed", **constrained)  # which heeds the fixed proportions

@@ -14,7 +14,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "run_neglecting": ("contactsim.study.execute_neglecting",),
     "select_effects": ("contactsim.study.select_effects",),
     "aggregate": ("contactsim.analysis.aggregate", "contactsim.analysis.costs"),
-    "figure": ("contactsim.figures.layout",),
+    "figure": ("contactsim.figures.layout", "contactsim.study.law_table"),
     "claims": ("contactsim.analysis.claims", "contactsim.figures.diagnostics.claims"),
     "hazard": ("contactsim.evaluation.robustness.survey",),
 }
