@@ -7,7 +7,7 @@ import contactsim
 from contactsim import cli, dataset
 from contactsim.contact import loading
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.figures import maps
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.driver import follow_path

@@ -11,7 +11,9 @@ from numpy.typing import ArrayLike
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.loading import approaches, pressures
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
+from contactsim.elasticity.base import Elasticity
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run

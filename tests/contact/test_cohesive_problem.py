@@ -10,7 +10,8 @@ import pytest
 from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import approaches
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.registry import make_solver

@@ -12,7 +12,7 @@ import yaml
 from contactsim import cli, dataset
 from contactsim.analysis.aggregate import aggregate
 from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import summarise_load_curves

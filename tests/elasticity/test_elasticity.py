@@ -6,7 +6,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from contactsim.elasticity.solids import ELASTICITIES, HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
+from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import layer_response
 from contactsim.traits import Trait

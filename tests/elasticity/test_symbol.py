@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.elasticity.solids import HalfSpace, Layer, relative_compliance
-from contactsim.elasticity.symbol import Coupled, Normal
+from contactsim.elasticity.base import relative_compliance
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
+from contactsim.elasticity.symbol import CoupledSymbol, NormalSymbol
 from contactsim.errors import InputError
 from contactsim.grid import Grid
 
@@ -20,7 +22,7 @@ def random_coefficients(rows: int, seed: int = 0) -> np.ndarray:
 
 
 @pytest.fixture(params=[ONE, BOTH], ids=["n", "nt"])
-def symbol(request) -> Normal | Coupled:
+def symbol(request) -> NormalSymbol | CoupledSymbol:
     return relative_compliance(Layer(2.0, 0.2, 9.0), HalfSpace(3.0, 0.4), LINE, request.param)
 
 

@@ -13,7 +13,7 @@ import pytest
 from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.errors import InputError
 from contactsim.explanation import Explanation, explain_setup
 from contactsim.figures.sketch import save_sketch
@@ -107,7 +107,7 @@ PRESS_A_SURFACE = """
 import sys
 from contactsim.contact import loading
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.hard_wall import HardWall
 from contactsim.simulation import simulate
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed

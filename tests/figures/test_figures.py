@@ -14,7 +14,7 @@ from contactsim.analysis import wording
 from contactsim.analysis.reductions import REDUCTIONS, mean_quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.evaluation.work_precision.case_config import PRICED
 from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims

@@ -12,7 +12,7 @@ from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
-from contactsim.elasticity.solids import Layer
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall

@@ -12,7 +12,7 @@ from contactsim import reference
 from contactsim.contact import loading
 from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import (
     FINAL,

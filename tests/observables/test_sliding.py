@@ -14,7 +14,8 @@ from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.work_precision.knobs import solutions
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice

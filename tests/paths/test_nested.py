@@ -10,7 +10,8 @@ from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall

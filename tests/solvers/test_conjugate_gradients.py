@@ -11,7 +11,8 @@ from contactsim import reference
 from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import check_solver, solve

@@ -13,7 +13,7 @@ from contactsim import reference
 from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.errors import InputError
 from contactsim.explanation import explain_setup
 from contactsim.interface.hard_wall import HardWall

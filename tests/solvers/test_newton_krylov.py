@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import Tangent, pose_cohesive
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.gmres import gmres

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import yaml
 
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan

@@ -9,7 +9,8 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
 from contactsim.contact.loading import LoadPath, approaches
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import Elasticity, Layer
+from contactsim.elasticity.base import Elasticity
+from contactsim.elasticity.layer import Layer
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import state_observables

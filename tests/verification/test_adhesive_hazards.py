@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from contactsim.contact.loading import pressures
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.robustness import rough
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.judge import find_path_violation, judge

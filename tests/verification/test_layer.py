@@ -15,7 +15,8 @@ import contactsim
 from contactsim.contact import loading
 from contactsim.contact.hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace, Layer
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case, layer_response
 from contactsim.evaluation.robustness.judge import judge

@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 from contactsim import reference
-from contactsim.elasticity.solids import FreeLayer, HalfSpace, Layer, relative_compliance
-from contactsim.elasticity.subsurface import Fields, inside
+from contactsim.elasticity.base import relative_compliance
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
+from contactsim.elasticity.subsurface import SubsurfaceFields, subsurface_fields
 from contactsim.errors import InputError
 from contactsim.figures.parts import stress
 from contactsim.grid import Grid
@@ -60,7 +62,7 @@ def test_a_wave_is_right_to_rounding_at_every_depth(ratio, x):
     shares = np.array([0.0, 1e-3, 0.3, 0.9, 0.999, 1.0])
     for traction in ([1, 0], [0, 1]):
         surface = np.array(traction)[:, None] * np.cos(grid.positions())
-        found = inside(body, grid, surface, shares * x)
+        found = subsurface_fields(body, grid, surface, shares * x)
         waves = np.concatenate([found.displacement, found.stress], axis=1)
         coefficients = np.fft.rfft(waves)[..., 1] / 4
         with mpmath.workdps(40):
@@ -76,7 +78,7 @@ def test_a_wave_is_right_to_rounding_at_every_depth(ratio, x):
 @pytest.mark.parametrize("rows", [1, 2])
 def test_the_surface_has_the_tractions_and_displacements_given_and_the_base_none(body, rows):
     tractions = np.vstack([smooth(rows), np.zeros((2 - rows, 96))])
-    found = inside(body, LINE, tractions[:rows], [0.0, min(body.base_depth, 1e3)])
+    found = subsurface_fields(body, LINE, tractions[:rows], [0.0, min(body.base_depth, 1e3)])
     scale = np.abs(tractions).max()
     assert np.allclose(found.stress[0, 1:], tractions, rtol=0, atol=1e-13 * scale)
     compliance = relative_compliance(body, None, LINE, ("n", "t"))
@@ -96,7 +98,7 @@ def test_stresses_are_in_equilibrium_and_strains_are_those_of_the_displacement(b
     depth = 0.4 * min(body.base_depth, 5.0)
     errors = []
     for step in (0.02 * depth, 0.01 * depth):
-        found = inside(body, LINE, smooth(2), [depth - step, depth, depth + step])
+        found = subsurface_fields(body, LINE, smooth(2), [depth - step, depth, depth + step])
         upwards = [-(values[2] - values[0]) / (2 * step) for values in (found.displacement, found.stress)]
         (u_n, u_t), (xx, zz, xz) = found.displacement[1], found.stress[1]
         (dn, dt), (_, dzz, dxz) = upwards
@@ -121,9 +123,9 @@ def test_stresses_are_in_equilibrium_and_strains_are_those_of_the_displacement(b
 @pytest.mark.parametrize("ratio", [0.3, 0.5])
 def test_a_deep_layer_is_a_half_space_and_the_thickest_does_not_overflow(ratio):
     depths, tractions = [0.0, 0.3, 5.0, 80.0], smooth(2, modes=40)
-    exact = inside(HalfSpace(2.0, ratio), LINE, tractions, depths)
+    exact = subsurface_fields(HalfSpace(2.0, ratio), LINE, tractions, depths)
     for thickness in (600.0, 1e5, 1e300):
-        found = inside(Layer(2.0, ratio, thickness), LINE, tractions, [*depths, thickness])
+        found = subsurface_fields(Layer(2.0, ratio, thickness), LINE, tractions, [*depths, thickness])
         assert np.allclose(found.stress[:-1], exact.stress, rtol=0, atol=1e-13 * np.abs(exact.stress).max())
         sunk = found.displacement[0].mean(-1, keepdims=True)
         if thickness < 1e100:  # above, nothing is left beside it
@@ -133,18 +135,18 @@ def test_a_deep_layer_is_a_half_space_and_the_thickest_does_not_overflow(ratio):
 
 def test_the_mean_is_carried_uniformly_and_sinks_linearly():
     body = Layer(2.0, 0.3, 8.0)
-    found = inside(body, LINE, np.tile([[-0.1], [0.02]], 96), [0.0, 2.0, 8.0])
+    found = subsurface_fields(body, LINE, np.tile([[-0.1], [0.02]], 96), [0.0, 2.0, 8.0])
     assert np.allclose(found.stress, np.reshape([-0.1 * 3 / 7, -0.1, 0.02], (1, 3, 1)))
     normal, along = found.displacement[..., 0].T
     assert np.allclose(normal, -0.1 * 8 / (2 * 0.7**2 / 0.4) * np.array([1, 0.75, 0]))
     assert np.allclose(along, 0.02 * 8 / 0.7 * np.array([1, 0.75, 0]))
 
 
-def hertz(ratio: float, points: int, period: float, depths: np.ndarray) -> Fields:
+def hertz(ratio: float, points: int, period: float, depths: np.ndarray) -> SubsurfaceFields:
     """Under a cylinder's pressure with half-width and peak 1."""
     grid = Grid((points,), (period,))
     pressure = reference.cylinder_pressure(grid.positions() - period / 2, 1.0, 0.5, 1.0)
-    return inside(HalfSpace(1.0, ratio), grid, -pressure[None], depths)
+    return subsurface_fields(HalfSpace(1.0, ratio), grid, -pressure[None], depths)
 
 
 def neighbours(depth: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray]:
@@ -172,11 +174,12 @@ def test_the_stress_below_a_cylinder_is_hertzs(ratio):
 
 def test_the_largest_shear_below_a_cylinder_is_where_it_should_be():
     depths = np.linspace(0.7, 0.9, 41)
-    found = hertz(0.5, 16384, 256.0, depths)
-    shear = found.largest_shear[:, 16384 // 2]
+    along, normal, shear = np.moveaxis(hertz(0.5, 16384, 256.0, depths).stress, 1, 0)
+    largest_shear = np.hypot((along - normal) / 2, shear)
+    shear = largest_shear[:, 16384 // 2]
     assert shear.max() == pytest.approx(0.300, abs=5e-4)
     assert depths[shear.argmax()] == pytest.approx(0.786, abs=0.006)
-    assert found.largest_shear.max() == shear.max()
+    assert largest_shear.max() == shear.max()
     along, normal = reference.cylinder_stress_on_axis(np.array([0.786]), 1.0, 1.0)
     assert (along - normal)[0] / 2 == pytest.approx(0.300, abs=5e-4)
 
@@ -194,15 +197,13 @@ def test_the_largest_shear_below_a_cylinder_is_where_it_should_be():
 )
 def test_what_is_not_inside_or_no_traction_is_refused(traction, depths, key):
     with pytest.raises(InputError) as caught:
-        inside(Layer(1.0, 0.3, 7.0), LINE, traction, depths)
+        subsurface_fields(Layer(1.0, 0.3, 7.0), LINE, traction, depths)
     assert caught.value.key == key
 
 
-def test_bodies_without_a_ratio_or_a_base_are_refused():
-    for body, key in ((HalfSpace(1.0), "poisson_ratio"), (FreeLayer(1.0, 0.3, 7.0), "body")):
-        with pytest.raises(InputError) as caught:
-            inside(body, LINE, np.zeros((1, 96)), [1.0])
-        assert caught.value.key == key
+def test_a_body_without_a_ratio_is_refused():
+    with pytest.raises(InputError, match="poisson_ratio"):
+        subsurface_fields(HalfSpace(1.0), LINE, np.zeros((1, 96)), [1.0])
 
 
 def test_a_part_of_the_fields_is_what_lies_between():

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.elasticity.subsurface import Fields, inside
+from contactsim.elasticity.subsurface import SubsurfaceFields, subsurface_fields
 from contactsim.grid import Grid
 from contactsim.study.scenes import build_elasticity
 
@@ -16,7 +16,7 @@ DEPTHS, MARGIN = 81, 1.2
 """Number of depths, and the largest of them over the length of contact, which also bounds the positions."""
 
 
-def stress_below_contact(state: xr.Dataset) -> Fields:
+def stress_below_contact(state: xr.Dataset) -> SubsurfaceFields:
     """Return displacement and stress in the lower body around the contact (Section 2.2).
 
     Parameters
@@ -33,5 +33,7 @@ def stress_below_contact(state: xr.Dataset) -> Fields:
     reach = MARGIN * float(state.final_contact_length)
     middle = grid.positions()[state.x.size // 2]
     body = build_elasticity(dataset.settings_of(state)["body"])
-    fields = inside(body, grid, traction, np.linspace(0.0, reach, DEPTHS)).between(middle - reach, middle + reach)
+    fields = subsurface_fields(body, grid, traction, np.linspace(0.0, reach, DEPTHS)).between(
+        middle - reach, middle + reach
+    )
     return replace(fields, position=fields.position - middle)

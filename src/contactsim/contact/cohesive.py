@@ -28,7 +28,7 @@ import numpy as np
 
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.solids import relative_compliance
+from contactsim.elasticity.base import relative_compliance
 from contactsim.elasticity.symbol import Symbol
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter

@@ -15,7 +15,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from contactsim.contact.loading import LoadPath
-from contactsim.elasticity.solids import Elasticity
+from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, is_coupled

@@ -10,7 +10,8 @@ from collections.abc import Callable, Collection
 from dataclasses import replace
 
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import Elasticity, HalfSpace
+from contactsim.elasticity.base import Elasticity
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.base import Effect, is_coupled
 from contactsim.surfaces.self_affine import SelfAffine
 

@@ -1,13 +1,11 @@
-"""What is diagonal in Fourier space and acts on one or two components of a field at once.
+"""Symbols: matrices that are diagonal in Fourier space and act on one or two components of a field.
 
-A symbol gives, at each wavenumber of a real transform, the matrix that takes one surface field to another: a compliance
-takes tractions to displacements, a stiffness the other way. Rows are the components, normal and then along x, as a
-scene lists them, and a solver need not know how many there are. With one component the matrix is a number; with two it
-is [[nn, i·nt], [-i·nt, tt]], three real numbers: Hermitian, and mirror symmetric.
+At each wavenumber a compliance takes tractions to displacements, a stiffness the other way. Rows are the components,
+normal and then along x. With one component the matrix is a number; with two it is [[nn, i·nt], [-i·nt, tt]], with three
+real numbers: Hermitian and mirror symmetric.
 
-Half-spaces and incompressible layers do not say how far their mean moves: it is zero by convention, or because volume
-is kept. Such a mode is held. Its entry is zero in a compliance, and stays zero in every inverse, so that a held mode
-is left out of whatever a symbol is applied to, and no infinity is ever multiplied.
+The uniform mode of half-spaces and incompressible layers is held: it does not move, by convention or because volume is
+kept. Its entry is zero in a compliance and in every inverse, so that no infinity is ever multiplied.
 """
 
 from __future__ import annotations
@@ -22,68 +20,78 @@ from contactsim.grid import Array
 
 
 class Symbol(Protocol):
-    """A matrix at each wavenumber, acting on coefficients of shape (component, …)."""
+    """A matrix at each wavenumber that acts on coefficients of shape (component, …)."""
 
     components: ClassVar[tuple[str, ...]]
     diagonal: Array
 
     @property
     def held(self) -> Array:
-        """Which components of which modes do not move, shape (component, …), boolean."""
+        """Components and modes that do not move, shape (component, …), boolean."""
         ...
 
     def apply(self, coefficients: Array, out: Array | None = None) -> Array:
-        """Multiply coefficients (component, …), complex; `out` (may be `coefficients`) receives the result."""
+        """Return the product with coefficients, shape (component, …), also in `out`, which may be `coefficients`."""
         ...
 
     def inverse(self, shift: float | Array = 0.0) -> Symbol:
-        """Inverse after adding `shift` ≥ 0, one number or one for each component, to the diagonal; held modes stay."""
+        """Return the inverse of the symbol plus `shift` ≥ 0, one number or one for each component; held modes stay."""
         ...
 
 
 @dataclass(frozen=True)
-class Normal:
-    """One component. diagonal: (1, …)."""
+class NormalSymbol:
+    """Symbol of the normal component alone.
+
+    Parameters
+    ----------
+    diagonal : array, shape (1, …)
+        Entry nn at each wavenumber.
+    """
 
     diagonal: Array
     components: ClassVar[tuple[str, ...]] = ("n",)
 
     @cached_property
     def held(self) -> Array:
-        """Which modes do not move, boolean, (1, …)."""
+        """Modes that do not move, shape (1, …), boolean."""
         return self.diagonal == 0
 
     def apply(self, coefficients: Array, out: Array | None = None) -> Array:
-        """Multiply coefficients (1, …); `out` (may be `coefficients`) receives the result."""
+        """Return the product with coefficients, shape (1, …); `out`, which may be `coefficients`, receives it."""
         return np.multiply(self.diagonal, coefficients, out=out)
 
-    def inverse(self, shift: float | Array = 0.0) -> Normal:
-        """One over the diagonal plus `shift`; held modes stay zero."""
+    def inverse(self, shift: float | Array = 0.0) -> NormalSymbol:
+        """Return one over the sum of the diagonal and `shift`; held modes stay zero."""
         moved = np.add(self.diagonal, np.reshape(shift, (-1,) + (1,) * (self.diagonal.ndim - 1)))
-        return Normal(np.divide(1.0, moved, out=np.zeros_like(moved), where=~self.held))
+        return NormalSymbol(np.divide(1.0, moved, out=np.zeros_like(moved), where=~self.held))
 
-    def modes(self, chosen: slice) -> Normal:
-        """The part for some of the wavenumbers of a line."""
-        return Normal(self.diagonal[:, chosen])
+    def modes(self, selection: slice) -> NormalSymbol:
+        """Return the symbol at some of the wavenumbers of a line."""
+        return NormalSymbol(self.diagonal[:, selection])
 
-    def coarser(self, count: int) -> Normal:
-        """The same on a line of fewer points, an even number, with `count` wavenumbers."""
+    def coarser(self, count: int) -> NormalSymbol:
+        """Return the symbol on a line of fewer points, an even number, with `count` wavenumbers."""
         return self.modes(slice(0, count))
 
-    def mirrored(self) -> Normal:
-        """The same body turned upside down, in the frame of the one that it faces."""
+    def mirrored(self) -> NormalSymbol:
+        """Return the symbol of the same body upside down."""
         return self
 
-    def __add__(self, other: Normal) -> Normal:
-        return Normal(self.diagonal + other.diagonal)
+    def __add__(self, other: NormalSymbol) -> NormalSymbol:
+        return NormalSymbol(self.diagonal + other.diagonal)
 
 
 @dataclass(frozen=True)
-class Coupled:
-    """Two components of a line, normal and along x, which move each other.
+class CoupledSymbol:
+    """Symbol of two coupled components of a line, normal and along x.
 
-    diagonal: nn and tt, real, (2, m); coupling: imaginary part nt of the entry that takes t to n, (m,), zero where
-    either component is held.
+    Parameters
+    ----------
+    diagonal : array, shape (2, m)
+        Entries nn and tt.
+    coupling : array, shape (m,)
+        Imaginary part nt of the entry that takes t to n; zero where either component is held.
     """
 
     diagonal: Array
@@ -92,57 +100,63 @@ class Coupled:
 
     @cached_property
     def held(self) -> Array:
-        """Which components of which modes do not move, boolean, (2, m)."""
+        """Components and modes that do not move, shape (2, m), boolean."""
         return self.diagonal == 0
 
     @cached_property
     def _straight(self) -> Array:
-        """The diagonal as complex numbers, which numpy multiplies by others twice as fast."""
+        """Diagonal as complex numbers: numpy multiplies two complex arrays twice as fast."""
         return self.diagonal.astype(complex)
 
     @cached_property
     def _cross(self) -> Array:
-        """What takes t to n, and n to t: complex, (2, m)."""
+        """Entries that take t to n, and n to t, shape (2, m), complex."""
         return 1j * np.stack([self.coupling, -self.coupling])
 
     def apply(self, coefficients: Array, out: Array | None = None) -> Array:
-        """Multiply coefficients (2, m); `out` (may be `coefficients`) receives the result."""
+        """Return the product with coefficients, shape (2, m); `out`, which may be `coefficients`, receives it."""
         crossed = self._cross * coefficients[::-1]
         out = np.multiply(self._straight, coefficients, out=out)
         out += crossed
         return out
 
-    def inverse(self, shift: float | Array = 0.0) -> Coupled:
-        """Inverse after `shift`, one number or one for each component, is added to the diagonal; held modes stay.
+    def inverse(self, shift: float | Array = 0.0) -> CoupledSymbol:
+        """Return the inverse of the symbol plus `shift`, one number or one for each component; held modes stay.
 
-        Of a compliance or stiffness, both positive definite, it is right to 3e-15 of √(nn·tt).
+        For a compliance or a stiffness, both positive definite, errors are below 3e-15 √(nn·tt).
         """
         moved = np.where(self.held, 1.0, self.diagonal + np.reshape(shift, (-1, 1)))
         determinant = moved[0] * moved[1] - self.coupling**2
         diagonal = np.where(self.held, 0.0, moved[::-1] / determinant)
-        return Coupled(diagonal, -self.coupling / determinant)
+        return CoupledSymbol(diagonal, -self.coupling / determinant)
 
-    def modes(self, chosen: slice) -> Coupled:
-        """The part for some of the wavenumbers."""
-        return Coupled(self.diagonal[:, chosen], self.coupling[chosen])
+    def modes(self, selection: slice) -> CoupledSymbol:
+        """Return the symbol at some of the wavenumbers."""
+        return CoupledSymbol(self.diagonal[:, selection], self.coupling[selection])
 
-    def coarser(self, count: int) -> Coupled:
-        """The same on a line of fewer points, an even number, with `count` wavenumbers; the last is not coupled."""
+    def coarser(self, count: int) -> CoupledSymbol:
+        """Return the symbol on a line of fewer points, an even number, with `count` wavenumbers.
+
+        The last of them is not coupled.
+        """
         part = self.modes(slice(0, count))
-        return Coupled(part.diagonal, np.where(np.arange(count) < count - 1, part.coupling, 0.0))
+        return CoupledSymbol(part.diagonal, np.where(np.arange(count) < count - 1, part.coupling, 0.0))
 
-    def mirrored(self) -> Coupled:
-        """The same body turned upside down, in the frame of the one that it faces: its coupling changes sign."""
-        return Coupled(self.diagonal, -self.coupling)
+    def mirrored(self) -> CoupledSymbol:
+        """Return the symbol of the same body upside down: the coupling changes sign."""
+        return CoupledSymbol(self.diagonal, -self.coupling)
 
-    def __add__(self, other: Coupled) -> Coupled:
-        return Coupled(self.diagonal + other.diagonal, self.coupling + other.coupling)
+    def __add__(self, other: CoupledSymbol) -> CoupledSymbol:
+        return CoupledSymbol(self.diagonal + other.diagonal, self.coupling + other.coupling)
 
-    def without_shear(self) -> Normal:
-        """Of a compliance: the normal one of a surface that no shear acts on, which slips."""
-        return Normal(self.diagonal[:1])
+    def without_shear(self) -> NormalSymbol:
+        """Return, of a compliance, that of a surface without shear, which slips."""
+        return NormalSymbol(self.diagonal[:1])
 
     def slip(self) -> Array:
-        """Of a compliance: displacement along x over the normal one where no shear acts, complex, (m,); 0 if held."""
+        """Return, of a compliance, the ratio of displacement along x to normal displacement without shear.
+
+        The ratio is complex, shape (m,), and 0 for held modes.
+        """
         normal = self.diagonal[0]
         return -1j * np.divide(self.coupling, normal, out=np.zeros_like(normal), where=normal != 0)

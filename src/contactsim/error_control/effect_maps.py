@@ -18,7 +18,7 @@ import numpy as np
 
 from contactsim.contact.scene import Scene
 from contactsim.contact.simplification import simplify
-from contactsim.elasticity.solids import ELASTICITIES
+from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.error_control.control import Solution, relative_difference, solve_setup
 from contactsim.error_control.scaling import read_data_file
 from contactsim.grid import Array

@@ -7,7 +7,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import FreeLayer
 from contactsim.figures import style
 from contactsim.traits import Trait
 
@@ -63,7 +62,7 @@ def _body(axes: Axes, body: Body, x: np.ndarray, surface: np.ndarray, far: float
     if thickness is None:
         return far
     near = surface.min() if side == "lower" else surface.max()
-    end = far if isinstance(body.elasticity, FreeLayer) else far + 0.3 * (far - near)
+    end = far + 0.3 * (far - near)
     axes.fill_between(x, far, end, facecolor=RIGID, edgecolor="0.5", hatch="////", lw=0)
     axes.annotate("", (x[x.size // 12], near), (x[x.size // 12], far), arrowprops={"arrowstyle": "<->", "color": "k"})
     exact = "" if np.isclose(abs(far - near), thickness) else ", not to scale"

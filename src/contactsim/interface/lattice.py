@@ -18,7 +18,7 @@ from functools import cached_property
 
 import numpy as np
 
-from contactsim.elasticity.solids import Elasticity
+from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.base import Law, potential

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Protocol
 
-from contactsim.elasticity.solids import Elasticity
+from contactsim.elasticity.base import Elasticity
 from contactsim.grid import Array
 from contactsim.interface.base import Law
 from contactsim.traits import Trait

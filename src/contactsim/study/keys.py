@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.elasticity.solids import ELASTICITIES
+from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.observables.contact import KEPT
 from contactsim.paths.increments import INCREMENTS

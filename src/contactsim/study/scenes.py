@@ -14,7 +14,8 @@ from contactsim.contact.loading import LoadPath, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.simplification import simplify
 from contactsim.contact.steps import LoadStep, Slide
-from contactsim.elasticity.solids import ELASTICITIES, Elasticity
+from contactsim.elasticity.base import Elasticity
+from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.interface.pairing import ALIGNED, Pairing

@@ -6,7 +6,9 @@ import numpy as np
 
 from contactsim.contact.loading import LoadPath, approaches, pressures
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
+from contactsim.elasticity.base import Elasticity
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.robustness.cases import nearly_incompressible_ratio
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.interface.base import Law

@@ -19,7 +19,9 @@ from contactsim.contact.cohesive import MAX_TOLERANCE, CohesiveProblem, pose_coh
 from contactsim.contact.loading import LoadPath
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.solids import Elasticity, HalfSpace, Layer
+from contactsim.elasticity.base import Elasticity
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.grid import Array
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

@@ -12,7 +12,7 @@ import numpy as np
 
 from contactsim.contact.loading import approaches
 from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.solids import HalfSpace
+from contactsim.elasticity.half_space import HalfSpace
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.grid import Array
 from contactsim.interface.base import Law

@@ -11,7 +11,7 @@ import numpy as np
 from contactsim.contact.loading import LoadPath, approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.solids import Layer
+from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from contactsim.elasticity.subsurface import Fields
+from contactsim.elasticity.subsurface import SubsurfaceFields
 from contactsim.figures import style
 from contactsim.grid import Array
 
@@ -17,7 +17,7 @@ COLOURS = "RdBu_r"
 """Tension red, compression blue, none white."""
 
 
-def plot_stress(fields: Fields, axes: Sequence[Axes], scale: float = 1.0, unit: str = "GPa") -> pd.DataFrame:
+def plot_stress(fields: SubsurfaceFields, axes: Sequence[Axes], scale: float = 1.0, unit: str = "GPa") -> pd.DataFrame:
     """Map σ_xx, σ_zz and σ_xz onto three axes, each on its own colour scale, symmetric about zero.
 
     Parameters
@@ -41,7 +41,7 @@ def plot_stress(fields: Fields, axes: Sequence[Axes], scale: float = 1.0, unit: 
     return table
 
 
-def _plot_map(axes: Axes, fields: Fields, values: Array, label: str) -> None:
+def _plot_map(axes: Axes, fields: SubsurfaceFields, values: Array, label: str) -> None:
     """Map one stress, with lines at tenths of its largest value."""
     limit = np.abs(values).max() or 1.0
     place = fields.position, fields.depth
