@@ -24,7 +24,7 @@ from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
-from contactsim.evaluation import budget
+from contactsim.evaluation import estimate
 from contactsim.explanation import explain_setup
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.forms import form_of
@@ -142,7 +142,7 @@ def _table(data: xr.Dataset) -> str:
         columns.append([part.replace("_ ", "_") for part in head] + [_cell(value) for value in values])
     tall, widths = max(map(len, columns)), [max(map(len, column)) for column in columns]
     lines = zip(*([""] * (tall - len(column)) + column for column in columns), strict=True)
-    return "\n".join(budget.right(line, widths).rstrip() for line in lines)
+    return "\n".join(estimate.align_right(line, widths).rstrip() for line in lines)
 
 
 def _cell(value: object) -> str:
@@ -182,7 +182,7 @@ def cost_scene(options: argparse.Namespace) -> None:
     if options.scene is None:
         if options.accuracy is not None:
             raise InputError("--accuracy", options.accuracy, "none without a scene or a study")
-        sys.stdout.write(budget.table("config", Plan.read("config", options.tier)))
+        sys.stdout.write(estimate.cost_table("config", Plan.read("config", options.tier)))
         return
     study = named(options.scene, options.tier, options.accuracy)
     runs = [run for run in study.runs() if not run.measures_error]

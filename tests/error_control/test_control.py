@@ -36,8 +36,8 @@ from contactsim.error_control.scaling import (
     scene_family,
 )
 from contactsim.errors import InputError
-from contactsim.evaluation.calibration.sampling import draw, read_draws
-from contactsim.evaluation.resources import told
+from contactsim.evaluation.calibration.sampling import draw_scene, read_trials
+from contactsim.evaluation.resources import summarise_jobs
 from contactsim.paths.increments import Adaptive
 from contactsim.paths.options import Setup
 from contactsim.solvers.registry import make_solver
@@ -47,7 +47,7 @@ from contactsim.study.study import Run, Study
 from support.cases import refused
 from support.places import ROOT
 
-DRAWS = read_draws(ROOT / "config", {}, "standard")
+DRAWS = read_trials(ROOT / "config", {}, "standard")
 LINE_SCENE = {
     "surface": {
         "kind": "self_affine",
@@ -81,7 +81,7 @@ def setup_of(section: dict, **more: object) -> Setup:
 
 
 def drawn(family: str, count: int = 0) -> Run:
-    return draw(family, DRAWS["kinds"][family], 4, count)
+    return draw_scene(family, DRAWS["kinds"][family], 4, count)
 
 
 def test_a_relation_is_a_power_law_with_its_scatter():
@@ -329,11 +329,11 @@ def test_what_lies_ahead_is_told_with_what_is_not_known(tmp_path):
     wave = {"kind": "sinusoid", "length": 100.0, "amplitude": 0.1}
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}
     other = study(plain, surface=wave, points=64, tolerance=1e-3).runs()[0]
-    text = told([(known, "none.json"), (other, "none.json")], ["aggregate", "solve_trial"], 2)
+    text = summarise_jobs([(known, "none.json"), (other, "none.json")], ["aggregate", "solve_trial"], 2)
     assert "2 runs and 2 other jobs" in text
-    assert "2 jobs of which no time is known" in text
+    assert "2 jobs of unknown time" in text
     (tmp_path / "costs.json").write_text('{"cpu_seconds_of_last_run": 7200}')
-    assert "about 2 h" in told([(other, tmp_path / "costs.json")], [], 1)
+    assert "about 2 h" in summarise_jobs([(other, tmp_path / "costs.json")], [], 1)
 
 
 def test_features_do_not_depend_on_units():

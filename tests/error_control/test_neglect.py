@@ -15,7 +15,7 @@ from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.error_control import effect_maps, neglect
 from contactsim.error_control.effect_maps import change_without, expected_change, neglect_effects
 from contactsim.error_control.neglect import decide_neglect, expected_neglect, neglectable_effects
-from contactsim.evaluation.effects.survey import as_text, measure, read_maps
+from contactsim.evaluation.effects.survey import format_maps, measure_map, read_maps
 from contactsim.paths.options import Setup
 from contactsim.study import execute_neglecting
 from contactsim.study.execute import RunFiles
@@ -82,11 +82,11 @@ def test_a_map_is_the_change_that_two_solutions_show():
         "poisson_ratio": settings["axes"]["poisson_ratio"] | {"values": [0.1, 0.49]},
         "work_ratio": settings["axes"]["work_ratio"] | {"values": [0.0]},
     }
-    data = measure("coupling", settings)
+    data = measure_map("coupling", settings)
     assert data.change_without.dims == ("poisson_ratio", "work_ratio")
     large, small = data.change_without.values.ravel()
     assert large > 0.1 > 10 * small
-    told = as_text({"coupling": data}, {"maps": {"coupling": settings}})
+    told = format_maps({"coupling": data}, {"maps": {"coupling": settings}})
     assert "neglect: [coupling]" in told
 
 

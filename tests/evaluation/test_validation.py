@@ -11,7 +11,7 @@ import pytest
 from contactsim import dataset
 from contactsim.error_control.scaling import LINE, PATH, build_relations
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
-from contactsim.evaluation.calibration.sampling import read_draws
+from contactsim.evaluation.calibration.sampling import read_trials
 from contactsim.evaluation.effects import effect_cost, survey
 from contactsim.evaluation.robustness.survey import read_robustness_section
 from contactsim.evaluation.work_precision import case_config
@@ -24,14 +24,15 @@ from support.cases import refused
 from support.places import ROOT
 
 QUICK = {"trial": {"scenes": 2}, "errors": [0.05], "kinds": {"surface": None, "slide": None, "rough_path": None}}
-SETTINGS = read_draws(ROOT / "config", QUICK, "quick")
+SETTINGS = read_trials(ROOT / "config", QUICK, "quick")
 
 
 @pytest.fixture(scope="module")
 def tried() -> dict[str, tuple]:
     """Trials of two lines and an asperity."""
     return {
-        f"{kind}_{count}": validation.trial(SETTINGS, kind, count) for kind, count in ((LINE, 0), (LINE, 1), (PATH, 0))
+        f"{kind}_{count}": validation.run_trial(SETTINGS, kind, count)
+        for kind, count in ((LINE, 0), (LINE, 1), (PATH, 0))
     }
 
 
@@ -46,22 +47,22 @@ def test_a_trial_is_judged_by_a_finer_run_and_against_the_cheapest_setting(tried
 
 
 def test_a_trial_is_the_same_each_time_but_for_its_seconds(tried):
-    again, _ = validation.trial(SETTINGS, LINE, 0)
+    again, _ = validation.run_trial(SETTINGS, LINE, 0)
     assert again.identical(tried["line_0"][0])
 
 
 def test_errors_are_asked_for_by_turns():
-    settings = read_draws(ROOT / "config", {}, "standard")
+    settings = read_trials(ROOT / "config", {}, "standard")
     for kind in settings["kinds"]:
-        asked = [validation.error_asked(settings, kind, count) for count in range(3)]
+        asked = [validation.requested_error(settings, kind, count) for count in range(3)]
         assert sorted(asked) == settings["errors"]
         backwards = settings | {"kinds": dict(reversed(settings["kinds"].items()))}
-        assert [validation.error_asked(backwards, kind, count) for count in range(3)] == asked
-    assert validation.names(SETTINGS) == ["line_0", "line_1", "path_0", "path_1"]
+        assert [validation.requested_error(backwards, kind, count) for count in range(3)] == asked
+    assert validation.trial_names(SETTINGS) == ["line_0", "line_1", "path_0", "path_1"]
 
 
 def test_calibration_and_trial_have_different_scenes_of_the_same_ranges():
-    settings = read_draws(ROOT / "config", {}, "standard")
+    settings = read_trials(ROOT / "config", {}, "standard")
     assert settings["calibration"]["seed"] != settings["trial"]["seed"]
 
 
@@ -73,7 +74,7 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
         data.append(str(tmp_path / f"{name}.nc"))
         costs.append(str(tmp_path / f"{name}.json"))
     targets = {kind: str(tmp_path / f"trials.{kind}") for kind in ("png", "pdf", "csv")} | {"data": tmp_path / "all.nc"}
-    plan = validation.figure(SETTINGS, "quick")
+    plan = validation.trials_figure_job(SETTINGS, "quick")
     trial_figure.write_trials(plan, data, costs, targets)
     table = pd.read_csv(targets["csv"])
     assert list(table.met) == list(table.true_error <= table.requested_error)
@@ -84,13 +85,13 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
 def test_relations_measured_anew_have_the_form_of_the_packages():
     """Two scenes of each of two kinds: enough for the form, not for the values."""
     plan = {"kind": LINE, "drawn": {"ranges": SETTINGS["kinds"][LINE], "seed": 5, "scenes": 2}}
-    table = measurement.measured(plan)
+    table = measurement.measure_scaling(plan)
     assert set(table.knob) == {"points", "tolerance", "warm_start"}
-    found = build_relations(fit.fit(table))
+    found = build_relations(fit.fit_relations(table))
     law = found.families[LINE].errors["points"]["relative_contact_area_subgrid"]
     assert law.coefficients["grid"] == 2.0
     assert 0 < found.families[LINE].warm_start < 1.2
-    assert "families:" in fit.as_text(table)
+    assert "families:" in fit.format_relations(table)
 
 
 def test_a_straight_line_through_logarithms_is_found_again():
@@ -98,10 +99,10 @@ def test_a_straight_line_through_logarithms_is_found_again():
     grid = rng.uniform(-4, -1, 60)
     rows = pd.DataFrame({"kind": PATH, "knob": "increment", "one": 1.0, "grid": grid})
     rows["error_a"] = np.exp(-1.0 + 1.5 * grid)
-    found = fit._line(rows, "error_a", ("one", "grid"), {})
+    found = fit.fit_power_law(rows, "error_a", ("one", "grid"), {})
     assert found["coefficients"]["grid"] == pytest.approx(1.5, rel=0.02)
     assert found["spread"] < 0.05
-    assert fit._line(rows[:3], "error_a", ("one", "grid"), {}) is None
+    assert fit.fit_power_law(rows[:3], "error_a", ("one", "grid"), {}) is None
 
 
 @pytest.mark.parametrize(
@@ -115,20 +116,20 @@ def test_a_straight_line_through_logarithms_is_found_again():
 )
 def test_wrong_settings_of_trials_are_refused(over, key, allowed):
     with refused(key, allowed):
-        read_draws(ROOT / "config", over, "quick")
+        read_trials(ROOT / "config", over, "quick")
 
 
 def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overview(tmp_path):
-    assert sampling.read_draws(tmp_path, {}, "quick") is None
+    assert sampling.read_trials(tmp_path, {}, "quick") is None
     assert survey.read_maps(tmp_path, {}, "quick") is None
-    assert effect_cost.read_ladder(tmp_path, 0, {}, "quick") is None
+    assert effect_cost.read_variants(tmp_path, 0, {}, "quick") is None
     assert case_config.read_overview(tmp_path) is None
 
 
 READERS = {
     "stability": lambda file, over: read_robustness_section(*tiered(file, over, "quick")),
-    "effects": lambda file, over: effect_cost.read_ladder(file.parent, 0, over, "quick"),
-    "trials": lambda file, over: sampling.read_draws(file.parent, over, "quick"),
+    "effects": lambda file, over: effect_cost.read_variants(file.parent, 0, over, "quick"),
+    "trials": lambda file, over: sampling.read_trials(file.parent, over, "quick"),
     "effect_maps": lambda file, over: survey.read_maps(file.parent, over, "quick"),
 }
 
@@ -148,11 +149,11 @@ def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_pat
     files = []
     for name, one in sorted(settings["maps"].items()):
         shape = [len(axis["values"]) for axis in one["axes"].values()]
-        data = dataset.described(survey.as_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
+        data = dataset.described(survey.map_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
         files.append(str(tmp_path / f"{name}.nc"))
         dataset.write(dataset.stamped(data, name, {}, "source"), files[-1])
     targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
-    map_figure.write_effect_maps(survey.figure(settings, "quick"), files, targets)
+    map_figure.write_effect_maps(survey.maps_figure_job(settings, "quick"), files, targets)
     assert set(pd.read_csv(targets["csv"])["map"]) == set(settings["maps"])
 
 

@@ -376,7 +376,7 @@ def test_a_bad_case_of_a_path_is_refused_likewise(tmp_path, changes, key, allowe
 
 def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
     one = case_config.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
-    tiers = case_config.every_tier(ROOT / "config", PLAN)
+    tiers = case_config.read_all_tiers(ROOT / "config", PLAN)
     assert tiers["quick"] is PLAN
     found = case_config.figure_settings(one, PLAN, tiers)
     marks = found["marks"]
@@ -400,7 +400,7 @@ def test_an_increment_of_a_pressure_is_in_its_unit(tmp_path):
 
 
 def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_the_thesis_use():
-    tiers = case_config.every_tier(ROOT / "config", PLAN)
+    tiers = case_config.read_all_tiers(ROOT / "config", PLAN)
     assert list(tiers) == ["quick", "standard", "full"]
     for plan in tiers.values():
         every_case = case_config.read_cases(ROOT / "config", plan)

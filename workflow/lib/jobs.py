@@ -20,9 +20,9 @@ from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.effects import survey as effect_survey
 from contactsim.evaluation.robustness import survey as hazard_survey
 from contactsim.evaluation.work_precision import case_config, cases
-from contactsim.provenance import canonical, source_digest
+from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
-from contactsim.study.stages import STAGES
+from contactsim.study.stages import STAGES, stage_digest
 from contactsim.study.study import Run
 
 ByWildcards = Callable[[Wildcards], Any]
@@ -65,13 +65,13 @@ class RunJobs:
         """Return the megabytes that a run asks of a cluster."""
         from contactsim.evaluation import resources
 
-        return resources.memory_asked(self.run(wildcards), self.costs(wildcards), attempt)
+        return resources.request_memory(self.run(wildcards), self.costs(wildcards), attempt)
 
     def minutes(self, wildcards: Wildcards, attempt: int) -> int:
         """Return the minutes that a run asks of a cluster."""
         from contactsim.evaluation import resources
 
-        return resources.minutes_asked(self.run(wildcards), self.costs(wildcards), attempt)
+        return resources.request_minutes(self.run(wildcards), self.costs(wildcards), attempt)
 
     def is_short(self, wildcards: Wildcards) -> bool:
         """Return True where a run should share a job of a cluster with others."""
@@ -106,7 +106,7 @@ class RunJobs:
                 rules += [job.rule.name] if job.output else []
             elif self.plan.twin(self.run(job.wildcards)) is None:
                 runs.append((self.run(job.wildcards), self.costs(job.wildcards)))
-        return resources.told(runs, rules, cores)
+        return resources.summarise_jobs(runs, rules, cores)
 
 
 @dataclass(frozen=True)
@@ -187,32 +187,32 @@ class EvaluationJobs:
 
     def effects_params(self, wildcards: Wildcards) -> str:
         """Return what the measured costs of effects depend on."""
-        return canonical(effect_cost.plan(self.products.effects or {}))
+        return canonical(effect_cost.effects_job(self.products.effects or {}))
 
     def effects_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of the costs of effects depends on."""
-        return canonical(effect_cost.figure(self.products.effects or {}, self.products.plan.tier))
+        return canonical(effect_cost.effects_figure_job(self.products.effects or {}, self.products.plan.tier))
 
     def trial_params(self, wildcards: Wildcards) -> str:
         """Return what one trial depends on."""
-        return canonical(validation.plan(self.products.trials or {}, wildcards.kind, int(wildcards.number)))
+        return canonical(validation.trial_job(self.products.trials or {}, wildcards.kind, int(wildcards.number)))
 
     def trial_files(self, folder: str, ending: str) -> list[Path]:
         """Return the files of all trials, in a folder and with an ending."""
-        names = validation.names(self.products.trials or {})
+        names = validation.trial_names(self.products.trials or {})
         return [self.products.results / folder / f"{name}.{ending}" for name in names]
 
     def trials_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all trials depends on."""
-        return canonical(validation.figure(self.products.trials or {}, self.products.plan.tier))
+        return canonical(validation.trials_figure_job(self.products.trials or {}, self.products.plan.tier))
 
     def scaling_params(self, wildcards: Wildcards) -> str:
         """Return what the measurement of the scaling of a kind of scene depends on."""
-        return canonical(measurement.plan(self.products.trials or {}, wildcards.kind))
+        return canonical(measurement.scaling_job(self.products.trials or {}, wildcards.kind))
 
     def map_params(self, wildcards: Wildcards) -> str:
         """Return what one map of neglected effects depends on."""
-        return canonical(effect_survey.plan(self.products.maps or {}, wildcards.map))
+        return canonical(effect_survey.map_job(self.products.maps or {}, wildcards.map))
 
     def map_files(self) -> list[Path]:
         """Return all maps of neglected effects."""
@@ -221,7 +221,7 @@ class EvaluationJobs:
 
     def maps_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all maps depends on."""
-        return canonical(effect_survey.figure(self.products.maps or {}, self.products.plan.tier))
+        return canonical(effect_survey.maps_figure_job(self.products.maps or {}, self.products.plan.tier))
 
     def maps_params(self, wildcards: Wildcards) -> str:
         """Return the settings of all maps."""
@@ -235,9 +235,9 @@ class EvaluationJobs:
         return []
 
 
-def code_digest(module: str) -> ByWildcards:
-    """Return a function for the digest of a module and of all that it uses."""
-    return lambda wildcards: source_digest(module)
+def code_digest(stage: str) -> ByWildcards:
+    """Return a function for the digest of the code of a stage of `contactsim.study.stages`."""
+    return lambda wildcards: stage_digest(stage)
 
 
 def group_on_cluster(workflow: Any, name: str, condition: Callable[[Wildcards], bool] | None = None) -> ByWildcards:

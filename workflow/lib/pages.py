@@ -122,7 +122,7 @@ class Pages:
         if products.hazards:
             data["stability"] = survey.robustness_job(products.hazards, plan)
         if products.effects:
-            data["effects"] = effect_cost.plan(products.effects)
+            data["effects"] = effect_cost.effects_job(products.effects)
         if products.trials:
-            data["trials"] = validation.figure(products.trials, plan.tier)
+            data["trials"] = validation.trials_figure_job(products.trials, plan.tier)
         return data

@@ -79,8 +79,8 @@ class Products:
             plan,
             cases,
             hazards=survey.read_robustness(config, plan),
-            effects=effect_cost.read_ladder(config, plan.seed, plan.overrides["effects"], plan.tier),
-            trials=sampling.read_draws(config, plan.overrides["trials"], plan.tier),
+            effects=effect_cost.read_variants(config, plan.seed, plan.overrides["effects"], plan.tier),
+            trials=sampling.read_trials(config, plan.overrides["trials"], plan.tier),
             maps=effect_survey.read_maps(config, plan.overrides["effect_maps"], plan.tier),
             overview=case_config.read_overview(config) if cases else None,
         )
@@ -93,7 +93,7 @@ class Products:
     @functools.cached_property
     def all_tiers(self) -> dict[str, Plan]:
         """Return the plans of all tiers by name."""
-        return case_config.every_tier(self.config, self.plan)
+        return case_config.read_all_tiers(self.config, self.plan)
 
     @functools.cached_property
     def evaluation_figures(self) -> dict[str, dict[str, Settings]]:

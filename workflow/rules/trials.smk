@@ -45,6 +45,6 @@ if PRODUCTS.trials:
         input: EVALUATION_JOBS.full_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in PRODUCTS.trials["kinds"]]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
-        params: source=code_digest("contactsim.evaluation.calibration.fit")
+        params: source=code_digest("fit_scaling")
         message: "scaling relations, to replace src/contactsim/error_control/scaling.yaml: {output}"
         script: "../scripts/fit_scaling.py"

@@ -5,9 +5,9 @@ import json
 from joblog import open_log
 
 from contactsim import dataset
-from contactsim.evaluation.effects.survey import measure
+from contactsim.evaluation.effects.survey import measure_map
 
 open_log(snakemake.log[0])
-plan = json.loads(snakemake.params.plan)
-data = dataset.stamped(measure(plan["name"], plan["map"]), "what an effect changes", plan["map"], plan["source"])
+job = json.loads(snakemake.params.plan)
+data = dataset.stamped(measure_map(job["name"], job["map"]), "what an effect changes", job["map"], job["source"])
 dataset.write(data, snakemake.output[0])

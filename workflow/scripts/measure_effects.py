@@ -1,4 +1,4 @@
-"""What effects cost: the ladder measured, and seconds and memory apart."""
+"""Measure the cost of effects; seconds and memory are kept apart."""
 
 import json
 
@@ -10,8 +10,8 @@ from contactsim.evaluation.effects import effect_cost
 from contactsim.files import write_text
 
 open_log(snakemake.log[0])
-plan = json.loads(snakemake.params.plan)
+job = json.loads(snakemake.params.plan)
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
-    data, spent = effect_cost.measure(plan["settings"])
-dataset.write(dataset.stamped(data, "what effects cost", plan["settings"], plan["source"]), snakemake.output.data)
+    data, spent = effect_cost.measure_effects(job["settings"])
+dataset.write(dataset.stamped(data, "what effects cost", job["settings"], job["source"]), snakemake.output.data)
 write_text(json.dumps(spent), snakemake.output.costs)

@@ -10,8 +10,8 @@ from contactsim.evaluation.calibration import validation
 from contactsim.files import write_text
 
 open_log(snakemake.log[0])
-plan = json.loads(snakemake.params.plan)
+job = json.loads(snakemake.params.plan)
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
-    data, spent = validation.trial(plan["settings"], plan["kind"], plan["count"])
-dataset.write(dataset.stamped(data, "accuracy on trial", plan["settings"], plan["source"]), snakemake.output.data)
+    data, spent = validation.run_trial(job["settings"], job["kind"], job["count"])
+dataset.write(dataset.stamped(data, "accuracy on trial", job["settings"], job["source"]), snakemake.output.data)
 write_text(json.dumps(spent), snakemake.output.costs)

@@ -1,4 +1,4 @@
-"""How long what is to be done will take, in words, before it starts; and what a job asks of a cluster."""
+"""Predict the time and memory of jobs before they start, in words and as requests to a cluster."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from contactsim.provenance import canonical
 from contactsim.study.scenes import build_setup
 from contactsim.study.study import Run
 
-START = 1.0
-"""CPU seconds that a job takes beside what it computes."""
-OTHER = 2.5
-"""The same of one that gathers or draws."""
-UNKNOWN = (
+START_SECONDS = 1.0
+"""CPU seconds that a job takes beside its computation."""
+OTHER_JOB_SECONDS = 2.5
+"""CPU seconds of a job that gathers or draws."""
+UNPREDICTED_RULES = (
     "solve_trial",
     "measure_work_precision",
     "measure_scaling",
@@ -29,27 +29,28 @@ UNKNOWN = (
     "survey_hazard",
     "select_effects",
 )
-"""Rules whose jobs solve scenes, of which nothing is forecast."""
+"""Rules whose jobs solve scenes without a forecast."""
 
-EMPTY = 400.0
-"""Megabytes of a job beside its arrays: measured are 300."""
-ARRAYS = 1.5
-"""Megabytes asked for each that is forecast of arrays: measured is 1."""
-LONGER = 6.0
-"""Seconds asked for each that is forecast: of 600 runs measured one took 5, all others at most 2.6."""
+BASE_MEGABYTES = 400.0
+"""Megabytes requested for a job beside its arrays: 300 were measured."""
+ARRAY_FACTOR = 1.5
+"""Megabytes requested for each forecast megabyte of arrays: 1 was measured."""
+TIME_FACTOR = 6.0
+"""Seconds requested for each forecast second: of 600 measured runs one took 5, all others at most 2.6."""
 UNKNOWN_MEGABYTES, UNKNOWN_MINUTES = 1000, 15
-"""What a run asks for of which nothing is known."""
-SHORT = 60.0
-"""Seconds up to which runs share a job of a cluster, which takes some ten to start."""
+"""Requests of a run that was neither forecast nor measured."""
+MAX_SHORT_SECONDS = 60.0
+"""Seconds up to which runs share a job of a cluster, which takes about ten seconds to start."""
 
 
-def forecast_for(run: Run) -> Forecast | None:
-    """What is forecast of a run, without what the maps find negligible; None of scenes that were not measured."""
+def find_forecast(run: Run) -> Forecast | None:
+    """Return the forecast of a run without the effects that the maps neglect; None outside the measured scenes."""
     return _forecast(canonical(run.settings))
 
 
 @cache
 def _forecast(text: str) -> Forecast | None:
+    """Return the forecast of a run from the JSON of its settings."""
     settings = json.loads(text)
     setup = build_setup(settings)
     if "auto" in settings:
@@ -60,56 +61,72 @@ def _forecast(text: str) -> Forecast | None:
         return None
 
 
-def seconds_of(run: Run, costs: str | Path | None) -> float | None:
-    """CPU seconds of a run: as forecast or, of scenes that were not measured, as it took before; None if unknown."""
-    found = forecast_for(run)
-    return _spent(costs, "cpu_seconds_of_last_run") if found is None else found.seconds
+def predict_seconds(run: Run, costs: str | Path | None) -> float | None:
+    """Return the CPU seconds of a run: its forecast, else what it took before; None if neither is known."""
+    prediction = find_forecast(run)
+    return _read_cost(costs, "cpu_seconds_of_last_run") if prediction is None else prediction.seconds
 
 
-def megabytes_of(run: Run, costs: str | Path | None) -> float | None:
-    """Memory of a run's job: as forecast or, of scenes that were not measured, as it took before; None if unknown."""
-    found = forecast_for(run)
-    return _spent(costs, "peak_memory_of_last_run") if found is None else EMPTY + ARRAYS * found.megabytes
+def predict_megabytes(run: Run, costs: str | Path | None) -> float | None:
+    """Return the megabytes of a run's job: its forecast, else what it took before; None if neither is known."""
+    prediction = find_forecast(run)
+    return (
+        _read_cost(costs, "peak_memory_of_last_run")
+        if prediction is None
+        else BASE_MEGABYTES + ARRAY_FACTOR * prediction.megabytes
+    )
 
 
-def _spent(costs: str | Path, name: str) -> float | None:
-    """A number in the file of a run's costs; None without it."""
+def _read_cost(costs: str | Path | None, name: str) -> float | None:
+    """Return a number from the file of a run's costs; None without it."""
     try:
         return float(json.loads(Path(costs).read_text(encoding="utf-8"))[name])
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
-def memory_asked(run: Run, costs: str | Path, attempt: int = 1) -> int:
-    """Megabytes that a run's job asks for, generously: each attempt as much again."""
-    found = megabytes_of(run, costs)
-    return attempt * (UNKNOWN_MEGABYTES if found is None else 100 * math.ceil(found / 100))
+def request_memory(run: Run, costs: str | Path, attempt: int = 1) -> int:
+    """Return the megabytes that a run's job requests with a margin; each attempt adds as much again."""
+    prediction = predict_megabytes(run, costs)
+    return attempt * (UNKNOWN_MEGABYTES if prediction is None else 100 * math.ceil(prediction / 100))
 
 
-def minutes_asked(run: Run, costs: str | Path, attempt: int = 1) -> int:
-    """Minutes that a run's job asks for, generously: each attempt as much again."""
-    found = seconds_of(run, costs)
-    return attempt * (UNKNOWN_MINUTES if found is None else math.ceil(LONGER * (found + START) / 60))
+def request_minutes(run: Run, costs: str | Path, attempt: int = 1) -> int:
+    """Return the minutes that a run's job requests with a margin; each attempt adds as much again."""
+    prediction = predict_seconds(run, costs)
+    return attempt * (
+        UNKNOWN_MINUTES if prediction is None else math.ceil(TIME_FACTOR * (prediction + START_SECONDS) / 60)
+    )
 
 
 def is_short(run: Run, costs: str | Path | None) -> bool:
-    """Whether a run should share a job of a cluster with others; one of which nothing is known is taken to be short."""
-    return (seconds_of(run, costs) or 0.0) <= SHORT
+    """Return True where a run should share a job of a cluster; a run without prediction counts as short."""
+    return (predict_seconds(run, costs) or 0.0) <= MAX_SHORT_SECONDS
 
 
-def told(runs: Iterable[tuple[Run, str | Path]], rules: Iterable[str], cores: int) -> str:
-    """What lies ahead: runs, each with the file of its costs, and the rules of all other jobs, on a number of cores."""
-    found, rules = [seconds_of(run, costs) for run, costs in runs], list(rules)
-    unknown = sum(seconds is None for seconds in found) + sum(rule in UNKNOWN for rule in rules)
-    total = sum(seconds + START for seconds in found if seconds is not None)
-    total += OTHER * sum(rule not in UNKNOWN for rule in rules)
-    text = f"Predicted for {len(found)} runs and {len(rules)} other jobs: about {_duration(total)} of CPU time"
-    text += f", {_duration(total / cores)} on {cores} cores"
-    return text + f", and {unknown} jobs of which no time is known beforehand" * bool(unknown) + "."
+def summarise_jobs(runs: Iterable[tuple[Run, str | Path]], rules: Iterable[str], cores: int) -> str:
+    """Return a sentence about the time that jobs will take together.
+
+    Parameters
+    ----------
+    runs : iterable of (Run, str or Path)
+        Runs, each with the file of its costs.
+    rules : iterable of str
+        The rule of each other job.
+    cores : int
+        Cores that share the jobs.
+    """
+    predictions, rules = [predict_seconds(run, costs) for run, costs in runs], list(rules)
+    unknown = sum(seconds is None for seconds in predictions) + sum(rule in UNPREDICTED_RULES for rule in rules)
+    total = sum(seconds + START_SECONDS for seconds in predictions if seconds is not None)
+    total += OTHER_JOB_SECONDS * sum(rule not in UNPREDICTED_RULES for rule in rules)
+    text = f"Predicted for {len(predictions)} runs and {len(rules)} other jobs: "
+    text += f"about {_format_duration(total)} of CPU time, {_format_duration(total / cores)} on {cores} cores"
+    return text + f", and {unknown} jobs of unknown time" * bool(unknown) + "."
 
 
-def _duration(seconds: float) -> str:
-    """Seconds in words, to two digits."""
+def _format_duration(seconds: float) -> str:
+    """Return seconds in words, with two digits."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds >= 1.5 * size:
             return f"{float(f'{seconds / size:.1e}'):g} {unit}"

@@ -16,6 +16,17 @@ STAGES: dict[str, tuple[str, ...]] = {
     "aggregate": ("contactsim.analysis.aggregate", "contactsim.analysis.costs"),
     "figure": ("contactsim.figures.layout", "contactsim.study.law_table"),
     "claims": ("contactsim.analysis.claims", "contactsim.figures.diagnostics.claims"),
+    "work_precision": ("contactsim.evaluation.work_precision.cases",),
+    "work_precision_figure": ("contactsim.figures.diagnostics.accuracy",),
+    "overview_figure": ("contactsim.figures.diagnostics.overview",),
+    "measure_scaling": ("contactsim.evaluation.calibration.measurement",),
+    "fit_scaling": ("contactsim.evaluation.calibration.fit",),
+    "trial": ("contactsim.evaluation.calibration.validation",),
+    "trials_figure": ("contactsim.figures.diagnostics.trials",),
+    "measure_effects": ("contactsim.evaluation.effects.effect_cost",),
+    "effects_figure": ("contactsim.figures.diagnostics.effects",),
+    "measure_effect_map": ("contactsim.evaluation.effects.survey",),
+    "maps_figure": ("contactsim.figures.diagnostics.effect_maps",),
     "hazard": ("contactsim.evaluation.robustness.survey",),
 }
 """Modules by stage."""

@@ -1,6 +1,6 @@
-"""Relations of accuracy and cost, fitted to what was measured.
+"""Fit the scaling relations of error and cost to measurements.
 
-Every relation is a straight line through logarithms, by least squares, with the scatter that remains.
+Every relation is a power law: a straight line through logarithms by least squares, with the scatter that remains.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from contactsim.error_control.scaling import (
     SURFACE,
     Relation,
 )
-from contactsim.evaluation.calibration.measurement import READ
+from contactsim.evaluation.calibration.measurement import MEASURED_QUANTITIES
 
 ROUGH = ("hurst", "bandwidth", "rough")
 ERROR_FEATURES = {
@@ -51,95 +51,121 @@ WORK_FEATURES = {
     ),
     SLIDE: ("one", "steps", "zone", "grid", "deep", "tight"),
 }
-CHOSEN = ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")
-"""Features that follow from what a user chooses: a scene is not outside what was measured because of them."""
-STEEP = ("pull_off_load_loading", "static_friction", "final_load", "onset_contact_length")
-"""Quantities whose error's order in the grid is fitted: the process zone is resolved or is not."""
+OPTION_FEATURES = ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")
+"""Features that follow from a user's options: they do not put a scene outside the measured ranges."""
+FITTED_ORDER = ("pull_off_load_loading", "static_friction", "final_load", "onset_contact_length")
+"""Quantities whose order of convergence in the grid is fitted: it depends on the resolution of the process zone."""
 NOISE, WRONG = {"points": 5e-4}, 0.15
-"""Relative errors below which a setting of a knob says nothing of those that are asked for, and above which."""
+"""Relative errors below and above which a setting is left out of the fit: noise, and the pre-asymptotic range."""
 FAINT = 1e-6
-"""The same of other knobs, which are to make but a part of the error."""
-FEWEST_ROWS = 6
-RIDGE = 1e-3
+"""The same noise of other knobs, which make only a part of the error."""
+MIN_ROWS = 6
+RIDGE_WEIGHT = 1e-3
 """Weight that keeps coefficients small where features are alike."""
 
 
-def fit(table: pd.DataFrame) -> dict:
-    """The relations of all kinds, and seconds of the transform that times are counted in."""
+def fit_relations(table: pd.DataFrame) -> dict:
+    """Fit the relations of all families.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Rows of `contactsim.evaluation.calibration.measurement.measure_scaling`.
+
+    Returns
+    -------
+    dict
+        Relations by family, and the seconds of the transform in which times are counted.
+    """
     return {
-        "unit": _short(table.unit.median()),
-        "families": {kind: _kind(kind, rows) for kind, rows in table.groupby("kind", sort=False)},
+        "unit": _round(table.unit.median()),
+        "families": {kind: _fit_family(kind, rows) for kind, rows in table.groupby("kind", sort=False)},
     }
 
 
-def _kind(kind: str, rows: pd.DataFrame) -> dict:
-    """The relations of one kind, from all rows of it."""
+def _fit_family(kind: str, rows: pd.DataFrame) -> dict:
+    """Fit the relations of one family to all its rows."""
     wall = kind in (LINE, SURFACE)
     other = "tolerance" if wall else "increment"
     errors: dict[str, dict] = {"points": {}, other: {}, "resolved": {}}
     grids, others = rows[rows.knob == "points"], rows[rows.knob == other]
-    for name in READ[kind]:
+    for name in MEASURED_QUANTITIES[kind]:
         known = f"error_{name}"
-        order = None if name in STEEP else GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
-        errors["points"][name] = _line(grids, known, ERROR_FEATURES[kind], {"grid": order} if order else {})
-        errors[other][name] = _line(others, known, ("one", other), {})
+        order = None if name in FITTED_ORDER else GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
+        errors["points"][name] = fit_power_law(grids, known, ERROR_FEATURES[kind], {"grid": order} if order else {})
+        errors[other][name] = fit_power_law(others, known, ("one", other), {})
         if wall:
             features = ("one", "resolved", "pressure", *ROUGH)
-            errors["resolved"][name] = _line(grids, known, features, {"resolved": order})
+            errors["resolved"][name] = fit_power_law(grids, known, features, {"resolved": order})
     errors = {knob: {name: law for name, law in laws.items() if law} for knob, laws in errors.items()}
-    transforms = _line(rows[rows.knob != "warm_start"], "transforms", WORK_FEATURES[kind], {})
+    transforms = fit_power_law(rows[rows.knob != "warm_start"], "transforms", WORK_FEATURES[kind], {})
     law = Relation(transforms["coefficients"], transforms["spread"])
-    shares = [one["transforms"] / law(one) for one in rows[rows.knob == "warm_start"].to_dict("records")]
-    seen = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in CHOSEN)]
+    shares = [row["transforms"] / law(row) for row in rows[rows.knob == "warm_start"].to_dict("records")]
+    seen = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in OPTION_FEATURES)]
     return {
         "errors": {knob: errors[knob] for knob in ("points", other)},
         "resolved": errors["resolved"],
         "transforms": transforms,
-        "warm_start": _short(np.median(shares or [1.0])),
-        "seconds": _seconds(rows),
-        "ranges": {name: [_short(rows[name].min()), _short(rows[name].max())] for name in seen},
+        "warm_start": _round(np.median(shares or [1.0])),
+        "seconds": _fit_seconds(rows),
+        "ranges": {name: [_round(rows[name].min()), _round(rows[name].max())] for name in seen},
     }
 
 
-def _line(rows: pd.DataFrame, of: str, names: Sequence[str], known: Mapping[str, float]) -> dict | None:
-    """A straight line through logarithms: coefficients of features, some of them known, and the scatter that is left.
+def fit_power_law(rows: pd.DataFrame, of: str, names: Sequence[str], known: Mapping[str, float]) -> dict | None:
+    """Fit a straight line through logarithms.
 
-    None where too few errors are of a size that tells.
+    Parameters
+    ----------
+    rows : pandas.DataFrame
+        Measurements, with a column for each feature, which is a logarithm.
+    of : str
+        Column of the fitted values.
+    names : sequence of str
+        Features.
+    known : mapping
+        Coefficients that are prescribed, by feature.
+
+    Returns
+    -------
+    dict or None
+        Coefficients, the standard deviation of what remains and the number of rows; None where too few errors lie
+        between noise and the largest error of the asymptotic range.
     """
     values = rows[of].to_numpy(float)
     good = np.isfinite(values) & (values > 0)
     if of.startswith("error"):
         good &= (values > NOISE.get(rows.knob.iloc[0], FAINT)) & (values < WRONG)
-    if good.sum() < FEWEST_ROWS:
+    if good.sum() < MIN_ROWS:
         return None
     rows, logs = rows[good], np.log(values[good])
     free = [name for name in names if name not in known]
     matrix = rows[free].to_numpy(float)
     rest = logs - sum((rows[name].to_numpy(float) * factor for name, factor in known.items()), np.zeros(len(rows)))
-    penalty = np.sqrt(RIDGE * max(len(rows), 1)) * np.diag([float(name != "one") for name in free])
-    found = np.linalg.lstsq(np.vstack([matrix, penalty]), np.concatenate([rest, np.zeros(len(free))]), rcond=None)[0]
-    left = rest - matrix @ found
+    penalty = np.sqrt(RIDGE_WEIGHT * max(len(rows), 1)) * np.diag([float(name != "one") for name in free])
+    solution = np.linalg.lstsq(np.vstack([matrix, penalty]), np.concatenate([rest, np.zeros(len(free))]), rcond=None)[0]
+    residual = rest - matrix @ solution
     if of.startswith("error"):  # errors change their sign: what counts is their size, not the middle of its logarithm
-        found[free.index("one")] += 0.5 * np.log(np.mean(np.exp(2 * left)))
-    coefficients = {name: _short(value) for name, value in zip(free, found, strict=True)} | dict(known)
-    return {"coefficients": coefficients, "spread": _short(left.std()), "rows": int(good.sum())}
+        solution[free.index("one")] += 0.5 * np.log(np.mean(np.exp(2 * residual)))
+    coefficients = {name: _round(value) for name, value in zip(free, solution, strict=True)} | dict(known)
+    return {"coefficients": coefficients, "spread": _round(residual.std()), "rows": int(good.sum())}
 
 
-def _seconds(rows: pd.DataFrame) -> dict:
-    """Seconds of a load or step, of a transform, and of points times their log2, by the logarithm."""
+def _fit_seconds(rows: pd.DataFrame) -> dict:
+    """Fit the seconds of a load or step, of a transform, and of points times their log2 to logarithms."""
     size, seconds = rows.total.to_numpy(float), rows.seconds.to_numpy(float)
     parts = np.stack([rows["count"], rows.transforms, rows.transforms * size * np.log2(size)], axis=1).astype(float)
     begin = np.log(np.median(seconds[:, None] / parts, axis=0) / len(parts.T))
     found = np.exp(least_squares(lambda logs: np.log(parts @ np.exp(logs) / seconds), begin, loss="soft_l1").x)
-    return dict(zip(("step", "transform", "point"), map(_short, found), strict=True))
+    return dict(zip(("step", "transform", "point"), map(_round, found), strict=True))
 
 
-def _short(value: float) -> float:
-    """Four digits, which is more than is known."""
+def _round(value: float) -> float:
+    """Return a value with four digits, which is more than its accuracy."""
     return float(f"{value:.4g}")
 
 
-def as_text(table: pd.DataFrame) -> str:
-    """The relations as their file has them."""
-    head = "# Relations of accuracy and cost, measured by `snakemake relations`; see contactsim/regression.py\n"
-    return head + yaml.safe_dump(fit(table), sort_keys=False, width=120, default_flow_style=None)
+def format_relations(table: pd.DataFrame) -> str:
+    """Return the fitted relations as the text of their file."""
+    head = "# Relations of accuracy and cost, measured by `snakemake relations`; see evaluation/calibration\n"
+    return head + yaml.safe_dump(fit_relations(table), sort_keys=False, width=120, default_flow_style=None)

@@ -1,7 +1,6 @@
-"""What accuracy costs, measured: scenes drawn at random, each solved on a ladder of every knob.
+"""Measure errors and costs: scenes drawn at random, each solved on a ladder of every knob.
 
-Every error is against a reference that is not on the ladder. `contactsim.evaluation.calibration.fit` fits relations to
-them.
+Every error is against a reference outside the ladder. `contactsim.evaluation.calibration.fit` fits relations to them.
 """
 
 from __future__ import annotations
@@ -28,11 +27,11 @@ from contactsim.error_control.scaling import (
     contact_scale,
     scene_family,
 )
-from contactsim.evaluation.calibration.sampling import draw
+from contactsim.evaluation.calibration.sampling import draw_scene
 from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
-from contactsim.provenance import computing_digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
+from contactsim.study.stages import computing_stage_digest
 
 logger = logging.getLogger(__name__)
 
@@ -44,31 +43,31 @@ RESOLUTIONS = {
     SLIDE: (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0),
 }
 """Points for each length that contacts are measured by, on the ladder of grids."""
-FINEST = {LINE: 8.0, SURFACE: 2.5, PATH: 4.0, ROUGH_PATH: 4.0, SLIDE: 4.0}
-"""How many times finer than the last of these the reference is."""
+REFERENCE_REFINEMENT = {LINE: 8.0, SURFACE: 2.5, PATH: 4.0, ROUGH_PATH: 4.0, SLIDE: 4.0}
+"""Points of the reference over those of the finest grid of the ladder."""
 INCREMENTS = {PATH: (2.0, 1.0, 0.5, 0.2), ROUGH_PATH: (4.0, 2.0, 1.0), SLIDE: (1.0, 0.5, 0.25)}
 """Increments of the ladder, in the laws' length."""
-SMALL = {PATH: 0.05, ROUGH_PATH: 0.5, SLIDE: 0.1}
-"""Those of the references, and of the ladder of grids."""
+REFERENCE_INCREMENTS = {PATH: 0.05, ROUGH_PATH: 0.5, SLIDE: 0.1}
+"""Increments of the references and of the ladder of grids, in the laws' length."""
 WALL_TOLERANCES, PATH_TOLERANCES = (1e-1, 1e-2, 1e-3), (1e-3, 1e-4, 1e-5)
 REFERENCE_TOLERANCE = {ProblemKind.COHESIVE: 1e-6, ProblemKind.HARD_WALL: 1e-4}
-READ = {
+MEASURED_QUANTITIES = {
     LINE: (*QUANTITIES[LINE], COUNTED_AREA),
     SURFACE: (*QUANTITIES[SURFACE], COUNTED_AREA),
     PATH: QUANTITIES[PATH],
     ROUGH_PATH: QUANTITIES[ROUGH_PATH],
     SLIDE: (*QUANTITIES[SLIDE], "onset_repulsive_length"),
 }
-"""Quantities whose errors relations are known of."""
-TYPICAL = 0.02
-"""Error asked of runs that begin from their companions."""
+"""Quantities whose errors are measured, by family."""
+WARM_START_ERROR = 0.02
+"""Error requested of runs that begin from a coarse grid."""
 
 
 Ladder = tuple[str, Setup, list[Setup]]
 """Knob, setup of the reference, and those of the ladder."""
 
 
-def measure(setup: Setup) -> pd.DataFrame:
+def measure_scene(setup: Setup) -> pd.DataFrame:
     """Solve a scene on all ladders.
 
     Parameters
@@ -84,18 +83,18 @@ def measure(setup: Setup) -> pd.DataFrame:
     family = scene_family(setup.scene)
     rows = []
     for knob, base, ladder in LADDERS[setup.scene.kind](setup, family):
-        reference = solve_setup(base, READ[family])
+        reference = solve_setup(base, MEASURED_QUANTITIES[family])
         for rung in ladder:
-            rows += _rows(knob, solve_setup(rung, READ[family]), reference, family)
+            rows += _rows(knob, solve_setup(rung, MEASURED_QUANTITIES[family]), reference, family)
     rows += WARM_STARTS[setup.scene.kind](setup, family)
     return pd.DataFrame(rows)
 
 
 def _warm_start(setup: Setup, family: str) -> list[dict]:
     """Return the rows of a run at a hard wall that begins from its companion."""
-    fine = choose_options(setup, TYPICAL)
-    before = solve_setup(COMPANIONS[setup.scene.kind](coarsen(fine)), READ[family])
-    solution = solve_setup(fine, READ[family], before)
+    fine = choose_options(setup, WARM_START_ERROR)
+    before = solve_setup(COMPANIONS[setup.scene.kind](coarsen(fine)), MEASURED_QUANTITIES[family])
+    solution = solve_setup(fine, MEASURED_QUANTITIES[family], before)
     return _rows("warm_start", solution, solution, family)
 
 
@@ -112,14 +111,16 @@ def _load_ladders(setup: Setup, family: str) -> Iterator[Ladder]:
 def _path_ladders(setup: Setup, family: str) -> Iterator[Ladder]:
     """Yield the ladders of a path of cohesive laws: grids, increments and tolerances."""
     smallest = contact_scale(setup.scene)
-    fine = setup.with_options(tolerance=REFERENCE_TOLERANCE[ProblemKind.COHESIVE]).with_increment(SMALL[family])
+    fine = setup.with_options(tolerance=REFERENCE_TOLERANCE[ProblemKind.COHESIVE]).with_increment(
+        REFERENCE_INCREMENTS[family]
+    )
     grids, finest, middle = _resolutions(family)
     yield "points", _resolve(fine, finest, smallest), [_resolve(fine, value, smallest) for value in grids]
     rest = setup.with_options(tolerance=1e-4)
     ladder = [_resolve(rest.with_increment(value), middle, smallest) for value in INCREMENTS[family]]
     if family in (PATH, ROUGH_PATH):  # the same with every increment solved, for their cost
         ladder += [rung.with_options(increments=Requested()) for rung in ladder[1:2]]
-    yield "increment", _resolve(rest.with_increment(SMALL[family]), middle, smallest), ladder
+    yield "increment", _resolve(rest.with_increment(REFERENCE_INCREMENTS[family]), middle, smallest), ladder
     tolerances = [_resolve(fine.with_options(tolerance=value), middle, smallest) for value in PATH_TOLERANCES]
     yield "tolerance", _resolve(fine, middle, smallest), tolerances
 
@@ -127,7 +128,7 @@ def _path_ladders(setup: Setup, family: str) -> Iterator[Ladder]:
 def _resolutions(family: str) -> tuple[tuple[float, ...], float, float]:
     """Return points for each contact length: those of the ladder, of its reference, and of other knobs' ladders."""
     resolutions = RESOLUTIONS[family]
-    return resolutions, FINEST[family] * resolutions[-1], resolutions[len(resolutions) // 2]
+    return resolutions, REFERENCE_REFINEMENT[family] * resolutions[-1], resolutions[len(resolutions) // 2]
 
 
 def _resolve(setup: Setup, resolution: float, length: float) -> Setup:
@@ -148,7 +149,7 @@ def _rows(knob: str, solution: Solution, reference: Solution, family: str) -> li
         row = {"kind": family, "knob": knob, **numbers, **step_features(setup), "points": solution.points}
         row["increment"] = math.log(setup.scene.path.increment or 1.0)
         row["resolved"] = math.log(max(solution.resolved[count], 1e-9)) if loads else np.nan
-        for name in READ[family]:
+        for name in MEASURED_QUANTITIES[family]:
             row[f"error_{name}"] = relative_difference(reference, solution, name)[count]
         row["count"] = 1 if loads else solution.data.step.size
         row["transforms"] = float(solution.data.transforms[count]) if loads else solution.transforms
@@ -158,20 +159,34 @@ def _rows(knob: str, solution: Solution, reference: Solution, family: str) -> li
     return rows
 
 
-def plan(settings: dict, kind: str) -> dict:
-    """What the measurements of one kind depend on; not on the relations that they begin from, or they never settled."""
+def scaling_job(settings: dict, kind: str) -> dict:
+    """Return what the measurements of one family depend on.
+
+    They do not depend on the scaling relations that they start from: else fitting would never settle.
+    """
     drawn = {"ranges": settings["kinds"][kind], **settings["calibration"]}
-    source = computing_digest(
-        "contactsim.evaluation.calibration.measurement", *(solver_module(name) for name in DEFAULT_SOLVERS.values())
-    )
+    source = computing_stage_digest("measure_scaling", *(solver_module(name) for name in DEFAULT_SOLVERS.values()))
     return {"kind": kind, "drawn": drawn, "source": source}
 
 
-def measured(plan: dict) -> pd.DataFrame:
-    """All scenes of a kind on all ladders, with the unit that times are counted in."""
-    kind, drawn = plan["kind"], plan["drawn"]
+def measure_scaling(job: dict) -> pd.DataFrame:
+    """Measure all scenes of one family on all ladders.
+
+    Parameters
+    ----------
+    job : dict
+        From `scaling_job`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The rows of `measure_scene`, with the number of the scene and the seconds of the transform in which times are
+        counted.
+    """
+    kind, drawn = job["kind"], job["drawn"]
     tables = []
     for count in range(drawn["scenes"]):
-        tables.append(measure(draw(kind, drawn["ranges"], drawn["seed"], count).setup).assign(scene=count))
+        run = draw_scene(kind, drawn["ranges"], drawn["seed"], count)
+        tables.append(measure_scene(run.setup).assign(scene=count))
         logger.info("scene %d of %d", count + 1, drawn["scenes"])
     return pd.concat(tables, ignore_index=True).assign(unit=transform_seconds())

@@ -1,8 +1,8 @@
-"""Scenes drawn at random from stated ranges, of each kind that relations of accuracy and cost are known of."""
+"""Draw scenes at random from stated ranges, for each family that the scaling relations cover."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -40,13 +40,14 @@ RANGES = {
 }
 PERIODS = {LINE: 8, SURFACE: 4, ROUGH_PATH: 8}
 """Roll-off wavelengths in a period."""
-DECADE = 10.0
-FINE = 2**14
-"""Points of a scene's grid as long as none is chosen: enough for all waves of any."""
+MIN_LOGARITHMIC_RATIO = 10.0
+"""Ratio of two bounds from which on numbers between them are drawn by their logarithm."""
+MAX_POINTS = 2**14
+"""Grid points of a scene before a grid is chosen: enough for all its waves."""
 
 
-def read_draws(folder: str | Path, over: dict, tier: str) -> dict | None:
-    """Settings of trials.yaml, with what a tier changes; None without that file."""
+def read_trials(folder: str | Path, over: dict, tier: str) -> dict | None:
+    """Return the settings of trials.yaml with a tier's changes; None without that file."""
     given = tiered(Path(folder) / "trials.yaml", over, tier)
     if given is None:
         return None
@@ -61,78 +62,98 @@ def read_draws(folder: str | Path, over: dict, tier: str) -> dict | None:
     return settings
 
 
-def draw(kind: str, ranges: Mapping[str, list[float]], seed: int, count: int) -> Run:
-    """The run of one scene of a kind: number `count` of those that a seed leads to."""
+def draw_scene(kind: str, ranges: Mapping[str, list[float]], seed: int, count: int) -> Run:
+    """Return the run of a scene drawn at random.
+
+    Parameters
+    ----------
+    kind : str
+        Family of the scene, of `contactsim.error_control.scaling.FAMILIES`.
+    ranges : mapping
+        Least and largest value of each quantity that is drawn.
+    seed : int
+        Seed of all scenes.
+    count : int
+        Number of the scene.
+    """
     rng = np.random.default_rng(np.random.SeedSequence([seed, FAMILIES.index(kind), count]))
-    section = {LINE: _wall, SURFACE: _wall, PATH: _asperity, ROUGH_PATH: _rough, SLIDE: _slide}[kind](kind, ranges, rng)
+    section = SECTIONS[kind](kind, ranges, rng)
     name = f"{kind}_{count}"
-    given = {"title": name, "points": FINE, "tolerance": 1e-3}
-    return Study.read(name, given | section, "trials.yaml", seed).runs()[0]
+    shared = {"title": name, "points": MAX_POINTS, "tolerance": 1e-3}
+    return Study.read(name, shared | section, "trials.yaml", seed).runs()[0]
 
 
-def _within(rng: np.random.Generator, ends: list[float]) -> float:
-    """A number between two, by its logarithm where they lie far apart; to four digits."""
-    low, high = ends
-    far = low > 0 and high / low >= DECADE
-    value = np.exp(rng.uniform(*np.log(ends))) if far else rng.uniform(low, high)
+def _draw_number(rng: np.random.Generator, bounds: list[float]) -> float:
+    """Return a number between two bounds with four digits, uniform in its logarithm where they lie far apart."""
+    low, high = bounds
+    logarithmic = low > 0 and high / low >= MIN_LOGARITHMIC_RATIO
+    value = np.exp(rng.uniform(*np.log(bounds))) if logarithmic else rng.uniform(low, high)
     return float(f"{value:.4g}")
 
 
-def _self_affine(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+def _draw_surface(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+    """Return the section of a self-affine surface."""
     length = 10240.0
     rolloff = length / PERIODS[kind]
-    found = {
+    surface = {
         "kind": "self_affine",
-        "hurst": _within(rng, ranges["hurst"]),
+        "hurst": _draw_number(rng, ranges["hurst"]),
         "length": length,
         "rolloff_wavelength": rolloff,
     }
-    return found | {"shortest_wavelength": rolloff / _within(rng, ranges["wavelength_ratio"]), "amplitudes": "gaussian"}
+    return surface | {
+        "shortest_wavelength": rolloff / _draw_number(rng, ranges["wavelength_ratio"]),
+        "amplitudes": "gaussian",
+    }
 
 
-def _wall(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+def _hard_wall_section(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+    """Return a load at a hard wall, on a cylinder or sphere or on a rough surface."""
     section = {"body": {"kind": "half_space", "contact_modulus": 1.0}, "effects": ["hard_wall"]}
     if rng.uniform() < ranges["round"]:
         radius = 1000.0
         shape = {LINE: "cylinder", SURFACE: "sphere"}[kind]
-        load = {"contact_ratio": [_within(rng, ranges["contact_ratio"])]}
+        load = {"contact_ratio": [_draw_number(rng, ranges["contact_ratio"])]}
         return section | {"surface": {"kind": shape, "radius": radius, "length": radius}, "load": load}
-    surface = _self_affine(kind, ranges, rng) | {"rms_gradient": 0.1}
+    surface = _draw_surface(kind, ranges, rng) | {"rms_gradient": 0.1}
     if kind == SURFACE:
         surface["dimensions"] = 2
-    return section | {"surface": surface, "load": {"reduced_pressure": [_within(rng, ranges["reduced_pressure"])]}}
+    return section | {"surface": surface, "load": {"reduced_pressure": [_draw_number(rng, ranges["reduced_pressure"])]}}
 
 
-def _law(ranges: Mapping, rng: np.random.Generator, frictionless: float = 1 / 3) -> tuple[dict, dict]:
-    """A coupled law, a share of them without friction; and Poisson's ratio."""
-    work, ratio = _within(rng, ranges["work_of_separation"]), _within(rng, ranges["work_ratio"])
+def _draw_law(ranges: Mapping, rng: np.random.Generator, frictionless: float = 1 / 3) -> tuple[dict, dict]:
+    """Return the sections of a coupled law, for a share of scenes without friction, and of the elastic body."""
+    work, ratio = _draw_number(rng, ranges["work_of_separation"]), _draw_number(rng, ranges["work_ratio"])
     ratio = 0.0 if rng.uniform() < frictionless else ratio
     law = {"work_of_separation": work, "work_ratio": ratio, "normal_length": 1.0, "tangential_length": 1.0}
-    elastic = {"youngs_modulus": 70.0, "poisson_ratio": _within(rng, ranges["poisson_ratio"])}
+    elastic = {"youngs_modulus": 70.0, "poisson_ratio": _draw_number(rng, ranges["poisson_ratio"])}
     return {"effects": ["cohesive_zone"], "cohesive_zone": law}, elastic
 
 
-def _asperity(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
-    law, elastic = _law(ranges, rng)
-    radius = _within(rng, ranges["radius"])
+def _asperity_section(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+    """Return a path of an adhesive cylinder on a layer."""
+    law, elastic = _draw_law(ranges, rng)
+    radius = _draw_number(rng, ranges["radius"])
     surface = {"kind": "cylinder", "radius": radius, "length": 0.4 * radius}
     body = {"kind": "layer", "thickness": 0.2 * radius} | elastic
-    path = {"approach": [-10.0, _within(rng, ranges["approach"])], "increment": 1.0}
+    path = {"approach": [-10.0, _draw_number(rng, ranges["approach"])], "increment": 1.0}
     return law | {"surface": surface, "body": body, "path": path}
 
 
-def _rough(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
-    law, elastic = _law(ranges, rng)
-    surface = _self_affine(kind, ranges, rng) | {"rms_height": 10.0}
-    path = {"approach": [-7.0, _within(rng, ranges["approach"])], "increment": 1.0, "origin": "first_touch"}
+def _rough_section(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+    """Return a path of an adhesive rough line on a half-space."""
+    law, elastic = _draw_law(ranges, rng)
+    surface = _draw_surface(kind, ranges, rng) | {"rms_height": 10.0}
+    path = {"approach": [-7.0, _draw_number(rng, ranges["approach"])], "increment": 1.0, "origin": "first_touch"}
     solver = {"kind": "newton", "flow_step": 1.0, "flow_budget": 400}
     body = {"kind": "half_space"} | elastic
     return law | {"surface": surface, "body": body, "path": path, "solver": solver}
 
 
-def _slide(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
-    law, elastic = _law(ranges, rng, frictionless=0.0)
-    radius = _within(rng, ranges["radius"])
+def _slide_section(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
+    """Return a cylinder with a layer that slides over a lattice."""
+    law, elastic = _draw_law(ranges, rng, frictionless=0.0)
+    radius = _draw_number(rng, ranges["radius"])
     path = {"approach": [-8.0, -4.0], "increment": MIN_PRESSING_INCREMENT}
     return law | {
         "surface": {"kind": "cylinder", "radius": radius, "length": 0.4 * radius},
@@ -140,5 +161,15 @@ def _slide(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
         "counter_body": {"kind": "layer", "thickness": 0.4 * radius} | elastic,
         "pairing": {"kind": "lattice", "lattice_constant": 2.44140625, "tangential_cutoff": 5.0},
         "path": path,
-        "slide": {"through": [0.0, 18.0], "increment": 0.5, "approach": _within(rng, ranges["approach"])},
+        "slide": {"through": [0.0, 18.0], "increment": 0.5, "approach": _draw_number(rng, ranges["approach"])},
     }
+
+
+SECTIONS: dict[str, Callable[[str, Mapping, np.random.Generator], dict]] = {
+    LINE: _hard_wall_section,
+    SURFACE: _hard_wall_section,
+    PATH: _asperity_section,
+    ROUGH_PATH: _rough_section,
+    SLIDE: _slide_section,
+}
+"""The function that draws a study's section, by family."""

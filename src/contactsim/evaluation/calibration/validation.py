@@ -1,8 +1,7 @@
-"""Accuracy on trial: scenes drawn at random are solved to an error asked for, and judged by finer runs.
+"""Put error control on trial: random scenes are solved to a requested error and judged by finer runs.
 
-The true error is against a run with every knob finer than in any that is judged. The cheapest setting is the one of
-least work, transforms times points, on a ladder of all knobs about the final one that is within the error in truth;
-who does not know it beforehand cannot choose it.
+The true error is against a run that is finer in every knob than all judged runs. The cheapest setting has the least
+work, transforms times points, among all settings of a ladder about the final one whose true error is small enough.
 """
 
 from __future__ import annotations
@@ -26,69 +25,87 @@ from contactsim.error_control.forecast import forecast_to_error
 from contactsim.error_control.options import choose_options, coarsen, scale_increment, set_grid
 from contactsim.error_control.scaling import FAMILIES, FILE, LINE, QUANTITIES, SURFACE
 from contactsim.errors import InputError
-from contactsim.evaluation.calibration.sampling import draw
+from contactsim.evaluation.calibration.sampling import draw_scene
 from contactsim.paths.options import Setup
-from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim.provenance import digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
+from contactsim.study.stages import computing_stage_digest, stage_digest
 
-GRIDS = (1 / 8, 1 / 5.7, 1 / 4, 1 / 2.8, 1 / 2, 1 / 1.4, 1.0, 1.4, 2.0)
+LADDER_GRIDS = (1 / 8, 1 / 5.7, 1 / 4, 1 / 2.8, 1 / 2, 1 / 1.4, 1.0, 1.4, 2.0)
 """Grids of the ladder, over the final one's points."""
-FACTORS = {
+LADDER_FACTORS = {
     ProblemKind.HARD_WALL: ((1.0,), (10.0, 1.0)),
     ProblemKind.COHESIVE: ((4.0, 2.0, 1.0), (1.0,)),
 }
 """Increments and tolerances of the ladder, over the final ones."""
 SYMBOLS = {"reduced_pressure": "p*", "contact_ratio": "c/R"}
-"""Loads in words."""
-FINER = {LINE: 6.0, SURFACE: 3.0}
+"""Symbols of loads."""
+REFERENCE_GRIDS = {LINE: 6.0, SURFACE: 3.0}
 """How many times finer the grid of the reference is than the final one; along paths three times."""
-PATH_FINER, PACE, TIGHTER = 3.0, 0.25, 0.1
+PATH_REFERENCE_GRID, REFERENCE_INCREMENT, REFERENCE_TOLERANCE = 3.0, 0.25, 0.1
 """Of a reference along a path: its grid's points, increments, tolerance, over the final ones."""
 
 
-def names(settings: dict) -> list[str]:
-    """Of all trials, as files have them."""
+def trial_names(settings: dict) -> list[str]:
+    """Return the names of all trials, which are those of their files."""
     return [f"{kind}_{count}" for kind in settings["kinds"] for count in range(settings["trial"]["scenes"])]
 
 
-def plan(settings: dict, kind: str, count: int) -> dict:
-    """What one trial depends on."""
+def trial_job(settings: dict, kind: str, count: int) -> dict:
+    """Return what one trial depends on."""
     solvers = [solver_module(name) for name in DEFAULT_SOLVERS.values()]
-    source = digest(
-        computing_digest("contactsim.evaluation.calibration.validation", *solvers), FILE.read_text(encoding="utf-8")
-    )
+    source = digest(computing_stage_digest("trial", *solvers), FILE.read_text(encoding="utf-8"))
     drawn = {"kinds": settings["kinds"], "trial": {"seed": settings["trial"]["seed"]}, "errors": settings["errors"]}
     return {"settings": drawn, "kind": kind, "count": count, "source": source}
 
 
-def figure(settings: dict, tier: str) -> dict:
-    """What the figure of all trials depends on."""
-    data = [plan(settings, kind, count) for kind in settings["kinds"] for count in range(settings["trial"]["scenes"])]
+def trials_figure_job(settings: dict, tier: str) -> dict:
+    """Return what the figure of all trials depends on."""
+    data = [
+        trial_job(settings, kind, count) for kind in settings["kinds"] for count in range(settings["trial"]["scenes"])
+    ]
     shown = {key: settings[key] for key in ("title", "caption", "size")}
-    code = source_digest("contactsim.figures.diagnostics.trials")
+    code = stage_digest("trials_figure")
     return {"settings": shown, "tier": tier, "seed": settings["trial"]["seed"], "source": code, "data": digest(data)}
 
 
-def error_asked(settings: dict, kind: str, count: int) -> float:
-    """The error asked of a scene: by turns those of the list, another at first for each kind."""
+def requested_error(settings: dict, kind: str, count: int) -> float:
+    """Return the error requested of a scene: the errors of the list in turn, from another one for each family."""
     return settings["errors"][(count + sorted(FAMILIES).index(kind)) % len(settings["errors"])]
 
 
-def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
-    """One scene on trial: what is reproducible, and seconds predicted and spent."""
-    run = draw(kind, settings["kinds"][kind], settings["trial"]["seed"], count)
-    setup, wanted = run.setup, error_asked(settings, kind, count)
-    expected = forecast_to_error(setup, wanted)
-    solve_setup(coarsen(choose_options(setup, wanted)), QUANTITIES[kind])  # loads what is compiled
-    result = solve_to_error(setup, wanted)
+def run_trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
+    """Solve one random scene to a requested error and judge the result by a finer run.
+
+    Parameters
+    ----------
+    settings : dict
+        Ranges, seed and errors, as in `trial_job`.
+    kind : str
+        Family of the scene.
+    count : int
+        Number of the scene.
+
+    Returns
+    -------
+    data : xarray.Dataset
+        Errors, points and work, dimension (scene); reproducible.
+    costs : dict
+        Seconds predicted, spent, and of the cheapest setting.
+    """
+    run = draw_scene(kind, settings["kinds"][kind], settings["trial"]["seed"], count)
+    setup, tolerated = run.setup, requested_error(settings, kind, count)
+    expected = forecast_to_error(setup, tolerated)
+    solve_setup(coarsen(choose_options(setup, tolerated)), QUANTITIES[kind])  # compiles the kernels
+    result = solve_to_error(setup, tolerated)
     names = QUANTITIES[kind]
     reference = solve_setup(REFERENCES[setup.scene.kind](result.last.setup, kind), names)
     tried = [(solution, _error(solution, reference)) for solution in _ladder(result, names)]
-    met = [solution for solution, error in tried if error <= wanted]
+    met = [solution for solution, error in tried if error <= tolerated]
     least = min(met, key=lambda solution: solution.transforms * solution.size, default=None)
     work = result.work * result.last.size
     row = {
-        "requested_error": wanted,
+        "requested_error": tolerated,
         "true_error": _error(result.last, reference),
         "predicted_error": max(float(values.max()) for values in result.errors.values()),
         "solve_count": len(result.before) + 1,
@@ -103,7 +120,7 @@ def trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     }
     coordinates = {"scene": [f"{kind} {count}"], "kind": ("scene", [kind])}
     data = xr.Dataset({name: ("scene", [value]) for name, value in row.items()}, coordinates)
-    data = data.assign(description=("scene", [_words(run.settings)]))
+    data = data.assign(description=("scene", [_describe_scene(run.settings)]))
     spent = {"predicted": expected.seconds, "seconds": result.seconds, "least": least.seconds if least else math.nan}
     return dataset.described(data), spent
 
@@ -115,14 +132,16 @@ def _error(solution: Solution, reference: Solution) -> float:
 
 def _load_reference(setup: Setup, kind: str) -> Setup:
     """Return a finer grid and a tighter tolerance for loads at a hard wall."""
-    tight = setup.with_options(tolerance=setup.options.tolerance * TIGHTER)
-    return set_grid(tight, setup.points * FINER[kind])
+    tight = setup.with_options(tolerance=setup.options.tolerance * REFERENCE_TOLERANCE)
+    return set_grid(tight, setup.points * REFERENCE_GRIDS[kind])
 
 
 def _path_reference(setup: Setup, kind: str) -> Setup:
     """Return a finer grid, shorter increments and a tighter tolerance for a path of cohesive laws."""
-    tight = scale_increment(setup.with_options(tolerance=setup.options.tolerance * TIGHTER), PACE)
-    return set_grid(tight, setup.points * PATH_FINER)
+    tight = scale_increment(
+        setup.with_options(tolerance=setup.options.tolerance * REFERENCE_TOLERANCE), REFERENCE_INCREMENT
+    )
+    return set_grid(tight, setup.points * PATH_REFERENCE_GRID)
 
 
 REFERENCES = {ProblemKind.HARD_WALL: _load_reference, ProblemKind.COHESIVE: _path_reference}
@@ -132,7 +151,7 @@ def _ladder(result: Controlled, names: tuple[str, ...]) -> list[Solution]:
     """Return every setting about the final one, solved on its own."""
     last = result.last.setup
     tried = {}
-    for grid, pace, tolerance in itertools.product(GRIDS, *FACTORS[last.scene.kind]):
+    for grid, pace, tolerance in itertools.product(LADDER_GRIDS, *LADDER_FACTORS[last.scene.kind]):
         setup = last.with_options(tolerance=last.options.tolerance * tolerance)
         setup = set_grid(scale_increment(setup, pace), last.points * grid)
         tried[setup.points, pace, tolerance] = setup
@@ -147,8 +166,8 @@ def _solved(setup: Setup, names: tuple[str, ...]) -> Solution | None:
         return None
 
 
-def _words(run: dict) -> str:
-    """A scene in a few words: what was drawn."""
+def _describe_scene(run: dict) -> str:
+    """Return the drawn quantities of a scene in a few words."""
     surface, load, body = run["surface"], run["load"], run.get("counter_body") or run["body"]
     if "hurst" in surface:
         parts = [

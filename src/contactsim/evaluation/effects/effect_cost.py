@@ -1,4 +1,4 @@
-"""What effects cost: one scene with more and more of them, each variant measured alone.
+"""Measure the cost of effects: one scene with more and more of them, each variant alone.
 
 Unknowns, transforms and the status of every step are reproducible; seconds and memory are kept apart.
 """
@@ -14,11 +14,12 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.errors import InputError
 from contactsim.paths.driver import follow_path
-from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
 from contactsim.status import is_solved
 from contactsim.study.reading import Key, mapping, overlaid, read, size, text, tiered, whole
 from contactsim.study.scenes import build_setup
+from contactsim.study.stages import computing_stage_digest, stage_digest
 from contactsim.study.study import Study
 
 KEYS = {
@@ -31,12 +32,12 @@ KEYS = {
 }
 
 
-def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
+def read_variants(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
     """Return the settings of the study of costs, with name, title and run of each variant; None without the file."""
-    given = tiered(Path(folder) / "effects.yaml", over, tier)
-    if given is None:
+    source = tiered(Path(folder) / "effects.yaml", over, tier)
+    if source is None:
         return None
-    section, file = given
+    section, file = source
     settings = read(section, KEYS, file)
     variants = []
     for name, variant in settings["variants"].items():
@@ -50,24 +51,32 @@ def read_ladder(folder: str | Path, seed: int, over: dict, tier: str) -> dict | 
     return settings | {"variants": variants}
 
 
-def plan(settings: dict) -> dict:
-    """What the measurement depends on."""
+def effects_job(settings: dict) -> dict:
+    """Return what the measurement depends on."""
     modules = sorted({solver_module(variant["run"]["solver"]["kind"]) for variant in settings["variants"]})
     shown = {key: settings[key] for key in ("repeats", "variants")}
-    return {"settings": shown, "source": computing_digest("contactsim.evaluation.effects.effect_cost", *modules)}
+    return {"settings": shown, "source": computing_stage_digest("measure_effects", *modules)}
 
 
-def figure(settings: dict, tier: str) -> dict:
-    """What the figure depends on."""
+def effects_figure_job(settings: dict, tier: str) -> dict:
+    """Return what the figure depends on."""
     titles = {variant["name"]: variant["title"] for variant in settings["variants"]}
     shown = {key: settings[key] for key in ("title", "caption", "size")}
-    code, data = source_digest("contactsim.figures.diagnostics.effects"), digest(plan(settings))
+    code, data = stage_digest("effects_figure"), digest(effects_job(settings))
     settings = {"settings": shown, "titles": titles, "repeats": settings["repeats"], "tier": tier}
     return settings | {"source": code, "data": data}
 
 
-def measure(settings: dict) -> tuple[xr.Dataset, dict]:
-    """All variants: what is reproducible as a dataset along `variant`, and CPU seconds and peak megabytes of each."""
+def measure_effects(settings: dict) -> tuple[xr.Dataset, dict]:
+    """Measure all variants.
+
+    Returns
+    -------
+    data : xarray.Dataset
+        Unknowns, transforms, steps and unconverged steps, dimension (variant); reproducible.
+    costs : dict
+        CPU seconds and peak megabytes by variant.
+    """
     rows, spent = [], {}
     for variant in settings["variants"]:
         name = variant["name"]

@@ -1,4 +1,4 @@
-"""Maps of what leaving an effect out changes, measured: the scene of each, and the settings that it varies.
+"""Measure how much neglecting an effect changes: maps over some settings of a scene.
 
 A map varies some settings of one scene, as they are or as ratios of settings. What is measured becomes the file that
 `contactsim.error_control.effect_maps` reads.
@@ -21,11 +21,12 @@ from contactsim.error_control.scaling import FILE as RELATIONS
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.registry import EFFECTS
-from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim.provenance import digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
 from contactsim.study.keys import any_of
 from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, keys_of, listed, mapping, number, pair, read, size, text, tiered
+from contactsim.study.stages import computing_stage_digest, stage_digest
 from contactsim.study.study import Study
 
 KEYS = {
@@ -58,21 +59,21 @@ PLACE = Key(pair, "where the words are written: two parts of the panel, across a
 
 
 def read_maps(folder: str | Path, over: dict, tier: str) -> dict | None:
-    """Settings of effect_maps.yaml, with what a tier changes; None without that file."""
+    """Return the settings of effect_maps.yaml with a tier's changes; None without that file."""
     given = tiered(Path(folder) / "effect_maps.yaml", over, tier)
     if given is None:
         return None
     section, file = given
     settings = read(section, KEYS, file)
-    settings["maps"] = {name: _map(name, one, file) for name, one in settings["maps"].items()}
+    settings["maps"] = {name: _read_map(name, one, file) for name, one in settings["maps"].items()}
     settings["panels"] = [
-        _panel(panel, count, settings["maps"], file) for count, panel in enumerate(settings["panels"])
+        _read_panel(panel, count, settings["maps"], file) for count, panel in enumerate(settings["panels"])
     ]
     return settings
 
 
-def _map(name: str, section: object, file: str) -> dict:
-    """A map as read: what it is of, and axes that its scene has, down to the scenes of each of their values."""
+def _read_map(name: str, section: object, file: str) -> dict:
+    """Return the checked settings of a map, down to the scenes of all values of its axes."""
     prefix = f"maps.{name}"
     one = read(section, MAP_KEYS, file, prefix)
     one["axes"] = {axis: read(given, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, given in one["axes"].items()}
@@ -88,7 +89,7 @@ def _map(name: str, section: object, file: str) -> dict:
     first = {axis: given["values"][0] for axis, given in one["axes"].items()}
     for axis, given in one["axes"].items():
         for value in given["values"]:
-            runs = _study(one, first | {axis: value}, name, file).runs()
+            runs = _read_study(one, first | {axis: value}, name, file).runs()
     if len(runs) != 1:
         raise InputError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
     known = study_kind(runs[0].settings).comparable
@@ -98,7 +99,7 @@ def _map(name: str, section: object, file: str) -> dict:
     return one
 
 
-def _panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
+def _read_panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
     """A panel as read: every axis of its map is across, up, or at a value of its own."""
     prefix = f"panels.{count}"
     panel = read(section, PANEL_KEYS, file, prefix)
@@ -117,51 +118,65 @@ def _panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
     return panel
 
 
-def plan(settings: dict, name: str) -> dict:
-    """What the measurement of one map depends on."""
-    code = computing_digest(
-        "contactsim.evaluation.effects.survey", *(solver_module(name) for name in DEFAULT_SOLVERS.values())
-    )
+def map_job(settings: dict, name: str) -> dict:
+    """Return what the measurement of one map depends on."""
+    code = computing_stage_digest("measure_effect_map", *(solver_module(name) for name in DEFAULT_SOLVERS.values()))
     return {"name": name, "map": settings["maps"][name], "source": digest(code, RELATIONS.read_text(encoding="utf-8"))}
 
 
-def figure(settings: dict, tier: str) -> dict:
-    """What the figure of all maps depends on."""
+def maps_figure_job(settings: dict, tier: str) -> dict:
+    """Return what the figure of all maps depends on."""
     shown = {key: settings[key] for key in ("title", "caption", "size", "panels")}
     titles = {name: one["title"] for name, one in settings["maps"].items()}
-    data = digest([plan(settings, name) for name in settings["maps"]])
+    data = digest([map_job(settings, name) for name in settings["maps"]])
     return {
         "settings": shown,
         "titles": titles,
         "tier": tier,
-        "source": source_digest("contactsim.figures.diagnostics.effect_maps"),
+        "source": stage_digest("maps_figure"),
         "data": data,
     }
 
 
-def measure(name: str, settings: dict) -> xr.Dataset:
-    """One map: the largest relative change of its quantities, at every place; infinite where a path has no solution."""
+def measure_map(name: str, settings: dict) -> xr.Dataset:
+    """Measure one map.
+
+    Parameters
+    ----------
+    name : str
+        Name of the map.
+    settings : dict
+        Its section, from `read_maps`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Largest relative change of the map's quantities, with one dimension an axis; infinite where a path has no
+        solution.
+    """
     axes, known = settings["axes"], {}
     errors = np.empty([len(axis["values"]) for axis in axes.values()])
     for place in np.ndindex(errors.shape):
         values = {axis: given["values"][k] for (axis, given), k in zip(axes.items(), place, strict=True)}
-        setup = _study(settings, values, name, "effect_maps.yaml").runs()[0].setup
+        setup = _read_study(settings, values, name, "effect_maps.yaml").runs()[0].setup
         errors[place] = change_without(setup, settings["neglect"], settings["of"], known)
-    return as_dataset(settings, errors)
+    return map_dataset(settings, errors)
 
 
-def as_dataset(settings: dict, errors: Array) -> xr.Dataset:
-    """A map's changes with the values of its axes."""
+def map_dataset(settings: dict, errors: Array) -> xr.Dataset:
+    """Return the changes of a map with the values of its axes."""
     axes = {axis: given["values"] for axis, given in settings["axes"].items()}
     return dataset.described(xr.Dataset({"change_without": (list(axes), errors)}, axes))
 
 
-def _study(settings: dict, values: Mapping[str, float], name: str, file: str) -> Study:
-    """The study of one run at one place of a map."""
+def _read_study(settings: dict, values: Mapping[str, float], name: str, file: str) -> Study:
+    """Return the study of one run at one place of a map."""
     section = settings["scene"]
     for axis, value in values.items():
         given = settings["axes"][axis]
-        section = _with(section, given["key"], value * math.prod(_value_at(section, key) for key in given["per"]))
+        section = _replace_value(
+            section, given["key"], value * math.prod(_value_at(section, key) for key in given["per"])
+        )
     return Study.read(name, {"title": name} | section, file, 0)
 
 
@@ -175,19 +190,19 @@ def _value_at(section: Mapping, key: str) -> object:
     return value.get(tail, keys[tail].default if tail in keys else None)
 
 
-def _with(section: dict, key: str, value: float) -> dict:
-    """A section with a dotted key set."""
+def _replace_value(section: dict, key: str, value: float) -> dict:
+    """Return a section with another value of a dotted key."""
     head, _, tail = key.partition(".")
-    return section | {head: _with(section[head], tail, value) if tail else value}
+    return section | {head: _replace_value(section[head], tail, value) if tail else value}
 
 
-def as_text(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
-    """The maps as the package keeps them."""
-    told = {}
+def format_maps(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
+    """Return the maps as the text of the file that the package keeps."""
+    sections = {}
     for name, data in maps.items():
         one = settings["maps"][name]
         scene = one["scene"]
-        told[name] = {
+        sections[name] = {
             "neglect": one["neglect"],
             "of": one["of"],
             "surface": scene["surface"]["kind"],
@@ -196,5 +211,5 @@ def as_text(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
             "axes": one["axes"],
             "change": [float(f"{value:.3g}") for value in data.change_without.values.ravel()],
         }
-    head = "# What leaving effects out changes, measured by `snakemake freeze_maps`; see contactsim/effect_survey.py\n"
-    return head + yaml.safe_dump(told, sort_keys=False, width=120, default_flow_style=None)
+    head = "# What leaving effects out changes, measured by `snakemake freeze_maps`; see evaluation/effects\n"
+    return head + yaml.safe_dump(sections, sort_keys=False, width=120, default_flow_style=None)

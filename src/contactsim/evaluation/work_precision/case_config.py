@@ -149,7 +149,7 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
     return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
-def every_tier(folder: str | Path, plan: Plan) -> dict[str, Plan]:
+def read_all_tiers(folder: str | Path, plan: Plan) -> dict[str, Plan]:
     """The plans of all tiers; plan: that of its tier, which is not read again."""
     tiers = load_yaml(Path(folder) / "tiers.yaml")
     return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
@@ -158,7 +158,7 @@ def every_tier(folder: str | Path, plan: Plan) -> dict[str, Plan]:
 def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
     """What the figure of a case depends on: settings, jobs and their digests, the study's, and where its marks are.
 
-    The marks are each tier's value of each knob, and the thesis's as far as it is known. tiers: from `every_tier`.
+    The marks are each tier's value of each knob, and the thesis's as far as it is known. tiers: from `read_all_tiers`.
     """
     studies = {tier: own.studies[case.study.name].settings for tier, own in tiers.items()}
     shared = ("points", "tolerance", "members")

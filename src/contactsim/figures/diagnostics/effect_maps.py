@@ -42,7 +42,7 @@ def write_effect_maps(plan: Mapping[str, Any], data: Sequence[str], targets: Map
 
     Parameters
     ----------
-    plan : of `contactsim.evaluation.effects.survey.figure`
+    plan : of `contactsim.evaluation.effects.survey.maps_figure_job`
     data : paths of the maps, in the order of their names
     targets : png, pdf and csv
     """

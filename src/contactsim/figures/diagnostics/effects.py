@@ -31,7 +31,7 @@ def write_effects(plan: Mapping[str, Any], data: str, costs: str, targets: Mappi
     Parameters
     ----------
     plan : tier, repeats, settings of the figure, and titles of the scenes by name
-    data, costs : paths of the files of `contactsim.evaluation.effects.effect_cost.measure`
+    data, costs : paths of the files of `contactsim.evaluation.effects.effect_cost.measure_effects`
     targets : png, pdf and csv
     """
     scenes = dataset.load_dataset(data)

@@ -39,8 +39,8 @@ def write_trials(
 
     Parameters
     ----------
-    plan : of `contactsim.evaluation.calibration.validation.figure`
-    data, costs : paths of the files of `contactsim.evaluation.calibration.validation.trial`, scene by scene
+    plan : of `contactsim.evaluation.calibration.validation.trials_figure_job`
+    data, costs : paths of the files of `contactsim.evaluation.calibration.validation.run_trial`, scene by scene
     targets : data (netCDF), png, pdf and csv
     """
     trials = xr.concat([dataset.load_dataset(path) for path in data], "scene")

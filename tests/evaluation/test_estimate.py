@@ -5,7 +5,7 @@ import json
 import pytest
 
 from contactsim import cli
-from contactsim.evaluation import budget, resources
+from contactsim.evaluation import estimate, resources
 from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.study.plan import Plan
 from support.places import ROOT
@@ -27,11 +27,11 @@ def first_run(plan, study):
 
 
 def test_figures_of_one_study_cost_the_same_each_and_once_in_all(plan):
-    figures = budget.by_figure(plan, {})
+    figures = estimate.figure_costs(plan, {})
     assert figures["fig_3_2"] == figures["fig_3_3"]
     studies = {study for figure in plan.figures.values() for study in figure.studies}
     studies |= {study for chapter in plan.claims for study in plan.claims_studies(chapter)}
-    whole = budget.in_all(plan, {})
+    whole = estimate.total_cost(plan, {})
     assert whole.jobs == sum(len(plan.studies[study].runs()) for study in studies)
     assert whole.seconds < sum(cost.seconds for cost in figures.values())
     assert whole.megabytes == max(cost.megabytes for cost in figures.values())
@@ -40,9 +40,11 @@ def test_figures_of_one_study_cost_the_same_each_and_once_in_all(plan):
 def test_a_figure_costs_what_its_studies_cost_together(plan):
     figure = plan.figures["fig_3_5"]
     runs = [run for study in figure.studies for run in plan.studies[study].runs()]
-    cost = budget.by_figure(plan, {})["fig_3_5"]
+    cost = estimate.figure_costs(plan, {})["fig_3_5"]
     assert (cost.jobs, cost.unknown) == (len(runs), 0)
-    seconds = [resources.seconds_of(run, "nothing") + resources.START for run in runs if plan.twin(run) is None]
+    seconds = [
+        resources.predict_seconds(run, "nothing") + resources.START_SECONDS for run in runs if plan.twin(run) is None
+    ]
     assert cost.seconds == pytest.approx(sum(seconds), rel=1e-12)
 
 
@@ -50,12 +52,12 @@ def test_what_is_taken_over_from_another_run_costs_its_start_alone(plan):
     runs = plan.studies["rough_adhesive_auto"].runs()
     taken = [run for run in runs if plan.twin(run) is not None]
     assert taken
-    assert budget.Cost.of(taken, plan, {}).seconds == len(taken) * resources.START
+    assert estimate.Cost.of(taken, plan, {}).seconds == len(taken) * resources.START_SECONDS
 
 
 def test_what_is_not_known_is_told_and_not_counted_as_nothing(plan):
-    lines = {line.split("  ")[0]: line for line in budget.table(ROOT / "config", plan).splitlines()}
-    assert budget.by_figure(plan, {})["fig_6_4"].unknown == budget.by_figure(plan, {})["fig_6_4"].jobs
+    lines = {line.split("  ")[0]: line for line in estimate.cost_table(ROOT / "config", plan).splitlines()}
+    assert estimate.figure_costs(plan, {})["fig_6_4"].unknown == estimate.figure_costs(plan, {})["fig_6_4"].jobs
     assert "unknown" in lines["fig_6_4"]
     assert "and 4 of unknown cost" in lines["friction_loop"]
     assert "solves nothing" in lines["fig_2_2"]
@@ -71,11 +73,11 @@ def test_what_a_run_of_the_same_settings_took_at_another_tier_counts_where_nothi
     costs = standard.results / f"costs/runs/{other.stem}.json"
     costs.parent.mkdir(parents=True)
     costs.write_text(json.dumps({"cpu_seconds_of_last_run": 99.0, "peak_memory_of_last_run": 4321.0}))
-    measured = budget.all_measured([plan, standard, full])
+    measured = estimate.find_measured_costs([plan, standard, full])
     assert list(measured.values()) == [costs]
-    found = budget.by_figure(full, measured)["fig_6_4"]
-    assert (found.unknown, found.seconds, found.megabytes) == (found.jobs - 1, 99.0 + resources.START, 4321.0)
-    assert budget.by_figure(plan, measured)["fig_6_4"].unknown == budget.by_figure(plan, {})["fig_6_4"].jobs
+    found = estimate.figure_costs(full, measured)["fig_6_4"]
+    assert (found.unknown, found.seconds, found.megabytes) == (found.jobs - 1, 99.0 + resources.START_SECONDS, 4321.0)
+    assert estimate.figure_costs(plan, measured)["fig_6_4"].unknown == estimate.figure_costs(plan, {})["fig_6_4"].jobs
 
 
 def test_the_shell_tells_the_cost_of_every_figure(monkeypatch, capsys):
@@ -89,22 +91,22 @@ def test_the_shell_tells_the_cost_of_every_figure(monkeypatch, capsys):
 
 def test_a_run_asks_for_more_than_is_forecast_and_for_as_much_again_with_each_attempt(plan, tmp_path):
     run = first_run(plan, "rough_surface")
-    expected = resources.forecast_for(run)
-    assert resources.memory_asked(run, tmp_path) > expected.megabytes + 300
-    assert 60 * resources.minutes_asked(run, tmp_path) > 3 * expected.seconds
-    for asked in (resources.memory_asked, resources.minutes_asked):
+    expected = resources.find_forecast(run)
+    assert resources.request_memory(run, tmp_path) > expected.megabytes + 300
+    assert 60 * resources.request_minutes(run, tmp_path) > 3 * expected.seconds
+    for asked in (resources.request_memory, resources.request_minutes):
         assert isinstance(asked(run, tmp_path), int)
         assert asked(run, tmp_path, attempt=2) == 2 * asked(run, tmp_path)
 
 
 def test_a_run_of_an_unknown_kind_asks_for_what_it_took_before(plan, tmp_path):
     run, costs = first_run(plan, "flat"), tmp_path / "costs.json"
-    assert resources.forecast_for(run) is None
-    assert resources.minutes_asked(run, costs) == resources.UNKNOWN_MINUTES
-    assert resources.memory_asked(run, costs) == resources.UNKNOWN_MEGABYTES
+    assert resources.find_forecast(run) is None
+    assert resources.request_minutes(run, costs) == resources.UNKNOWN_MINUTES
+    assert resources.request_memory(run, costs) == resources.UNKNOWN_MEGABYTES
     costs.write_text(json.dumps({"cpu_seconds_of_last_run": 99.0, "peak_memory_of_last_run": 4321.0}))
-    assert resources.minutes_asked(run, costs) == 10
-    assert resources.memory_asked(run, costs) == 4400
+    assert resources.request_minutes(run, costs) == 10
+    assert resources.request_memory(run, costs) == 4400
 
 
 def test_runs_share_a_job_of_a_cluster_only_where_they_are_short(plan, tmp_path):
