@@ -19,7 +19,7 @@ import numpy as np
 import yaml
 
 from contactsim import reference
-from contactsim.contact.scene import Scene
+from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.errors import InputError
 from contactsim.status import process_zone
 from contactsim.surfaces.self_affine import SelfAffine
@@ -150,32 +150,44 @@ def scene_family(scene: Scene) -> str:
     InputError
         For a scene whose errors and costs were not measured.
     """
-    surface, traits = scene.upper.surface, scene.traits
+    surface = scene.upper.surface
     rough = isinstance(surface, SelfAffine)
     if not (rough or isinstance(surface, Cylinder | Sphere)):
         allowed = "a cylinder, sphere or self-affine surface: others were not measured"
         raise InputError("surface", type(surface).__name__, allowed)
-    if Trait.WALL in traits:
-        if Trait.APPROACH in traits:
-            raise InputError("path", "approach", "loads: walls at given approaches were not measured")
-        return SURFACE if Trait.SURFACE in traits else LINE
-    if Trait.MEAN_PRESSURE in traits:
+    return FAMILY_READERS[scene.kind](scene, rough)
+
+
+def _load_family(scene: Scene, rough: bool) -> str:
+    """Return the family of loads at a hard wall."""
+    if Trait.APPROACH in scene.traits:
+        raise InputError("path", "approach", "loads: walls at given approaches were not measured")
+    return SURFACE if Trait.SURFACE in scene.traits else LINE
+
+
+def _path_family(scene: Scene, rough: bool) -> str:
+    """Return the family of a path of cohesive laws."""
+    if Trait.MEAN_PRESSURE in scene.traits:
         raise InputError("path", "mean_pressure", "approaches: paths under given loads were not measured")
+    if scene.sliding and rough:
+        surface = type(scene.upper.surface).__name__
+        raise InputError("slide", surface, "a slide of a cylinder: rough ones were not measured")
     if scene.sliding:
-        if rough:
-            raise InputError("slide", type(surface).__name__, "a slide of a cylinder: rough ones were not measured")
         return SLIDE
     return ROUGH_PATH if rough else PATH
 
 
+FAMILY_READERS = {ProblemKind.HARD_WALL: _load_family, ProblemKind.COHESIVE: _path_family}
+
+
 def shortest_range(scene: Scene) -> float:
     """Return the shortest length (nm) over which the cohesive laws of a scene change."""
-    return min(law.interaction_range for law in scene.effects if Trait.SMOOTH in law.traits)
+    return min(law.interaction_range for law in scene.effects)
 
 
 def total_strength(scene: Scene) -> float:
     """Return the strength (GPa) of all cohesive laws of a scene together."""
-    return sum(law.strength for law in scene.effects if Trait.SMOOTH in law.traits)
+    return sum(law.strength for law in scene.effects)
 
 
 def features(scene: Scene) -> list[dict[str, float]]:
@@ -233,12 +245,24 @@ def contact_scale(scene: Scene, pressure: float = 0.0) -> float:
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
         return surface.finest
-    if Trait.WALL not in scene.traits:
-        return float(np.sqrt(surface.radius * max(_deepest_approach(scene), shortest_range(scene))))
+    return ROUND_SCALES[scene.kind](scene, pressure)
+
+
+def _hertz_scale(scene: Scene, pressure: float) -> float:
+    """Return the half-width or radius of the contact of a round surface at a mean pressure (GPa) on a hard wall."""
+    surface = scene.upper.surface
     load = pressure * float(np.prod(scene.lengths))
     if len(scene.lengths) == 1:
         return float(np.sqrt(load / reference.cylinder_load(1.0, surface.radius, scene.contact_modulus)))
     return float(np.cbrt(load / reference.sphere_load(1.0, surface.radius, scene.contact_modulus)))
+
+
+def _indentation_scale(scene: Scene, pressure: float) -> float:
+    """Return the half-width of a round surface at the deepest approach of a path."""
+    return float(np.sqrt(scene.upper.surface.radius * max(_deepest_approach(scene), shortest_range(scene))))
+
+
+ROUND_SCALES = {ProblemKind.HARD_WALL: _hertz_scale, ProblemKind.COHESIVE: _indentation_scale}
 
 
 def _deepest_approach(scene: Scene) -> float:

@@ -21,7 +21,6 @@ from contactsim.paths.slips import slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.surfaces.statistics import local_squares
-from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
 
@@ -146,7 +145,7 @@ def _collected(
         "approach_first_touch": -float(heights.max()),
         "contact_modulus": scene.contact_modulus,
         "control": scene.path.steps[0].control.name.lower(),
-        "strength": sum(effect.strength for effect in scene.effects if Trait.SMOOTH in effect.traits),
+        "strength": sum(law.strength for law in scene.effects),
     }
     if scene.sliding:
         lattice = problem.lattice_constant

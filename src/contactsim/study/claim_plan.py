@@ -7,15 +7,10 @@ from dataclasses import dataclass
 
 from contactsim.analysis.grid_convergence import is_doubled
 from contactsim.analysis.reductions import FITTED, LIMIT, REDUCTIONS, reduction_inputs
-from contactsim.contact.scene import ProblemKind
 from contactsim.errors import InputError
-from contactsim.observables.adhesion import FINAL, SUMMARY
 from contactsim.observables.forms import AVERAGED
-from contactsim.observables.hysteresis import CYCLE
-from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.peeling import ALONG, ONSET, THRESHOLD
 from contactsim.study.keys import ERROR_RUNS
-from contactsim.study.kinds import problem_kind
+from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, choice, mapping, number, positive, read, text
 from contactsim.study.study import Study
 
@@ -171,13 +166,8 @@ def quantities(study: Study) -> list[str]:
 
 def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
-    names = set(AREA_LOAD)
-    if problem_kind(study.settings["effects"]) is ProblemKind.COHESIVE:
-        scene = study.runs()[0].setup.scene
-        slips = "t" in scene.components
-        names |= {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
-        names |= {name for name in ONSET if scene.sliding}
-        names |= {name for name in THRESHOLD if scene.sliding and ALONG in study.dimensions}
+    scene = study.runs()[0].setup.scene
+    names = study_kind(study.settings).path_quantities(scene, study.dimensions)
     return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
 
 

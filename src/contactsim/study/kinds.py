@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from contactsim.contact.cohesive import check_tolerance
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
-from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.adhesion import FINAL, SUMMARY
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.peeling import ONSET
+from contactsim.observables.peeling import ALONG, ONSET, THRESHOLD
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.options import Setup
 
@@ -42,6 +42,10 @@ class StudyKind(Protocol):
         """Raise InputError for options that cannot work."""
         ...
 
+    def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
+        """Return the names of the summaries of a path; dimensions: of the study's dataset."""
+        ...
+
 
 class HardWallStudy:
     """Loads at a hard wall."""
@@ -61,6 +65,10 @@ class HardWallStudy:
 
     def check(self, setup: Setup) -> None:
         """Accept all options."""
+
+    def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
+        """Return how area and load of a path through given approaches are related."""
+        return set(AREA_LOAD)
 
 
 class CohesiveStudy:
@@ -92,6 +100,14 @@ class CohesiveStudy:
         (options.increments or Requested()).check(setup.points, scene.path.steps, options.solver)
         for value in options.snapshots or ():
             scene.path.nearest(value)
+
+    def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
+        """Return what load curves, cycles and slides amount to, as far as the scene has them."""
+        slips = "t" in scene.components
+        names = {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
+        if scene.sliding:
+            names |= {*ONSET, *(THRESHOLD if ALONG in dimensions else ())}
+        return names | set(AREA_LOAD)
 
 
 STUDY_KINDS: dict[ProblemKind, StudyKind] = {
