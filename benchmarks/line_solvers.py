@@ -25,7 +25,7 @@ from contactsim.solvers.registry import is_installed
 from contactsim.study.plan import Plan
 
 HERE = Path(__file__).resolve().parent
-CASE = ("part", "solver", "hurst", "points", "member", "reduced_pressure", "tolerance")
+CASE = ("part", "solver", "hurst_exponent", "points", "member", "reduced_pressure", "tolerance")
 FOUND = ("status", "area", "certificate", "transforms", "seconds", "rounds")
 RATIOS = ("seconds_of_transforms", "per_transforms", "seconds_of_replay", "per_replay", "per_active_set")
 SIZES = (2**14, 2**15, 2**16, 2**17, 2**18)
@@ -38,17 +38,25 @@ def sweeps(plan: Plan, table: Table, sizes: tuple[int, ...], members: int, round
     """The active set over all loads at each Hurst exponent, size and tolerance."""
     study = plan.studies["rough_line"].settings
     tolerances = study["tolerance"], 1e-6
-    for hurst, points, tolerance in itertools.product(study["vary"]["surface.hurst"], sizes, tolerances):
+    for hurst_exponent, points, tolerance in itertools.product(
+        study["vary"]["surface.hurst_exponent"], sizes, tolerances
+    ):
         for member in range(members):
-            case = {"part": "sweep", "solver": "active_set", "hurst": hurst, "points": points, "member": member}
+            case = {
+                "part": "sweep",
+                "solver": "active_set",
+                "hurst_exponent": hurst_exponent,
+                "points": points,
+                "member": member,
+            }
             table.row(case | {"tolerance": tolerance}, lambda case: measure.measure_sweep(plan, case, rounds))
 
 
 def comparisons(sizes: tuple[int, ...], solvers: tuple[str, ...], hursts: tuple[float, ...]) -> Iterator[dict]:
     """Every single load to solve: quickest grids first; time stepping on the coarsest only."""
-    for hurst, points, pressure, name in itertools.product(hursts, sizes, COMPARED, solvers):
+    for hurst_exponent, points, pressure, name in itertools.product(hursts, sizes, COMPARED, solvers):
         if name != "verlet" or points == min(SIZES):
-            case = {"part": "compare", "solver": name, "hurst": hurst, "points": points, "member": 0}
+            case = {"part": "compare", "solver": name, "hurst_exponent": hurst_exponent, "points": points, "member": 0}
             yield case | {"reduced_pressure": pressure}
 
 

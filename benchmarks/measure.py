@@ -45,7 +45,7 @@ class ByGrid(TransformCounter):
 def pose_case(plan: Plan, case: dict, loads: list[float], study: str = "rough_line") -> tuple[Scene, Array]:
     """Return the scene of a member of a study at reduced pressures `loads`, and its heights (nm)."""
     study = plan.studies[study]
-    wanted = {"hurst": case["hurst"]}
+    wanted = {"hurst_exponent": case["hurst_exponent"]}
     run = next(run for run in study.runs() if (run.coordinates, run.member) == (wanted, case["member"]))
     scene = build_scene(
         run.settings | {"points": case["points"], "load": {"name": "reduced_pressure", "values": loads}}

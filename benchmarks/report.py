@@ -62,9 +62,9 @@ def power(points: int) -> int:
 
 
 def sweep_means(rows: pd.DataFrame) -> pd.DataFrame:
-    """Means over members: rows (hurst, points), columns (quantity, tolerance)."""
+    """Means over members: rows (hurst_exponent, points), columns (quantity, tolerance)."""
     chosen = rows[rows.part == "sweep"]
-    return chosen.pivot_table(list(SWEEP_COLUMNS), ["hurst", "points"], "tolerance")
+    return chosen.pivot_table(list(SWEEP_COLUMNS), ["hurst_exponent", "points"], "tolerance")
 
 
 def sweep_table(rows: pd.DataFrame) -> str:
@@ -74,8 +74,12 @@ def sweep_table(rows: pd.DataFrame) -> str:
     columns = [(name, tolerance) for tolerance in tolerances for name in SWEEP_COLUMNS]
     header = ["H", "points"] + [f"{SWEEP_COLUMNS[name][0]}, {tolerance:g}" for name, tolerance in columns]
     lines = [
-        [f"{hurst:g}", f"2^{power(points)}", *(format(mean[column], SWEEP_COLUMNS[column[0]][1]) for column in columns)]
-        for (hurst, points), mean in means.iterrows()
+        [
+            f"{hurst_exponent:g}",
+            f"2^{power(points)}",
+            *(format(mean[column], SWEEP_COLUMNS[column[0]][1]) for column in columns),
+        ]
+        for (hurst_exponent, points), mean in means.iterrows()
     ]
     return markdown(header, lines)
 
@@ -86,7 +90,12 @@ def compare_table(rows: pd.DataFrame) -> str:
     lines, quickest = [], 0.0
     for row in compared(rows).itertuples():
         quickest = row.seconds if row.solver == "active_set" else quickest
-        start = [f"{row.hurst:g}", f"2^{power(row.points)}", f"{row.reduced_pressure:g}", SOLVERS[row.solver][0]]
+        start = [
+            f"{row.hurst_exponent:g}",
+            f"2^{power(row.points)}",
+            f"{row.reduced_pressure:g}",
+            SOLVERS[row.solver][0],
+        ]
         if pd.isna(row.area):
             lines.append([*start, row.status, "", "", f"> {row.seconds:g}", f"> {row.seconds / quickest:.3g}"])
             continue
@@ -100,7 +109,7 @@ def compared(rows: pd.DataFrame) -> pd.DataFrame:
     """The single loads, in the order of the table."""
     chosen = rows[rows.part == "compare"]
     order = {name: place for place, name in enumerate(SOLVERS)}
-    chosen = chosen.assign(place=chosen.solver.map(order), downwards=-chosen.hurst)
+    chosen = chosen.assign(place=chosen.solver.map(order), downwards=-chosen.hurst_exponent)
     return chosen.sort_values(["downwards", "points", "reduced_pressure", "place"])
 
 
@@ -108,7 +117,7 @@ def draw(rows: pd.DataFrame, path: Path) -> None:
     """(a) Time of single loads; (b) transforms of all loads against the size of the grid."""
     footer = "surfaces of rough_line in config/ch3.yaml · one thread · what finished is certified by recomputation"
     figure, (left, right) = framed(FIGURE, footer)
-    draw_loads(left, compared(rows[rows.hurst == SHOWN]))
+    draw_loads(left, compared(rows[rows.hurst_exponent == SHOWN]))
     draw_sweeps(right, sweep_means(rows))
     figure.savefig(path)
 
@@ -149,11 +158,16 @@ def size_look(points: int) -> dict[str, object]:
 def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
     """Transforms against size: marks are Hurst exponents, colours are tolerances."""
     colours = dict(zip(sorted(means.columns.levels[1], reverse=True), (style.WHOLE, style.CONTACT), strict=True))
-    for hurst, group in means.transforms.groupby("hurst"):
+    for hurst_exponent, group in means.transforms.groupby("hurst_exponent"):
         for tolerance, colour in colours.items():
-            axes.plot(group.index.get_level_values("points"), group[tolerance], color=colour, **style.hurst(hurst))
+            axes.plot(
+                group.index.get_level_values("points"),
+                group[tolerance],
+                color=colour,
+                **style.hurst_exponent(hurst_exponent),
+            )
     colours = {f"tolerance {tolerance:g} steps": colour for tolerance, colour in colours.items()}
-    exponents = style.hurst_key(sorted(set(means.index.get_level_values("hurst"))))
+    exponents = style.hurst_key(sorted(set(means.index.get_level_values("hurst_exponent"))))
     axes.legend(loc="lower right", handles=style.key(colours, {}) + exponents)
     axes.set_xscale("log", base=2)
     axes.set(ylim=(0, 2700), xlabel="points", ylabel="transforms of the finest grid, all 12 loads")

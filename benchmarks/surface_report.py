@@ -32,7 +32,7 @@ COLUMNS += ("÷ ours", "contact differs at", "of these undecided")
 def write(csv: Path, png: Path, readme: Path) -> None:
     """Put the table between the marks of the README, and draw the picture."""
     rows = pd.read_csv(csv)
-    rows = rows[rows.part == "pair"].sort_values(["points", "hurst", "reduced_pressure", "solver"])
+    rows = rows[rows.part == "pair"].sort_values(["points", "hurst_exponent", "reduced_pressure", "solver"])
     insert(readme, BEGIN, table(rows), END)
     draw(rows, png)
 
@@ -40,8 +40,8 @@ def write(csv: Path, png: Path, readme: Path) -> None:
 def table(rows: pd.DataFrame) -> str:
     """A line for ours, measured beside the first peer, and one for each peer."""
     lines = []
-    for (points, hurst, pressure), group in rows.groupby(["points", "hurst", "reduced_pressure"]):
-        start = [f"{hurst:g}", f"{points}²", f"{pressure:g}"]
+    for (points, hurst_exponent, pressure), group in rows.groupby(["points", "hurst_exponent", "reduced_pressure"]):
+        start = [f"{hurst_exponent:g}", f"{points}²", f"{pressure:g}"]
         own = group.dropna(subset="own_seconds").head(1)
         for row in own.itertuples():
             cost = row.own_transforms, row.own_seconds, row.own_per_transform
@@ -77,19 +77,24 @@ def draw(rows: pd.DataFrame, path: Path) -> None:
         axes.set_ylim(bottom, top * 6)  # room for the legend
     colours = dict(SOLVERS[name] for name in ("ours", *sorted(set(rows.solver))))
     panels[0].legend(
-        loc="upper left", ncols=2, handles=style.key(colours, {}) + style.hurst_key(sorted(set(rows.hurst)))
+        loc="upper left", ncols=2, handles=style.key(colours, {}) + style.hurst_key(sorted(set(rows.hurst_exponent)))
     )
     figure.savefig(path)
 
 
 def loads(axes: Axes, rows: pd.DataFrame) -> None:
     """Cost against reduced pressure: colours are solvers, marks are Hurst exponents."""
-    for hurst, group in rows.groupby("hurst"):
+    for hurst_exponent, group in rows.groupby("hurst_exponent"):
         own = group.groupby("reduced_pressure").agg({"own_per_transform": "median", "transform_seconds": "median"})
-        axes.plot(own.index, own.own_per_transform, color=SOLVERS["ours"][1], **style.hurst(hurst))
+        axes.plot(own.index, own.own_per_transform, color=SOLVERS["ours"][1], **style.hurst_exponent(hurst_exponent))
         for name, part in group.groupby("solver"):
             colour, solved = SOLVERS[name][1], part.area.notna()
-            axes.plot(part.reduced_pressure[solved], part.per_transform[solved], color=colour, **style.hurst(hurst))
+            axes.plot(
+                part.reduced_pressure[solved],
+                part.per_transform[solved],
+                color=colour,
+                **style.hurst_exponent(hurst_exponent),
+            )
             cut = part[~solved]
             least = cut.seconds / own.transform_seconds.reindex(cut.reduced_pressure).to_numpy()
             axes.plot(cut.reduced_pressure, least, marker=CARETUPBASE, ls="", color=colour, markersize=8)

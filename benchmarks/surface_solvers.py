@@ -25,7 +25,7 @@ from records import Table, on_one_thread
 from contactsim.study.plan import Plan
 
 HERE = Path(__file__).resolve().parent
-CASE = ("part", "solver", "hurst", "points", "reduced_pressure", "tolerance")
+CASE = ("part", "solver", "hurst_exponent", "points", "reduced_pressure", "tolerance")
 FOUND = (
     *("status", "settings", "rung", "area", "certificate", "transforms", "seconds", "per_transform"),
     *("own_area", "own_certificate", "own_transforms", "own_seconds", "own_per_transform", "ratio"),
@@ -41,8 +41,14 @@ logger = logging.getLogger("surface_solvers")
 
 def cases(sizes: tuple[int, ...]) -> Iterator[dict]:
     """Single loads: coarse grids first."""
-    for points, hurst, pressure in itertools.product(sizes, (0.8, 0.2), (1e-3, 1e-2, 1e-1)):
-        yield {"hurst": hurst, "points": points, "member": 0, "reduced_pressure": pressure, "tolerance": 1e-6}
+    for points, hurst_exponent, pressure in itertools.product(sizes, (0.8, 0.2), (1e-3, 1e-2, 1e-1)):
+        yield {
+            "hurst_exponent": hurst_exponent,
+            "points": points,
+            "member": 0,
+            "reduced_pressure": pressure,
+            "tolerance": 1e-6,
+        }
 
 
 def measured(plan: Plan, table: Table, sizes: tuple[int, ...], rounds: int) -> None:

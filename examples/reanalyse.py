@@ -71,9 +71,12 @@ def main() -> None:
     fit = power_law(data)
     n, c = over_members(fit.n), over_members(fit.c)
     print(f"\narea = c p*^n, p* up to {LARGEST:g}\nhurst {'n':>20} {'c':>20}")
-    for hurst in data.hurst.values:
-        numbers = (f"{one['mean'].sel(hurst=hurst):12.5f} ± {one.error.sel(hurst=hurst):.5f}" for one in (n, c))
-        print(f"{hurst:5g} " + " ".join(numbers))
+    for exponent in data.hurst_exponent.values:
+        numbers = (
+            f"{one['mean'].sel(hurst_exponent=exponent):12.5f} ± {one.error.sel(hurst_exponent=exponent):.5f}"
+            for one in (n, c)
+        )
+        print(f"{exponent:5g} " + " ".join(numbers))
 
 
 if __name__ == "__main__":

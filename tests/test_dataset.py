@@ -28,15 +28,15 @@ def data():
     draw = np.random.default_rng(0)
     made = xr.Dataset(
         {
-            "relative_contact_area": (("hurst", "reduced_pressure"), [[0.1, np.nan], [0.2, 0.3]]),
-            "status": (("hurst", "reduced_pressure"), np.array([[0, 1], [2, 0]], np.int8)),
+            "relative_contact_area": (("hurst_exponent", "reduced_pressure"), [[0.1, np.nan], [0.2, 0.3]]),
+            "status": (("hurst_exponent", "reduced_pressure"), np.array([[0, 1], [2, 0]], np.int8)),
             "iterations": ("reduced_pressure", np.array([3, 4], np.int32)),
             "point_digest": ("reduced_pressure", np.array(["one", "two"], object)),
             "contact_bits": (("reduced_pressure", "byte"), draw.integers(0, 256, (2, 20000), np.uint8)),
             "contact_pressure": ("contact_point", draw.random(5000, np.float32)),
             "length": 160000.0,
         },
-        {"hurst": [0.2, 0.8], "reduced_pressure": [0.01, 0.1]},
+        {"hurst_exponent": [0.2, 0.8], "reduced_pressure": [0.01, 0.1]},
     )
     return stamped(described(made), "A title with κ", {"b": None, "a": [0.1, True]}, "abc")
 

@@ -20,13 +20,13 @@ from contactsim.status import FLAGS, Status
 from contactsim.variables import SUFFIXES, VARIABLES
 
 SETTINGS = {
-    "hurst": ("1", "Hurst exponent"),
+    "hurst_exponent": ("1", "Hurst exponent"),
     "length": ("nm", "period"),
-    "rolloff_wavelength": ("nm", "roll-off wavelength"),
-    "shortest_wavelength": ("nm", "shortest wavelength of the roughness"),
+    "long_cutoff": ("nm", "long cut-off (roll-off) wavelength"),
+    "short_cutoff": ("nm", "short cut-off wavelength of the roughness"),
     "rms_gradient": ("1", "rms gradient prescribed"),
     "rms_height": ("nm", "rms height prescribed"),
-    "smoothed": ("nm", "wavelength below which waves are left out"),
+    "low_pass_cutoff": ("nm", "wavelength of the low-pass filter: shorter waves are left out"),
     "amplitudes": ("1", "distribution of the amplitudes"),
     "width": ("nm", "period along y"),
     "dimensions": ("1", "dimensions of the surface"),

@@ -60,7 +60,7 @@ QUANTITIES = {
 }
 """What figures show of datasets: a symbol or a few words for an axis, and the same for a sentence."""
 DIMENSIONS = {
-    "hurst": ("$H$", "H"),
+    "hurst_exponent": ("$H$", "H"),
     "reduced_pressure": ("$p^*$", "p*"),
     "mean_pressure": ("$p$ (GPa)", "p"),
     "contact_ratio": ("$c/R$", "c/R"),

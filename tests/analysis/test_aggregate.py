@@ -24,11 +24,11 @@ CONVERGED, MAX_ITERATIONS, NON_FINITE, *_ = (status.value[0] for status in Statu
 SETTINGS = {"title": "A study", "fit_limits": None, "surface": {"radius": 50.0}}
 
 
-def numbers(hurst, member, companion=False, loads=PRESSURES):
+def numbers(hurst_exponent, member, companion=False, loads=PRESSURES):
     """What a run found, made up but reproducible: one value per load for each quantity."""
-    draw = np.random.default_rng([int(10 * hurst), member, companion])
+    draw = np.random.default_rng([int(10 * hurst_exponent), member, companion])
     return {
-        "relative_contact_area": np.asarray(loads) * (1.5 + 0.3 * hurst + 0.1 * draw.random(len(loads))),
+        "relative_contact_area": np.asarray(loads) * (1.5 + 0.3 * hurst_exponent + 0.1 * draw.random(len(loads))),
         "relative_contact_area_subgrid": np.asarray(loads) * 1.4,
         "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(loads))),
         "rms_gradient_contact_pairs": GRADIENT * (1 - 0.1 * draw.random(len(loads))),
@@ -43,10 +43,12 @@ def runs(tmp_path):
     def write(members=4, companions=0, bad=(), load="reduced_pressure", loads=PRESSURES, change=None):
         listed = []
         for companion, count in ((False, members), (True, companions)):
-            for hurst in HURSTS:
+            for hurst_exponent in HURSTS:
                 for member in range(count):
-                    found = numbers(hurst, member, companion, loads) | (change(hurst, member) if change else {})
-                    status = [bad_status(bad, hurst, member, companion, row) for row in range(len(loads))]
+                    found = numbers(hurst_exponent, member, companion, loads) | (
+                        change(hurst_exponent, member) if change else {}
+                    )
+                    status = [bad_status(bad, hurst_exponent, member, companion, row) for row in range(len(loads))]
                     pressure = np.asarray(loads) * MODULUS * GRADIENT
                     data = xr.Dataset(
                         {name: (load, values) for name, values in found.items()}
@@ -60,11 +62,11 @@ def runs(tmp_path):
                         {load: list(loads)},
                         {"problem": "hard_wall"},
                     )
-                    path = tmp_path / f"{hurst}_{member}_{companion}.nc"
+                    path = tmp_path / f"{hurst_exponent}_{member}_{companion}.nc"
                     dataset.write(dataset.stamped(dataset.described(data), "run", {}, "source"), path)
                     place = {
                         "path": path,
-                        "coordinates": {"hurst": hurst},
+                        "coordinates": {"hurst_exponent": hurst_exponent},
                         "member": member,
                         "measures_error": companion,
                     }
@@ -74,16 +76,16 @@ def runs(tmp_path):
     return write
 
 
-def bad_status(bad, hurst, member, companion, row):
-    return dict(bad).get((hurst, member, companion, row), CONVERGED)
+def bad_status(bad, hurst_exponent, member, companion, row):
+    return dict(bad).get((hurst_exponent, member, companion, row), CONVERGED)
 
 
 def made(runs, **settings):
     return aggregate.aggregate(runs, SETTINGS | settings, "source")
 
 
-def by_hand(name, hurst, row, members, companion=False):
-    return np.array([numbers(hurst, member, companion)[name][row] for member in members])
+def by_hand(name, hurst_exponent, row, members, companion=False):
+    return np.array([numbers(hurst_exponent, member, companion)[name][row] for member in members])
 
 
 # --- one dataset --------------------------------------------------------------------------------------------------
@@ -91,12 +93,12 @@ def by_hand(name, hurst, row, members, companion=False):
 
 def test_runs_become_one_dataset_over_varied_keys_members_and_loads(runs):
     data = made(runs())
-    assert dict(data.sizes) == {"hurst": 2, "member": 4, "reduced_pressure": 3}
-    assert data.relative_contact_area.dims == ("hurst", "member", "reduced_pressure")
-    for hurst in HURSTS:
+    assert dict(data.sizes) == {"hurst_exponent": 2, "member": 4, "reduced_pressure": 3}
+    assert data.relative_contact_area.dims == ("hurst_exponent", "member", "reduced_pressure")
+    for hurst_exponent in HURSTS:
         for member in range(4):
-            for name, values in numbers(hurst, member).items():
-                assert data[name].sel(hurst=hurst, member=member).values.tolist() == values.tolist()
+            for name, values in numbers(hurst_exponent, member).items():
+                assert data[name].sel(hurst_exponent=hurst_exponent, member=member).values.tolist() == values.tolist()
     assert data.rms_height.values.tolist() == [[1.0, 2.0, 3.0, 4.0]] * 2
     assert (data.points.item(), data.length.item(), data.contact_modulus.item()) == (64, 640.0, MODULUS)
 
@@ -123,8 +125,8 @@ def test_contact_sets_pressures_and_profiles_stay_with_the_runs(runs):
 def test_proportionality_factors_follow_from_area_gradient_and_pressure(runs):
     data = made(runs())
     pressure = np.array(PRESSURES) * MODULUS * GRADIENT
-    for hurst, member in ((0.2, 0), (0.8, 3)):
-        one, found = data.sel(hurst=hurst, member=member), numbers(hurst, member)
+    for hurst_exponent, member in ((0.2, 0), (0.8, 3)):
+        one, found = data.sel(hurst_exponent=hurst_exponent, member=member), numbers(hurst_exponent, member)
         area, gradient = found["relative_contact_area"], found["rms_gradient_contact"]
         # Rounding of a handful of products.
         np.testing.assert_allclose(one.kappa, area / PRESSURES, rtol=1e-14)
@@ -157,10 +159,10 @@ def test_a_varied_radius_gives_each_cylinder_its_own_exact_half_width(runs):
 def test_means_and_standard_errors_are_numpys(runs):
     data = made(runs())
     for name in ("relative_contact_area", "mean_gap", "rms_gradient_contact"):
-        for hurst in HURSTS:
+        for hurst_exponent in HURSTS:
             for row in range(3):
-                values = by_hand(name, hurst, row, range(4))
-                here = data.sel(hurst=hurst).isel(reduced_pressure=row)
+                values = by_hand(name, hurst_exponent, row, range(4))
+                here = data.sel(hurst_exponent=hurst_exponent).isel(reduced_pressure=row)
                 assert here[f"{name}_mean"].item() == pytest.approx(values.mean(), rel=1e-14)
                 error = values.std(ddof=1) / np.sqrt(4)
                 assert here[f"{name}_standard_error"].item() == pytest.approx(error, rel=1e-12)
@@ -170,16 +172,16 @@ def test_every_averaged_quantity_has_mean_error_and_grid_error(runs):
     data = made(runs(companions=2))
     for name in AVERAGED:
         for suffix in ("_mean", "_standard_error", "_grid_error"):
-            assert data[f"{name}{suffix}"].dims == ("hurst", "reduced_pressure")
+            assert data[f"{name}{suffix}"].dims == ("hurst_exponent", "reduced_pressure")
             assert np.isfinite(data[f"{name}{suffix}"]).all()
 
 
 def test_unconverged_solutions_are_left_out_of_means_and_errors_and_counted(runs):
     data = made(runs(bad={(0.2, 1, False, 0): MAX_ITERATIONS, (0.8, 2, False, 2): NON_FINITE}))
     assert unconverged(data) == (2, 24)
-    for hurst, row, members in ((0.2, 0, [0, 2, 3]), (0.8, 2, [0, 1, 3]), (0.2, 1, range(4))):
-        values = by_hand("mean_gap", hurst, row, members)
-        here = data.sel(hurst=hurst).isel(reduced_pressure=row)
+    for hurst_exponent, row, members in ((0.2, 0, [0, 2, 3]), (0.8, 2, [0, 1, 3]), (0.2, 1, range(4))):
+        values = by_hand("mean_gap", hurst_exponent, row, members)
+        here = data.sel(hurst_exponent=hurst_exponent).isel(reduced_pressure=row)
         assert here.mean_gap_mean.item() == pytest.approx(values.mean(), rel=1e-14)
         error = values.std(ddof=1) / np.sqrt(len(values))
         assert here.mean_gap_standard_error.item() == pytest.approx(error, rel=1e-12)
@@ -187,7 +189,7 @@ def test_unconverged_solutions_are_left_out_of_means_and_errors_and_counted(runs
 
 def test_what_did_not_converge_stays_in_the_dataset_with_its_status(runs):
     data = made(runs(bad={(0.2, 1, False, 0): MAX_ITERATIONS}))
-    one = data.sel(hurst=0.2, member=1).isel(reduced_pressure=0)
+    one = data.sel(hurst_exponent=0.2, member=1).isel(reduced_pressure=0)
     assert one.status.item() == MAX_ITERATIONS
     assert one.mean_gap.item() == numbers(0.2, 1)["mean_gap"][0]
     assert data.status.attrs["flag_meanings"].startswith("converged max_iterations non_finite ")
@@ -197,19 +199,23 @@ def test_one_converged_member_has_a_mean_but_no_error_and_none_has_neither(runs)
     one = {(0.2, member, False, 0): MAX_ITERATIONS for member in (1, 2, 3)}
     none = {(0.8, member, False, 0): MAX_ITERATIONS for member in range(4)}
     data = made(runs(bad=one | none)).isel(reduced_pressure=0)
-    assert data.sel(hurst=0.2).mean_gap_mean.item() == numbers(0.2, 0)["mean_gap"][0]
-    assert np.isnan(data.sel(hurst=0.8).mean_gap_mean)
+    assert data.sel(hurst_exponent=0.2).mean_gap_mean.item() == numbers(0.2, 0)["mean_gap"][0]
+    assert np.isnan(data.sel(hurst_exponent=0.8).mean_gap_mean)
     assert np.isnan(data.mean_gap_standard_error).all()
 
 
 def test_a_single_member_has_a_mean_and_no_error(runs):
     data = made(runs(members=1))
-    assert data.mean_gap_mean.values.tolist() == [numbers(hurst, 0)["mean_gap"].tolist() for hurst in HURSTS]
+    assert data.mean_gap_mean.values.tolist() == [
+        numbers(hurst_exponent, 0)["mean_gap"].tolist() for hurst_exponent in HURSTS
+    ]
     assert np.isnan(data.mean_gap_standard_error).all()
 
 
 def test_a_quantity_without_contact_is_left_out_like_an_unconverged_one(runs):
-    data = made(runs(change=lambda hurst, member: {"rms_gradient_contact": [np.nan if member == 0 else 0.1] * 3}))
+    data = made(
+        runs(change=lambda hurst_exponent, member: {"rms_gradient_contact": [np.nan if member == 0 else 0.1] * 3})
+    )
     np.testing.assert_allclose(data.rms_gradient_contact_mean, 0.1, rtol=1e-15)
 
 
@@ -218,17 +224,19 @@ def test_a_quantity_without_contact_is_left_out_like_an_unconverged_one(runs):
 
 def test_the_grid_error_is_the_change_of_the_mean_over_the_members_of_both_grids(runs):
     data = made(runs(companions=2))
-    for hurst in HURSTS:
+    for hurst_exponent in HURSTS:
         for row in range(3):
-            fine, coarse = (by_hand("mean_gap", hurst, row, range(2), companion) for companion in (False, True))
-            found = data.mean_gap_grid_error.sel(hurst=hurst).isel(reduced_pressure=row).item()
+            fine, coarse = (
+                by_hand("mean_gap", hurst_exponent, row, range(2), companion) for companion in (False, True)
+            )
+            found = data.mean_gap_grid_error.sel(hurst_exponent=hurst_exponent).isel(reduced_pressure=row).item()
             assert found == pytest.approx(abs(fine.mean() - coarse.mean()), rel=1e-12)
 
 
 def test_a_member_unconverged_on_either_grid_is_left_out_of_the_grid_error(runs):
     data = made(runs(companions=3, bad={(0.2, 0, False, 0): MAX_ITERATIONS, (0.2, 2, True, 0): MAX_ITERATIONS}))
     expected = abs(by_hand("mean_gap", 0.2, 0, [1]) - by_hand("mean_gap", 0.2, 0, [1], True)).item()
-    found = data.mean_gap_grid_error.sel(hurst=0.2).isel(reduced_pressure=0).item()
+    found = data.mean_gap_grid_error.sel(hurst_exponent=0.2).isel(reduced_pressure=0).item()
     assert found == pytest.approx(expected, rel=1e-12)
     assert unconverged(data) == (1, 24)  # of the study's own solutions
 
@@ -241,11 +249,11 @@ def test_without_a_companion_there_is_no_grid_error(runs):
 
 
 def ensemble(values, bad=()):
-    """A dataset of one quantity over (hurst, member, reduced_pressure), unconverged at the places in `bad`."""
+    """A dataset of one quantity over (hurst_exponent, member, reduced_pressure), unconverged at the places in `bad`."""
     status = np.zeros(np.shape(values), np.int8)
     for place in bad:
         status[place] = MAX_ITERATIONS
-    dims = ("hurst", "member", "reduced_pressure")
+    dims = ("hurst_exponent", "member", "reduced_pressure")
     coordinates = dict(zip(dims, (np.arange(n) / 10 for n in np.shape(values)), strict=True))
     return xr.Dataset({"kappa": (dims, values), "status": (dims, status)}, coordinates)
 
@@ -256,7 +264,7 @@ def test_a_difference_planted_between_two_loads_is_found_member_by_member():
     values = 10 * draw.random((2, 6, 1)) + 1e-3 * draw.random((2, 6, 4))
     values[1, :, 3] += 0.5
     found = departure(ensemble(values), "kappa", "reduced_pressure")
-    assert {place["hurst"] for place in found.places} == {0.1}
+    assert {place["hurst_exponent"] for place in found.places} == {0.1}
     assert found.places[1]["reduced_pressure"] == pytest.approx(0.3)
     first = round(found.places[0]["reduced_pressure"] * 10)
     pairs = values[1, :, 3] - values[1, :, first]
@@ -269,10 +277,10 @@ def test_a_difference_planted_between_two_loads_is_found_member_by_member():
 def test_a_difference_planted_between_two_hurst_exponents_is_found_with_independent_errors():
     values = np.random.default_rng(1).random((3, 5, 4))
     values[2, :, 1] += 3.0
-    found = departure(ensemble(values), "kappa", "hurst")
+    found = departure(ensemble(values), "kappa", "hurst_exponent")
     assert [place["reduced_pressure"] for place in found.places] == [0.1, 0.1]
-    first = round(found.places[0]["hurst"] * 10)
-    assert (first, found.places[1]["hurst"]) in {(0, 0.2), (1, 0.2)}
+    first = round(found.places[0]["hurst_exponent"] * 10)
+    assert (first, found.places[1]["hurst_exponent"]) in {(0, 0.2), (1, 0.2)}
     one, two = values[first, :, 1], values[2, :, 1]
     assert found.difference == pytest.approx(two.mean() - one.mean(), rel=1e-12)
     error = np.sqrt(one.var(ddof=1) / 5 + two.var(ddof=1) / 5)
@@ -281,7 +289,7 @@ def test_a_difference_planted_between_two_hurst_exponents_is_found_with_independ
 
 def test_the_departure_is_the_most_significant_of_all():
     values = np.random.default_rng(2).random((3, 5, 4))
-    found = departure(ensemble(values), "kappa", "hurst").in_errors
+    found = departure(ensemble(values), "kappa", "hurst_exponent").in_errors
     each = [
         abs(values[i, :, k].mean() - values[j, :, k].mean())
         / np.sqrt((values[i, :, k].var(ddof=1) + values[j, :, k].var(ddof=1)) / 5)
@@ -295,7 +303,7 @@ def test_the_departure_is_the_most_significant_of_all():
 def test_unconverged_members_make_the_error_of_a_difference_larger():
     values = np.random.default_rng(3).random((2, 6, 2))
     bad = [(0, 0, 0), (0, 1, 0), (0, 2, 0)]
-    found = departure(ensemble(values[:, :, :1], bad), "kappa", "hurst")
+    found = departure(ensemble(values[:, :, :1], bad), "kappa", "hurst_exponent")
     one, two = values[0, 3:, 0], values[1, :, 0]
     assert found.difference == pytest.approx(abs(one.mean() - two.mean()), rel=1e-12)
     assert found.standard_error == pytest.approx(np.sqrt(one.var(ddof=1) / 3 + two.var(ddof=1) / 6), rel=1e-12)
@@ -307,7 +315,7 @@ def test_unconverged_members_make_the_error_of_a_difference_larger():
 
 def bodies(values, bad=()):
     """The same with Poisson's ratios in place of Hurst exponents."""
-    return ensemble(values, bad).rename(hurst="poisson_ratio")
+    return ensemble(values, bad).rename(hurst_exponent="poisson_ratio")
 
 
 def test_a_difference_between_two_bodies_is_found_member_by_member():
@@ -347,12 +355,12 @@ def test_a_load_that_never_converged_is_passed_over():
 
 def test_without_a_spread_nothing_is_significant_and_that_is_said():
     with pytest.raises(InputError, match=r"members: got 1; allowed: 2 or more"):
-        departure(ensemble(np.ones((2, 1, 2))), "kappa", "hurst")
+        departure(ensemble(np.ones((2, 1, 2))), "kappa", "hurst_exponent")
 
 
 def test_without_two_values_there_is_no_difference_and_that_is_said():
-    with pytest.raises(InputError, match=r"hurst.*2 or more"):
-        departure(ensemble(np.random.default_rng(5).random((1, 4, 2))), "kappa", "hurst")
+    with pytest.raises(InputError, match=r"hurst_exponent.*2 or more"):
+        departure(ensemble(np.random.default_rng(5).random((1, 4, 2))), "kappa", "hurst_exponent")
 
 
 # --- fits ---------------------------------------------------------------------------------------------------------
@@ -405,15 +413,15 @@ def line(members=4, noise=0.0, seed=0, bad=()):
     """A dataset with the areas of Eq. 3.11, other parameters for each Hurst exponent, and noise."""
     area = np.concatenate([noisy(planted, members, noise, [seed, k]) for k, planted in enumerate(PLANTED.values())])
     data = ensemble(area, bad).rename(kappa="relative_contact_area")
-    return data.assign_coords(hurst=list(PLANTED), reduced_pressure=LOADS)
+    return data.assign_coords(hurst_exponent=list(PLANTED), reduced_pressure=LOADS)
 
 
 def test_each_hurst_exponent_is_fitted_by_itself_and_all_together():
     found = fits(line(), [1.0])
     assert found.fitted.values.tolist() == ["0.2", "0.8", "all"]
     assert found.weighting.values.tolist() == list(WEIGHTINGS)
-    for hurst, (b1, b2) in PLANTED.items():
-        one = found.sel(fitted=f"{hurst:g}")
+    for hurst_exponent, (b1, b2) in PLANTED.items():
+        one = found.sel(fitted=f"{hurst_exponent:g}")
         np.testing.assert_allclose(one.fit_b1, b1, rtol=1e-4)
         np.testing.assert_allclose(one.fit_b2, b2, rtol=1e-4)
     between = found.sel(fitted="all").fit_b1.values
@@ -452,7 +460,7 @@ def test_the_jackknife_of_a_mean_is_the_confidence_interval_of_a_mean(monkeypatc
     monkeypatch.setattr(mean, lambda pressure, area, weighting: (area.mean(), -2 * area.mean()))
     data = line(members=7, noise=0.1)
     found = fits(data, [1.0]).sel(fitted="0.8", weighting="area", fit_limit=1.0)
-    means = data.relative_contact_area.sel(hurst=0.8).mean("reduced_pressure").values
+    means = data.relative_contact_area.sel(hurst_exponent=0.8).mean("reduced_pressure").values
     half_width = student.ppf(0.975, 6) * means.std(ddof=1) / np.sqrt(7)
     assert found.fit_b1_half_width.item() == pytest.approx(half_width, rel=1e-10)
     assert found.fit_b2_half_width.item() == pytest.approx(2 * half_width, rel=1e-10)

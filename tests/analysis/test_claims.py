@@ -47,16 +47,16 @@ def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144
     """A dataset of rough lines: κ of a level, a scatter over members, a grid error and a slope in log p*."""
     offsets = scatter * np.linspace(-1, 1, members) if members > 1 else np.zeros(1)
     kappa = level + tilt * np.log10(np.array(PRESSURES) / 0.01) + np.zeros((2, 1, 1)) + offsets[:, None]
-    dims = ("hurst", "member", "reduced_pressure")
+    dims = ("hurst_exponent", "member", "reduced_pressure")
     values = {
         "kappa": (dims, kappa),
         "relative_contact_area": (dims, kappa * PRESSURES),
         "status": (dims, np.zeros(kappa.shape, np.int8)),
-        "kappa_grid_error": (("hurst", "reduced_pressure"), np.full((2, 3), grid)),
-        "relative_contact_area_grid_error": (("hurst", "reduced_pressure"), grid * np.tile(PRESSURES, (2, 1))),
+        "kappa_grid_error": (("hurst_exponent", "reduced_pressure"), np.full((2, 3), grid)),
+        "relative_contact_area_grid_error": (("hurst_exponent", "reduced_pressure"), grid * np.tile(PRESSURES, (2, 1))),
         "points": points,
     }
-    places = {"hurst": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES}
+    places = {"hurst_exponent": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES}
     settings = {"surface": {"kind": "self_affine"}, "thesis_points": 262144}
     return xr.Dataset(values, places, {"problem": "hard_wall", "settings": json.dumps(settings)})
 
@@ -105,12 +105,17 @@ def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
 
 def on_grids(errors, members=3):
     """A dataset of surfaces on three grids: κ_r at 1.9 and, of each grid, an error; a scatter over members."""
-    dims = ("points", "hurst", "member", "reduced_pressure")
+    dims = ("points", "hurst_exponent", "member", "reduced_pressure")
     level = 1.9 + 0.001 * np.linspace(-1, 1, members)
     values = np.reshape(errors, (3, 1, 1, -1)) + level[:, None] + np.zeros((3, 2, members, 3))
     data = xr.Dataset(
         {"kappa_r": (dims, values), "status": (dims, np.zeros(values.shape, np.int8))},
-        {"points": [1024, 2048, 4096], "hurst": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES},
+        {
+            "points": [1024, 2048, 4096],
+            "hurst_exponent": [0.2, 0.8],
+            "member": range(members),
+            "reduced_pressure": PRESSURES,
+        },
         {"problem": "hard_wall", "settings": json.dumps({"surface": {"kind": "self_affine"}})},
     )
     return data.merge(aggregate.finer_grid_limits(data))
@@ -230,7 +235,7 @@ def test_over_a_second_study_the_number_is_the_ratio_of_the_means():
 
 def test_a_ratio_is_taken_where_both_studies_have_loads_and_variants():
     lines = made_up(1.8, tilt=0.3)  # κ of 1.5, 1.8 and 2.1
-    surfaces = made_up(2.0).isel(reduced_pressure=[0, 2], hurst=[1])
+    surfaces = made_up(2.0).isel(reduced_pressure=[0, 2], hurst_exponent=[1])
     found = estimate(claim(**RATIO), [lines, surfaces.assign_coords(reduced_pressure=[0.001, 0.2])])
     assert found.value == pytest.approx(0.75)  # the first load alone
     apart = surfaces.assign_coords(reduced_pressure=[0.002, 0.2])
@@ -351,10 +356,10 @@ def array(values, **places):
 
 def test_each_reduction_gives_what_a_hand_would():
     load = array([1.0, 10.0, 100.0], load=[1, 2, 3])
-    both = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst=[0.2, 0.8], load=[1, 2, 3])
+    both = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst_exponent=[0.2, 0.8], load=[1, 2, 3])
     assert reductions.mean(both) == 2.0
     assert reductions.spread(both, "load") == pytest.approx((2 / 3 + 0) / 2)
-    assert reductions.spread(both, "hurst") == pytest.approx((1 / 1.5 + 3 / 2.5 + 2 / 2) / 3)
+    assert reductions.spread(both, "hurst_exponent") == pytest.approx((1 / 1.5 + 3 / 2.5 + 2 / 2) / 3)
     assert reductions.fall(both, "load") == pytest.approx((-0.5 + 0) / 2)
     assert reductions.slope(load**0.5, load, "load") == pytest.approx(0.5)
     assert reductions.spread_ratio(both, 2 * both, "load") == 1.0
@@ -364,8 +369,8 @@ def test_each_reduction_gives_what_a_hand_would():
 
 def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
     data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
-    settings = claim(select={"hurst": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
-    found, at = estimate(settings, [data]), data.sel(hurst=0.5, reduced_pressure=0.1)
+    settings = claim(select={"hurst_exponent": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
+    found, at = estimate(settings, [data]), data.sel(hurst_exponent=0.5, reduced_pressure=0.1)
     assert found.value == pytest.approx(float(at.kappa_mean))
     assert found.ensemble_error == pytest.approx(float(at.kappa_standard_error))
     assert found.grid_error == pytest.approx(float(at.kappa_grid_error))
@@ -467,9 +472,9 @@ BAD = {
     "unknown quantity": ({"quantity": "kapa"}, "quantity", "kapa", "kappa, kappa_fit"),
     "no quantity": ({"quantity": None}, "quantity", None, "kappa, kappa_fit"),
     "quantity of another study": ({"quantity": "half_width"}, "quantity", "half_width", "kappa"),
-    "unknown dimension": ({"reduce": "spread", "along": "speed"}, "along", "speed", "hurst, reduced_pressure"),
-    "a dimension too few": ({"reduce": "spread"}, "along", None, "hurst, reduced_pressure"),
-    "a dimension too many": ({"along": "hurst"}, "along", "hurst", "mean does not use it"),
+    "unknown dimension": ({"reduce": "spread", "along": "speed"}, "along", "speed", "hurst_exponent, reduced_pressure"),
+    "a dimension too few": ({"reduce": "spread"}, "along", None, "hurst_exponent, reduced_pressure"),
+    "a dimension too many": ({"along": "hurst_exponent"}, "along", "hurst_exponent", "mean does not use it"),
     "unknown against": ({"reduce": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
     "ratio to an unknown study": ({"relative_to": "rough"}, "relative_to", "rough", "rough_line_coarse, rough_surface"),
     "ratio to itself": ({"relative_to": "rough_line"}, "relative_to", "rough_line", "rough_line_coarse, rough_surface"),
@@ -495,9 +500,14 @@ BAD = {
         {"select": {"contact_ratio": [0.1, 0.2]}},
         "select.contact_ratio",
         [0.1, 0.2],
-        "hurst, reduced_pressure",
+        "hurst_exponent, reduced_pressure",
     ),
-    "select backwards": ({"select": {"hurst": [0.5, 0.1]}}, "select.hurst", [0.5, 0.1], "least and largest"),
+    "select backwards": (
+        {"select": {"hurst_exponent": [0.5, 0.1]}},
+        "select.hurst_exponent",
+        [0.5, 0.1],
+        "least and largest",
+    ),
     "half a band": ({"tolerance": None}, None, ["expect"], "expect with tolerance"),
     "two bands": ({"at_most": 3.0}, None, ["at_most", "expect", "tolerance"], "expect with tolerance"),
     "no width": ({"tolerance": 0.0}, "tolerance", 0.0, "a positive number"),

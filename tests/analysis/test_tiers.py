@@ -13,9 +13,9 @@ from contactsim.study.plan import Plan
 from contactsim.study.tier_comparison import compare_tiers
 from support.places import ROOT
 
-COARSE = pd.DataFrame({"hurst": [0.2, 0.2, 0.8], "load": [0.1, 0.5, 0.1], "kappa": [1.1, 9.0, 3.0]})
-FINE = pd.DataFrame({"hurst": [0.8, 0.2, 0.2], "load": [0.1, 0.1, 0.3], "kappa": [2.0, 1.0, 7.0]})
-KEYS = ["hurst", "load"]
+COARSE = pd.DataFrame({"hurst_exponent": [0.2, 0.2, 0.8], "load": [0.1, 0.5, 0.1], "kappa": [1.1, 9.0, 3.0]})
+FINE = pd.DataFrame({"hurst_exponent": [0.8, 0.2, 0.2], "load": [0.1, 0.1, 0.3], "kappa": [2.0, 1.0, 7.0]})
+KEYS = ["hurst_exponent", "load"]
 
 
 def test_rows_are_joined_by_their_keys_and_those_of_one_alone_are_left_out():
@@ -36,7 +36,7 @@ def test_words_and_whole_numbers_are_keys_too():
     assert shared["first", "kappa"].to_list() == shared["second", "kappa"].to_list() == [1.0, 2.0]
 
 
-@pytest.mark.parametrize("keys", [["hurst"], []])
+@pytest.mark.parametrize("keys", [["hurst_exponent"], []])
 def test_keys_that_do_not_tell_rows_apart_are_refused(keys):
     with pytest.raises(InputError, match="tell all rows apart"):
         join_rows(COARSE, FINE, keys)
@@ -44,7 +44,11 @@ def test_keys_that_do_not_tell_rows_apart_are_refused(keys):
 
 def test_differences_are_relative_to_the_second_and_say_where_the_largest_is():
     (row,) = differences(join_rows(COARSE, FINE, KEYS), ["kappa"]).to_dict("records")
-    assert (row["column"], row["rows"], row["at"]) == ("kappa", 2, "hurst 0.8")  # the load is the same in both rows
+    assert (row["column"], row["rows"], row["at"]) == (
+        "kappa",
+        2,
+        "hurst_exponent 0.8",
+    )  # the load is the same in both rows
     assert row["largest"] == 0.5
     assert row["median"] == pytest.approx((0.1 + 0.5) / 2, rel=1e-14)  # 1.1 − 1.0 is rounded
 
@@ -82,7 +86,7 @@ def test_the_summary_is_aligned_and_gives_each_figure_a_verdict():
     ).splitlines() == [
         "  column   rows   largest    median  largest at",
         "fig_1: beyond 10 %",
-        "  kappa       2      50 %      30 %  hurst 0.8",
+        "  kappa       2      50 %      30 %  hurst_exponent 0.8",
         "fig_2: within 10 %",
         "  kappa       2       0 %      30 %",
         "fig_3: not compared",
@@ -148,7 +152,7 @@ def test_one_changed_value_turns_the_verdict_and_the_exit_code(tiers, capsys):
     assert said.count("beyond") == 1
     line, *_ = (line for line in said.splitlines() if line.startswith("  kappa_mean "))
     assert line.split()[1:6] == ["12", "20", "%", "0", "%"]
-    assert line.endswith("hurst 0.5, reduced_pressure 0.00351")
+    assert line.endswith("hurst_exponent 0.5, reduced_pressure 0.00351")
     assert exit_code("--within", "0.21") == 0
     assert "fig_3_2: within 21 %" in capsys.readouterr().out
 
@@ -171,7 +175,7 @@ def test_a_missing_file_is_named_with_the_command_that_makes_it(tiers, tmp_path)
     ("column", "words"),
     [
         ("kappa_mean", ["got 'kappa_mean'", "kappa_r_mean", "`make fig_3_2 TIER=quick`"]),
-        ("reduced_pressure", ["figures.fig_3_2.key columns", "got ['hurst']", "tell all rows apart"]),
+        ("reduced_pressure", ["figures.fig_3_2.key columns", "got ['hurst_exponent']", "tell all rows apart"]),
     ],
 )
 def test_a_missing_column_is_refused_in_one_line_that_names_the_file(tiers, column, words):

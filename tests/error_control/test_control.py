@@ -51,10 +51,10 @@ DRAWS = read_trials(ROOT / "config", {}, "standard")
 LINE_SCENE = {
     "surface": {
         "kind": "self_affine",
-        "hurst": 0.8,
+        "hurst_exponent": 0.8,
         "length": 1024.0,
-        "rolloff_wavelength": 256.0,
-        "shortest_wavelength": 8.0,
+        "long_cutoff": 256.0,
+        "short_cutoff": 8.0,
         "rms_gradient": 0.1,
     },
     "body": {"kind": "half_space", "contact_modulus": 1.0},
@@ -105,9 +105,9 @@ def test_drawn_scenes_are_of_their_family_the_same_each_time_and_within_their_ra
     assert first.settings == again.settings
     assert first.settings != other.settings
     assert scene_family(first.setup.scene) == family
-    if "hurst" in first.settings["surface"]:
-        low, high = DRAWS["kinds"][family]["hurst"]
-        assert low <= first.settings["surface"]["hurst"] <= high
+    if "hurst_exponent" in first.settings["surface"]:
+        low, high = DRAWS["kinds"][family]["hurst_exponent"]
+        assert low <= first.settings["surface"]["hurst_exponent"] <= high
 
 
 @pytest.mark.parametrize("wanted", [1, MIN_POINTS, 33, 100, 1000, 4097, 10**6])
@@ -280,8 +280,8 @@ def test_the_error_of_a_quantity_that_only_one_of_two_runs_has_is_unknown():
 
 
 def test_each_variant_gets_the_grid_that_its_own_scene_needs():
-    runs = study(LINE_SCENE, vary={"surface.shortest_wavelength": [8.0, 32.0]}).runs()
-    points = {run.settings["surface"]["shortest_wavelength"]: run.settings["points"] for run in runs}
+    runs = study(LINE_SCENE, vary={"surface.short_cutoff": [8.0, 32.0]}).runs()
+    points = {run.settings["surface"]["short_cutoff"]: run.settings["points"] for run in runs}
     assert points[8.0] > 3 * points[32.0]
     assert all(run.settings["accuracy"] == {"error": 0.02, "quantities": []} for run in runs)
 
@@ -338,7 +338,7 @@ def test_what_lies_ahead_is_told_with_what_is_not_known(tmp_path):
 
 def test_features_do_not_depend_on_units():
     surface = LINE_SCENE["surface"]
-    lengths = ("length", "rolloff_wavelength", "shortest_wavelength")
+    lengths = ("length", "long_cutoff", "short_cutoff")
     larger = surface | {name: 10 * surface[name] for name in lengths}
     setups = setup_of(LINE_SCENE), setup_of(LINE_SCENE, surface=larger)
     for original, scaled in zip(*(features(setup.scene) for setup in setups), strict=True):

@@ -259,20 +259,20 @@ def test_what_cannot_be_left_out_by_itself_is_refused(section, key, allowed):
 
 @pytest.mark.parametrize("dimensions", [1, 2])
 def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
-    given = {"length": 64.0, "hurst": 0.5, "rolloff_wavelength": 32.0, "shortest_wavelength": 4.0, "rms_gradient": 0.1}
+    given = {"length": 64.0, "hurst_exponent": 0.5, "long_cutoff": 32.0, "short_cutoff": 4.0, "rms_gradient": 0.1}
     surface = SelfAffine(**given, dimensions=dimensions, seed=realisation_seed(1, 0.5))
-    smooth = SelfAffine(**given, dimensions=dimensions, smoothed=8.0, seed=realisation_seed(1, 0.5))
+    smooth = SelfAffine(**given, dimensions=dimensions, low_pass_cutoff=8.0, seed=realisation_seed(1, 0.5))
     assert smooth.modes == 7
     whole = np.fft.fftn(surface.heights(64))
     waves = np.fft.fftfreq(64, 1 / 64)
     square = waves**2 if dimensions == 1 else waves[:, None] ** 2 + waves**2
     kept = np.fft.ifftn(np.where(square <= 49, whole, 0)).real
     assert np.allclose(smooth.heights(64), kept, atol=1e-12)
-    assert smooth.gradient < surface.gradient
+    assert smooth.profile_rms_gradient < surface.profile_rms_gradient
     assert np.array_equal(surface.heights(64), surface.heights(64))
     smooth.check(16)
-    with refused("smoothed", "below the roll-off"):
-        SelfAffine(**given, smoothed=40.0, seed=realisation_seed(1, 0.5))
+    with refused("low_pass_cutoff", "below the roll-off"):
+        SelfAffine(**given, low_pass_cutoff=40.0, seed=realisation_seed(1, 0.5))
 
 
 def test_a_second_body_and_short_waves_are_left_out_where_there_are_such():

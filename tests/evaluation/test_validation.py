@@ -109,7 +109,7 @@ def test_a_straight_line_through_logarithms_is_found_again():
     ("over", "key", "allowed"),
     [
         ({"kinds": {"moon": {}}}, "kinds.moon", "one of line"),
-        ({"kinds": {"line": {"hurst": [0.5]}}}, "kinds.line.hurst", "a pair"),
+        ({"kinds": {"line": {"hurst_exponent": [0.5]}}}, "kinds.line.hurst_exponent", "a pair"),
         ({"errors": [-1.0]}, "errors", "a list"),
         ({"trial": {"scenes": 0}}, "trial.scenes", "how many"),
     ],

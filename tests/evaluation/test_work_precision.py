@@ -33,7 +33,7 @@ CASE = {
     },
     "repeats": 2,
 }
-VARY = "quick.case.vary.surface.hurst"
+VARY = "quick.case.vary.surface.hurst_exponent"
 ASPERITY = {
     "title": "Asperity",
     "surface": {"kind": "cylinder", "radius": 25000.0, "length": 10000.0},
@@ -62,7 +62,7 @@ ROUGH_CASE = {
     "study": "rough_line",
     "load": [1e-3],
     "quantities": ["kappa_r"],
-    "vary": {"surface.hurst": [0.8]},
+    "vary": {"surface.hurst_exponent": [0.8]},
     "settled": {"points": 8192, "tolerance": 1.0e-4},
     "reference": {"points": 32768, "tolerance": 1.0e-7},
     "solvers": {"active_set": {"points": [8192, 16384]}},
@@ -162,11 +162,11 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
 def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
     one = case(tmp_path, **ROUGH_CASE)
     (run,) = one.study_at(one.turned("active_set")[0], "active_set").runs()
-    whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst": 0.8})
-    assert run.coordinates == {"hurst": 0.8}
+    whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst_exponent": 0.8})
+    assert run.coordinates == {"hurst_exponent": 0.8}
     assert run.settings["surface"] == whole.settings["surface"]
     assert {run.settings[key] for key in ("seed", "study")} == {whole.settings[key] for key in ("seed", "study")}
-    assert one.selection == {"hurst": [0.8]}
+    assert one.selection == {"hurst_exponent": [0.8]}
 
 
 @pytest.mark.parametrize("name", ["taken", "a-b", ""])
@@ -311,9 +311,9 @@ NO_INCREMENTS = "loads are solved on their own, without increments"
         ({"settled": {"points": 16384, "tolerance": 1e-4}}, "quick.case.settled.points", "fewer than"),
         ({"load": [0.11]}, "quick.case.load", "0.15"),
         ({"quantities": ["kappa"]}, "quick.case.quantities", "kappa_r"),
-        ({"vary": {"surface.hurst": [0.8]}}, "quick.case.vary.surface.hurst", "none"),
-        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst": [0.3]}}, VARY, "0.2, 0.5, 0.8"),
-        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst": []}}, VARY, "0.2, 0.5, 0.8"),
+        ({"vary": {"surface.hurst_exponent": [0.8]}}, "quick.case.vary.surface.hurst_exponent", "none"),
+        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst_exponent": [0.3]}}, VARY, "0.2, 0.5, 0.8"),
+        ({"study": "rough_line", "load": [1e-3], "vary": {"surface.hurst_exponent": []}}, VARY, "0.2, 0.5, 0.8"),
         ({"solvers": CASE["solvers"] | {"conjugate_gradients": {"points": [64]}}}, "quick.case.solvers", "LINE"),
         ({"study": "smooth_surface"}, "quick.case.solvers", "conjugate_gradients, the study's own"),
         ({"repeats": 0}, "quick.case.repeats", "1 or more"),

@@ -112,17 +112,17 @@ def test_the_rough_lines_are_drawn_with_error_bars_and_the_thesis_value(made):
     data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     axes = list(Figure().subplots(1, 4))
     shown = ch3.fig_3_2(data, axes, kappa_r=1.75)
-    assert len(axes[2].containers) == 2 * data.hurst.size  # κ_r by Eq. 3.8 and by pairs
+    assert len(axes[2].containers) == 2 * data.hurst_exponent.size  # κ_r by Eq. 3.8 and by pairs
     assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
     drawn = axes[1].containers[0].lines[0].get_ydata()
-    assert np.array_equal(drawn, data.kappa_mean.sel(hurst=0.2))
+    assert np.array_equal(drawn, data.kappa_mean.sel(hurst_exponent=0.2))
     assert {"kappa_r_mean", "kappa_r_standard_error", "kappa_r_grid_error"} <= set(shown)
     errors = {(line.get_color(), line.get_linestyle()): line.get_ydata() for line in axes[3].lines}
-    assert len(errors) == 2 * data.hurst.size
+    assert len(errors) == 2 * data.hurst_exponent.size
     for name, color in (("kappa_r", style.CONTACT), ("kappa_r_pairs", style.PAIRS)):
-        for value in data.hurst.values:
+        for value in data.hurst_exponent.values:
             drawn = errors[color, style.hurst_look(value)["linestyle"]]
-            assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst=value))
+            assert np.array_equal(drawn, data[f"{name}_grid_error"].sel(hurst_exponent=value))
 
 
 def test_without_a_measured_grid_error_the_rough_lines_are_drawn_all_the_same(made):
@@ -164,10 +164,10 @@ def test_surfaces_are_drawn_with_the_thesis_values_and_their_ratios_to_lines(mad
     assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
     axes = list(Figure().subplots(1, 3))
     ratios = ch3.fig_3_5(*rough.values(), axes, ratio=0.92).query(
-        "grid == 'equal' and quantity == 'kappa' and hurst == 0.5"
+        "grid == 'equal' and quantity == 'kappa' and hurst_exponent == 0.5"
     )
-    line = rough["rough_line_coarse"].sel(hurst=0.5).kappa_mean.values
-    assert np.allclose(ratios.value * shown.query("hurst == 0.5").kappa_mean.values, line)
+    line = rough["rough_line_coarse"].sel(hurst_exponent=0.5).kappa_mean.values
+    assert np.allclose(ratios.value * shown.query("hurst_exponent == 0.5").kappa_mean.values, line)
 
 
 ROUGH = ("rough_line", "rough_line_coarse", "rough_surface", "line_resolution", "surface_resolution")
@@ -194,7 +194,7 @@ def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
     data = dataset.load_dataset(made / "results/quick/datasets/ch5_nonadhesive_compressible.nc")
     axes = list(Figure().subplots(1, 4))
     shown = ch5.fig_5_2(data, axes, kappa_r=1.75)
-    variants = data.hurst.size * data.poisson_ratio.size * data.thickness.size
+    variants = data.hurst_exponent.size * data.poisson_ratio.size * data.thickness.size
     assert len(axes[0].containers) == variants
     assert len(axes[1].containers) == variants * 3 // 2  # over pairs of the half-space alone
     assert len(axes[2].containers) == 2 * variants // 2  # area and κ_r, of the layer alone

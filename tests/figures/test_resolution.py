@@ -19,17 +19,22 @@ from contactsim.study.plan import Plan
 
 CONFIG = Path(__file__).parents[2] / "config"
 
-SURFACE = {"shortest_wavelength": 2.0, "length": 512.0}
+SURFACE = {"short_cutoff": 2.0, "length": 512.0}
 LEVELS = np.array([1.0, 1.2, 1.7])
 
 
-def made(points, members=3, hurst=(0.2, 0.8), scale=1.0, surface=SURFACE):
+def made(points, members=3, hurst_exponent=(0.2, 0.8), scale=1.0, surface=SURFACE):
     """Quantities 1 + c/points of first order, each member at its own level."""
-    dims = ("points", "hurst", "member", "reduced_pressure")
-    shape = (len(points), len(hurst), members, 2)
+    dims = ("points", "hurst_exponent", "member", "reduced_pressure")
+    shape = (len(points), len(hurst_exponent), members, 2)
     level = LEVELS[:members].reshape(1, 1, -1, 1)
     values = scale * (level + 256 / np.reshape(points, (-1, 1, 1, 1))) * np.ones(shape)
-    places = {"points": list(points), "hurst": list(hurst), "member": range(members), "reduced_pressure": [0.01, 0.1]}
+    places = {
+        "points": list(points),
+        "hurst_exponent": list(hurst_exponent),
+        "member": range(members),
+        "reduced_pressure": [0.01, 0.1],
+    }
     data = xr.Dataset(dict.fromkeys(resolution.QUANTITIES, (dims, values)), places)
     data["status"] = (dims, np.zeros(shape, np.int8))
     data = data.merge(aggregate.ensemble_means(data, AVERAGED))
@@ -38,14 +43,14 @@ def made(points, members=3, hurst=(0.2, 0.8), scale=1.0, surface=SURFACE):
     return dataset.stamped(data, "made", {"surface": surface}, "source")
 
 
-def place(shown, quantity, hurst, load):
+def place(shown, quantity, hurst_exponent, load):
     """The rows of one place, by grid."""
-    return shown.query(f"quantity == '{quantity}' and hurst == {hurst} and reduced_pressure == {load}").set_index(
-        "grid"
-    )
+    return shown.query(
+        f"quantity == '{quantity}' and hurst_exponent == {hurst_exponent} and reduced_pressure == {load}"
+    ).set_index("grid")
 
 
-COARSER, FINER = made([1024, 2048, 4096]), made([8192], members=1, hurst=[0.2])
+COARSER, FINER = made([1024, 2048, 4096]), made([8192], members=1, hurst_exponent=[0.2])
 
 
 def test_the_table_has_means_changes_member_by_member_and_limits():
@@ -110,7 +115,7 @@ def test_lines_and_surfaces_are_refined_through_the_same_grids_at_every_tier(tie
     for name in ("line_resolution", "surface_resolution"):
         settings = studies[name].settings
         surface = settings["surface"]
-        counts.append(np.array(settings["vary"]["points"]) * surface["shortest_wavelength"] / surface["length"])
+        counts.append(np.array(settings["vary"]["points"]) * surface["short_cutoff"] / surface["length"])
     np.testing.assert_allclose(*counts, rtol=1e-12)
 
 

@@ -237,8 +237,8 @@ def test_the_example_fits_the_law_that_another_fit_finds(made, told, results):
     data = xr.load_dataset(made / "datasets/ch3_rough_line.nc").sel(reduced_pressure=[0.01, 0.03, 0.1])
     rows = [row for row in told if len(row) == 5]
     assert [row[0] for row in rows] == [0.2, 0.8]
-    for hurst, *found in rows:
-        areas = data.contact_points.sel(hurst=hurst).values / data.points.item()
+    for hurst_exponent, *found in rows:
+        areas = data.contact_points.sel(hurst_exponent=hurst_exponent).values / data.points.item()
         lines = [linregress(np.log(data.reduced_pressure), np.log(area)) for area in areas]
         slopes, factors = [line.slope for line in lines], [np.exp(line.intercept) for line in lines]
         assert found == pytest.approx(with_error(slopes) + with_error(factors), abs=1e-5)

@@ -48,8 +48,10 @@ def press(
     return solve(method, *pose_hard_wall(scene, path.steps[0], scene.heights(surface.points), tolerance, threads))
 
 
-def rough(points, hurst=0.8, seed=1):
-    surface = SelfAffine(points, hurst, points / 2, 8.0, 1.0, seed=realisation_seed(seed, hurst), dimensions=2)
+def rough(points, hurst_exponent=0.8, seed=1):
+    surface = SelfAffine(
+        points, hurst_exponent, points / 2, 8.0, 1.0, seed=realisation_seed(seed, hurst_exponent), dimensions=2
+    )
     return surface.heights(points)
 
 

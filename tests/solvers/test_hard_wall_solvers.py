@@ -62,9 +62,9 @@ def test_the_answer_is_that_of_a_dense_quadratic_programme(name, pressure):
 
 
 @pytest.mark.parametrize("name", ALL)
-@pytest.mark.parametrize("hurst", [0.2, 0.8])
-def test_solvers_agree_on_a_rough_line(name, hurst):
-    heights = rough(1024, hurst)
+@pytest.mark.parametrize("hurst_exponent", [0.2, 0.8])
+def test_solvers_agree_on_a_rough_line(name, hurst_exponent):
+    heights = rough(1024, hurst_exponent)
     for pressure in (3e-3, 0.1):
         ours = press(heights, pressure, tolerance=1e-6)
         other = press(heights, pressure, name, tolerance=1e-6)

@@ -25,10 +25,10 @@ LOADS = [0.02, 0.1, 0.4]
 SURFACES = {
     "self_affine": {
         "kind": "self_affine",
-        "hurst": 0.8,
+        "hurst_exponent": 0.8,
         "length": 64.0,
-        "rolloff_wavelength": 32.0,
-        "shortest_wavelength": 1.0,
+        "long_cutoff": 32.0,
+        "short_cutoff": 1.0,
         "rms_gradient": 0.01,
     },
     "sinusoid": {"kind": "sinusoid", "length": 50.0, "amplitude": 0.2, "periods": 2},
@@ -269,7 +269,7 @@ def test_a_corrupted_old_file_is_computed_anew_with_a_warning(place, solved, cap
 def test_a_large_old_file_cut_short_is_computed_anew(place):
     # Its arrays are compressed and lie behind the header: they are found wanting only when they are read.
     settings = settings_of([0.4], points=16384)
-    settings["surface"]["shortest_wavelength"] = 0.02
+    settings["surface"]["short_cutoff"] = 0.02
     files = place(settings)
     good = files.data.read_bytes()
     for tenths in (2, 5, 8):
@@ -333,7 +333,7 @@ def test_damaged_costs_do_not_stop_a_run(place, content):
 
 def test_the_table_of_costs_has_a_row_for_each_solved_load(place):
     files = place(settings_of())
-    run = {"path": str(files.data), "costs": str(files.costs), "coordinates": {"hurst": 0.8}}
+    run = {"path": str(files.data), "costs": str(files.costs), "coordinates": {"hurst_exponent": 0.8}}
     table = costs.table([run | {"member": 0, "measures_error": False}])
     data = dataset.load_dataset(files.data)
     assert table.reduced_pressure.tolist() == LOADS
@@ -342,7 +342,7 @@ def test_the_table_of_costs_has_a_row_for_each_solved_load(place):
     assert (table.status == 0).all()
     assert (table.points == 256).all()
     assert set(table.run) == {str(files.data)}
-    assert set(table.hurst) == {0.8}
+    assert set(table.hurst_exponent) == {0.8}
 
 
 # --- failures and the log -----------------------------------------------------------------------------------------

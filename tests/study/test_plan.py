@@ -30,14 +30,14 @@ ROUGH = SMOOTH | {
     "title": "Rough",
     "surface": {
         "kind": "self_affine",
-        "hurst": 0.8,
+        "hurst_exponent": 0.8,
         "length": 64.0,
-        "rolloff_wavelength": 32.0,
-        "shortest_wavelength": 4.0,
+        "long_cutoff": 32.0,
+        "short_cutoff": 4.0,
         "rms_gradient": 0.01,
     },
     "load": {"reduced_pressure": [0.01, 0.1]},
-    "vary": {"surface.hurst": [0.2, 0.8]},
+    "vary": {"surface.hurst_exponent": [0.2, 0.8]},
     "solver": {"kind": "polonsky_keer"},
 }
 FIGURE = {"study": "smooth", "title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
@@ -47,7 +47,7 @@ FILES = {
     "tiers.yaml": {"plain": {}, "small": {"studies": {"smooth": {"points": 32}}}},
     "ch3.yaml": {
         "studies": {"smooth": SMOOTH, "rough": ROUGH},
-        "figures": {"fig_3_1": TWICE, "fig_3_3": FIGURE | {"study": "rough", "select": {"hurst": [0.1, 0.5]}}},
+        "figures": {"fig_3_1": TWICE, "fig_3_3": FIGURE | {"study": "rough", "select": {"hurst_exponent": [0.1, 0.5]}}},
     },
 }
 
@@ -162,9 +162,9 @@ def test_no_two_runs_of_a_plan_write_one_file(tiers):
 def test_figure_5_2_has_the_thesis_geometry_and_a_body_as_good_as_a_half_space(tiers):
     settings = tiers["standard"].studies["nonadhesive_compressible"].settings
     surface, vary = settings["surface"], settings["vary"]
-    assert surface["length"] == 8 * surface["rolloff_wavelength"] == 8 * 512 * surface["shortest_wavelength"]
-    assert settings["points"] * surface["shortest_wavelength"] == 32 * surface["length"]
-    assert vary["surface.hurst"] == [0.2, 0.8]
+    assert surface["length"] == 8 * surface["long_cutoff"] == 8 * 512 * surface["short_cutoff"]
+    assert settings["points"] * surface["short_cutoff"] == 32 * surface["length"]
+    assert vary["surface.hurst_exponent"] == [0.2, 0.8]
     assert vary["body.poisson_ratio"] == [0.1, 0.45]
     longest = 2 * np.pi / surface["length"]
     thick = settings["body"] | {"thickness": max(vary["body.thickness"])}
@@ -230,8 +230,8 @@ BAD = {
         *("ch2.yaml", "figures.fig_2_2.law.work_of_separation", -1.0, "a positive, finite number"),
     ),
     "selection of a law": (
-        {"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"select": {"hurst": [0, 1]}}}}},
-        *("ch2.yaml", "figures.fig_2_2.select.hurst", [0, 1], "no such key"),
+        {"ch2.yaml": {"figures": {"fig_2_2": ALONE | {"select": {"hurst_exponent": [0, 1]}}}}},
+        *("ch2.yaml", "figures.fig_2_2.select.hurst_exponent", [0, 1], "no such key"),
     ),
     "unknown key of the config": ({"config.yaml": {"sede": 1}}, "config.yaml", "sede", 1, "seed, tier, results"),
     "seed that is no number": ({"config.yaml": {"seed": -1}}, "config.yaml", "seed", -1, "0 or more"),
@@ -372,9 +372,9 @@ for size in ([4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -
     )
 for limits in ([0.1], [0.1, 0.2, 0.3], 0.1, {"least": 0.1}, [0.1, "all"], None, [0.5, 0.1]):
     BAD[f"select {limits}"] = (
-        {"ch3.yaml": {"figures/fig_3_3/select": {"hurst": limits}}},
+        {"ch3.yaml": {"figures/fig_3_3/select": {"hurst_exponent": limits}}},
         "ch3.yaml",
-        "figures.fig_3_3.select.hurst",
+        "figures.fig_3_3.select.hurst_exponent",
         limits,
         "least and largest value",
     )

@@ -21,16 +21,16 @@ ROUGH = {
     "title": "Rough line",
     "surface": {
         "kind": "self_affine",
-        "hurst": 0.8,
+        "hurst_exponent": 0.8,
         "length": 64.0,
-        "rolloff_wavelength": 32.0,
-        "shortest_wavelength": 4.0,
+        "long_cutoff": 32.0,
+        "short_cutoff": 4.0,
         "rms_gradient": 0.01,
     },
     "body": {"kind": "half_space", "contact_modulus": 2.0},
     "effects": ["hard_wall"],
     "load": {"reduced_pressure": [0.1, 0.01]},
-    "vary": {"surface.hurst": [0.2, 0.8], "surface.rolloff_wavelength": [16.0, 24.0, 32.0]},
+    "vary": {"surface.hurst_exponent": [0.2, 0.8], "surface.long_cutoff": [16.0, 24.0, 32.0]},
     "points": 128,
     "members": 2,
     "coarse_grid": {"points": 64, "members": 1},
@@ -105,8 +105,8 @@ BAD = {
     "unknown surface": ({"surface/kind": "cone"}, "surface.kind", "cone", "measured, measured_surface, self_affine"),
     "surface without kind": ({"surface/kind": GONE}, "surface.kind", "nothing", "self_affine"),
     "surface that is no mapping": ({"surface": "flat"}, "surface", "flat", "a mapping with `kind`"),
-    "key of another surface": ({"surface/radius": 10.0}, "surface.radius", 10.0, "hurst, rolloff_wavelength"),
-    "surface without a key": ({"surface/rolloff_wavelength": GONE}, "surface.rolloff_wavelength", "nothing", "number"),
+    "key of another surface": ({"surface/radius": 10.0}, "surface.radius", 10.0, "hurst_exponent, long_cutoff"),
+    "surface without a key": ({"surface/long_cutoff": GONE}, "surface.long_cutoff", "nothing", "number"),
     "neither gradient nor height": ({"surface/rms_gradient": GONE}, "surface.rms_gradient", None, "exactly one of"),
     "gradient and height": ({"surface/rms_height": 10.0}, "surface.rms_gradient", [0.01, 10.0], "exactly one of"),
     "height that is text": ({"surface/rms_height": "10"}, "surface.rms_height", "10", "a number"),
@@ -123,8 +123,18 @@ BAD = {
         "exactly one of",
     ),
     "generator from a config": ({"surface/rng": 1}, "surface.rng", 1, "no such key"),
-    "hurst above one": ({"surface/hurst": 1.2, "vary": {}}, "surface.hurst", 1.2, "from 0 to 1"),
-    "varied hurst below nought": ({"vary": {"surface.hurst": [0.5, -0.1]}}, "surface.hurst", -0.1, "from 0 to 1"),
+    "hurst_exponent above one": (
+        {"surface/hurst_exponent": 1.2, "vary": {}},
+        "surface.hurst_exponent",
+        1.2,
+        "from 0 to 1",
+    ),
+    "varied hurst_exponent below nought": (
+        {"vary": {"surface.hurst_exponent": [0.5, -0.1]}},
+        "surface.hurst_exponent",
+        -0.1,
+        "from 0 to 1",
+    ),
     "unknown amplitudes": ({"surface/amplitudes": "equal"}, "surface.amplitudes", "equal", "gaussian"),
     "points too few": ({"points": 30, "coarse_grid": GONE}, "points", 30, "more than 30: two points per shortest"),
     "coarse grid points too few": ({"coarse_grid/points": 30}, "points", 30, "more than 30: two points per shortest"),
@@ -138,18 +148,48 @@ BAD = {
     "coarse grid with one point": ({"coarse_grid/points": 1}, "coarse_grid.points", 1, "whole number"),
     "coarse grid without members": ({"coarse_grid/members": GONE}, "coarse_grid.members", "nothing", "at most"),
     "coarse grid with another key": ({"coarse_grid/tolerance": 1.0}, "coarse_grid.tolerance", 1.0, "points, members"),
-    "vary on an unknown section": ({"vary": {"mood.swing": [1.0]}}, "vary", "mood.swing", "surface.hurst"),
-    "vary on an unknown key": ({"vary": {"surface.radius": [1.0]}}, "vary", "surface.radius", "surface.hurst"),
+    "vary on an unknown section": ({"vary": {"mood.swing": [1.0]}}, "vary", "mood.swing", "surface.hurst_exponent"),
+    "vary on an unknown key": ({"vary": {"surface.radius": [1.0]}}, "vary", "surface.radius", "surface.hurst_exponent"),
     "vary on a key of no section": ({"vary": {"members": [1, 2]}}, "vary", "members", "points, "),
-    "vary on a whole section": ({"vary": {"surface": [1.0]}}, "vary", "surface", "surface.hurst"),
-    "vary on a number": ({"vary": {1: [2.0]}}, "vary", 1, "surface.hurst"),
-    "vary on a bare value": ({"vary": {"surface.hurst": 0.5}}, "vary.surface.hurst", 0.5, "a list with at least one"),
-    "vary on a pair": ({"vary": {"surface.hurst": [[0.2, 0.5]]}}, "vary.surface.hurst", [0.2, 0.5], "single values"),
-    "vary on no values": ({"vary": {"surface.hurst": []}}, "vary.surface.hurst", [], "a list with at least one"),
-    "vary on a value twice": ({"vary": {"surface.hurst": [0.5, 0.5]}}, "vary.surface.hurst", [0.5, 0.5], "none twice"),
-    "vary on one value spelt twice": ({"vary": {"surface.hurst": [1, 1.0]}}, "vary.surface.hurst", [1, 1.0], "twice"),
-    "vary on text": ({"vary": {"surface.hurst": [0.5, "rough"]}}, "surface.hurst", "rough", "a number"),
-    "vary that is no mapping": ({"vary": ["surface.hurst"]}, "vary", ["surface.hurst"], "a mapping"),
+    "vary on a whole section": ({"vary": {"surface": [1.0]}}, "vary", "surface", "surface.hurst_exponent"),
+    "vary on a number": ({"vary": {1: [2.0]}}, "vary", 1, "surface.hurst_exponent"),
+    "vary on a bare value": (
+        {"vary": {"surface.hurst_exponent": 0.5}},
+        "vary.surface.hurst_exponent",
+        0.5,
+        "a list with at least one",
+    ),
+    "vary on a pair": (
+        {"vary": {"surface.hurst_exponent": [[0.2, 0.5]]}},
+        "vary.surface.hurst_exponent",
+        [0.2, 0.5],
+        "single values",
+    ),
+    "vary on no values": (
+        {"vary": {"surface.hurst_exponent": []}},
+        "vary.surface.hurst_exponent",
+        [],
+        "a list with at least one",
+    ),
+    "vary on a value twice": (
+        {"vary": {"surface.hurst_exponent": [0.5, 0.5]}},
+        "vary.surface.hurst_exponent",
+        [0.5, 0.5],
+        "none twice",
+    ),
+    "vary on one value spelt twice": (
+        {"vary": {"surface.hurst_exponent": [1, 1.0]}},
+        "vary.surface.hurst_exponent",
+        [1, 1.0],
+        "twice",
+    ),
+    "vary on text": (
+        {"vary": {"surface.hurst_exponent": [0.5, "rough"]}},
+        "surface.hurst_exponent",
+        "rough",
+        "a number",
+    ),
+    "vary that is no mapping": ({"vary": ["surface.hurst_exponent"]}, "vary", ["surface.hurst_exponent"], "a mapping"),
     "unknown body": ({"body/kind": "rubber"}, "body.kind", "rubber", "half_space"),
     "negative modulus": ({"body/contact_modulus": -1.0}, "body.contact_modulus", -1.0, "positive"),
     "no effects": ({"effects": []}, "effects", [], "hard_wall"),
@@ -277,14 +317,14 @@ def test_fits_that_aggregation_cannot_make_are_refused_before_anything_runs(chan
 
 
 def test_a_fit_limit_below_two_of_the_loads_is_refused():
-    changes = {"vary": {"surface.hurst": [0.2, 0.8]}, "fit_limits": [0.05]}
+    changes = {"vary": {"surface.hurst_exponent": [0.2, 0.8]}, "fit_limits": [0.05]}
     assert refusal(changes).key == "studies.rough.fit_limits"
 
 
 @pytest.mark.parametrize(
     "vary",
     [
-        {"surface.rolloff_wavelength": [16.0, 32.0]},
+        {"surface.long_cutoff": [16.0, 32.0]},
         {"surface.length": [64.0, 128.0]},
         {"surface.amplitudes": ["gaussian", "fixed"]},
         {"body.contact_modulus": [1.0, 2.0]},
@@ -377,7 +417,7 @@ def test_a_measured_surface_has_no_companion(scan):
 def test_there_is_one_run_per_variant_and_member_and_companions_come_last():
     runs = study().runs()
     assert [run.measures_error for run in runs] == [False] * 12 + [True] * 6
-    places = [(run.coordinates["hurst"], run.coordinates["rolloff_wavelength"], run.member) for run in runs]
+    places = [(run.coordinates["hurst_exponent"], run.coordinates["long_cutoff"], run.member) for run in runs]
     values = [0.2, 0.8], [16.0, 24.0, 32.0]
     assert places[:12] == list(itertools.product(*values, [0, 1]))
     assert places[12:] == list(itertools.product(*values, [0]))
@@ -387,8 +427,8 @@ def test_there_is_one_run_per_variant_and_member_and_companions_come_last():
 
 def test_a_run_has_the_varied_values_in_its_settings():
     for run in study().runs():
-        assert run.settings["surface"]["hurst"] == run.coordinates["hurst"]
-        assert run.settings["surface"]["rolloff_wavelength"] == run.coordinates["rolloff_wavelength"]
+        assert run.settings["surface"]["hurst_exponent"] == run.coordinates["hurst_exponent"]
+        assert run.settings["surface"]["long_cutoff"] == run.coordinates["long_cutoff"]
         assert run.settings["member"] == run.member
 
 
@@ -427,7 +467,7 @@ def by_place(runs):
 
 
 def test_the_order_of_varied_keys_and_values_changes_no_run():
-    turned = study({"vary": {"surface.rolloff_wavelength": [32.0, 16.0, 24.0], "surface.hurst": [0.8, 0.2]}})
+    turned = study({"vary": {"surface.long_cutoff": [32.0, 16.0, 24.0], "surface.hurst_exponent": [0.8, 0.2]}})
     one, other = by_place(study().runs()), by_place(turned.runs())
     assert one.keys() == other.keys()
     for place, run in one.items():
@@ -436,7 +476,7 @@ def test_the_order_of_varied_keys_and_values_changes_no_run():
 
 
 def test_a_variant_and_a_member_do_not_depend_on_the_others():
-    more = study({"vary": {"surface.hurst": [0.2, 0.5, 0.8], "surface.rolloff_wavelength": [24.0]}, "members": 5})
+    more = study({"vary": {"surface.hurst_exponent": [0.2, 0.5, 0.8], "surface.long_cutoff": [24.0]}, "members": 5})
     one, other = by_place(study().runs()), by_place(more.runs())
     common = one.keys() & other.keys()
     assert len(common) == 6  # two Hurst exponents at one roll-off: two members each, and a companion
@@ -469,7 +509,7 @@ def test_loads_are_sorted_so_that_their_order_changes_nothing():
         {"points": 256},
         {"tolerance": 1e-4},
         {"body/contact_modulus": 1.0},
-        {"surface/shortest_wavelength": 4.1},
+        {"surface/short_cutoff": 4.1},
         {"surface/amplitudes": "fixed"},
         {"solver": {"kind": "polonsky_keer"}},
         {"solver": {"kind": "active_set", "reduction": 0.05}},
@@ -492,7 +532,7 @@ def test_the_same_seed_study_hurst_and_member_give_the_same_profile_whatever_els
         study({"members": 7, "coarse_grid": GONE}).runs()[0],
         study({"load": {"mean_pressure": [0.5]}, "body/contact_modulus": 3.0, "tolerance": 1e-5}).runs()[0],
         study({"solver": {"kind": "verlet"}, "title": "other"}).runs()[0],
-        study({"vary": {"surface.hurst": [0.2]}, "surface/rolloff_wavelength": 16.0}).runs()[0],
+        study({"vary": {"surface.hurst_exponent": [0.2]}, "surface/long_cutoff": 16.0}).runs()[0],
     ]
     for other in others:
         assert np.array_equal(profile(one), profile(other))
@@ -502,9 +542,12 @@ def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
     def phases(run):
         return np.angle(run.setup.scene.upper.surface.coefficients[1:])
 
-    low, high = (study({"vary": {"surface.hurst": [hurst]}, "coarse_grid": GONE}) for hurst in (0.2, 0.8))
-    renamed = Study.read("other", changed({"vary": {"surface.hurst": [0.2]}}), "ch9.yaml", 1)
-    seeded = study({"vary": {"surface.hurst": [0.2]}}, seed=2)
+    low, high = (
+        study({"vary": {"surface.hurst_exponent": [hurst_exponent]}, "coarse_grid": GONE})
+        for hurst_exponent in (0.2, 0.8)
+    )
+    renamed = Study.read("other", changed({"vary": {"surface.hurst_exponent": [0.2]}}), "ch9.yaml", 1)
+    seeded = study({"vary": {"surface.hurst_exponent": [0.2]}}, seed=2)
     runs = [*low.runs(), *high.runs(), renamed.runs()[0], seeded.runs()[0]]
     drawn = [phases(run) for run in runs]
     for one, other in itertools.combinations(drawn, 2):
@@ -535,7 +578,9 @@ def test_reduced_pressures_of_prescribed_heights_use_each_members_own_gradient_w
     places = {}
     for run in runs:
         surface = run.setup.scene.upper.surface
-        np.testing.assert_allclose(pressures(run), np.array([0.01, 0.1]) * 2.0 * surface.gradient, rtol=1e-15)
+        np.testing.assert_allclose(
+            pressures(run), np.array([0.01, 0.1]) * 2.0 * surface.profile_rms_gradient, rtol=1e-15
+        )
         places.setdefault((*run.coordinates.values(), run.member), []).append(pressures(run).tolist())
     assert all(loads == [loads[0]] * len(loads) for loads in places.values())  # of a run and its companion
     assert len({tuple(loads[0]) for loads in places.values()}) == len(places)
@@ -602,12 +647,12 @@ def test_a_bad_tight_companion_is_refused(tight, key, allowed):
 # --- grids and surfaces in common ---------------------------------------------------------------------------------
 
 
-FINER = {"points": GONE, "coarse_grid": GONE, "vary": {"points": [64, 128, 256], "surface.hurst": [0.2]}}
+FINER = {"points": GONE, "coarse_grid": GONE, "vary": {"points": [64, 128, 256], "surface.hurst_exponent": [0.2]}}
 
 
 def test_varied_points_are_a_dimension_and_sample_the_same_surface():
     one = study(FINER)
-    assert one.dimensions == ["points", "hurst", "member", "reduced_pressure"]
+    assert one.dimensions == ["points", "hurst_exponent", "member", "reduced_pressure"]
     runs = [run for run in one.runs() if run.member == 1]
     assert [run.coordinates["points"] for run in runs] == [run.settings["points"] for run in runs] == [64, 128, 256]
     assert not any(run.measures_error for run in runs)
@@ -616,7 +661,7 @@ def test_varied_points_are_a_dimension_and_sample_the_same_surface():
 
 
 def test_a_run_on_a_varied_grid_is_that_of_a_study_with_this_grid():
-    alone = study({"points": 64, "coarse_grid": GONE, "vary": {"surface.hurst": [0.2]}}).runs()[0]
+    alone = study({"points": 64, "coarse_grid": GONE, "vary": {"surface.hurst_exponent": [0.2]}}).runs()[0]
     assert canonical(study(FINER).runs()[0].settings) == canonical(alone.settings)
 
 
@@ -654,8 +699,8 @@ def test_grids_are_aggregated_along_points_with_their_limit(tmp_path):
         )
     data = aggregate.aggregate(runs, read.settings, "source")
     assert data.points.values.tolist() == [64, 128, 256]
-    assert data.kappa_mean.dims == ("points", "hurst", "reduced_pressure")
-    assert data.kappa_limit.dims == ("hurst", "reduced_pressure")
+    assert data.kappa_mean.dims == ("points", "hurst_exponent", "reduced_pressure")
+    assert data.kappa_limit.dims == ("hurst_exponent", "reduced_pressure")
     assert data.kappa_limit.attrs["long_name"].endswith("extrapolated to the limit on finer grids")
     two = aggregate.aggregate([run for run in runs if run["coordinates"]["points"] != 64], read.settings, "source")
     assert "kappa_limit" not in two

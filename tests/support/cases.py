@@ -34,10 +34,12 @@ def refused(key: str, allowed: str) -> Iterator[pytest.ExceptionInfo[InputError]
     assert allowed in caught.value.allowed
 
 
-def rough(points: int, hurst: float = 0.8, gradient: float = 1.0, modes: int = 0) -> np.ndarray:
+def rough(points: int, hurst_exponent: float = 0.8, gradient: float = 1.0, modes: int = 0) -> np.ndarray:
     """A self-affine profile on `points` points of unit spacing, with a shortest wavelength of 8 points."""
     modes = modes or points // 8
-    surface = SelfAffine(points, hurst, points / 4, points / (modes + 0.5), gradient, seed=realisation_seed(7, hurst))
+    surface = SelfAffine(
+        points, hurst_exponent, points / 4, points / (modes + 0.5), gradient, seed=realisation_seed(7, hurst_exponent)
+    )
     return surface.heights(points)
 
 

@@ -11,8 +11,8 @@ PROJECT = ("CITATION.cff", "LICENSE", "environment.txt", "examples/reanalyse.py"
 SMALL = {
     "ch3": {
         "rough_line": {
-            "surface": {"shortest_wavelength": 1250.0},
-            "vary": {"surface.hurst": [0.2, 0.8]},
+            "surface": {"short_cutoff": 1250.0},
+            "vary": {"surface.hurst_exponent": [0.2, 0.8]},
             "load": {"reduced_pressure": [0.01, 0.03, 0.1, 0.5]},
             "points": 2048,
             "members": 3,
@@ -20,7 +20,7 @@ SMALL = {
     },
     "ch5": {
         "rough_adhesive": {
-            "surface": {"shortest_wavelength": 160.0},
+            "surface": {"short_cutoff": 160.0},
             "vary": {"normal_cohesive_zone.work_of_separation": [0.07, 0.7]},
             "path": {"approach": [-4.0, 8.0], "increment": 1.0},
             "increments": {"full_grid_at": [-2.0, 0.0, 4.0, 8.0]},

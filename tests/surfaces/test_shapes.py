@@ -10,39 +10,45 @@ from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
 from contactsim.surfaces.statistics import rms_gradient, rms_height, spectrum
 
-THESIS = {"length": 160000.0, "rolloff_wavelength": 20000.0, "shortest_wavelength": 39.0625, "rms_gradient": 1e-3}
+THESIS = {"length": 160000.0, "long_cutoff": 20000.0, "short_cutoff": 39.0625, "rms_gradient": 1e-3}
 
 
-def self_affine(hurst=0.8, seed=0, **changes):
-    return SelfAffine(**(THESIS | {"hurst": hurst, "seed": realisation_seed(seed, "test", hurst, 0)} | changes))
+def self_affine(hurst_exponent=0.8, seed=0, **changes):
+    return SelfAffine(
+        **(
+            THESIS
+            | {"hurst_exponent": hurst_exponent, "seed": realisation_seed(seed, "test", hurst_exponent, 0)}
+            | changes
+        )
+    )
 
 
 @pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
-@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.8, 1.0])
-def test_the_gradient_of_the_profile_is_exactly_the_one_asked_for(hurst, amplitudes):
-    surface = self_affine(hurst, amplitudes=amplitudes)
+@pytest.mark.parametrize("hurst_exponent", [0.0, 0.2, 0.8, 1.0])
+def test_the_gradient_of_the_profile_is_exactly_the_one_asked_for(hurst_exponent, amplitudes):
+    surface = self_affine(hurst_exponent, amplitudes=amplitudes)
     q = 2 * np.pi * np.arange(surface.modes + 1) / surface.length
     assert np.sqrt(2 * np.sum(q**2 * np.abs(surface.coefficients) ** 2)) == pytest.approx(1e-3, rel=1e-12)
 
 
 @pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
-@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.8, 1.0])
-def test_the_height_of_the_profile_is_exactly_the_one_asked_for(hurst, amplitudes):
-    surface = self_affine(hurst, amplitudes=amplitudes, rms_gradient=None, rms_height=10.0)
+@pytest.mark.parametrize("hurst_exponent", [0.0, 0.2, 0.8, 1.0])
+def test_the_height_of_the_profile_is_exactly_the_one_asked_for(hurst_exponent, amplitudes):
+    surface = self_affine(hurst_exponent, amplitudes=amplitudes, rms_gradient=None, rms_height=10.0)
     assert rms_height(surface.heights(16384)) == pytest.approx(10.0, rel=1e-12)
-    steep = self_affine(hurst, amplitudes=amplitudes, rms_gradient=surface.gradient)
+    steep = self_affine(hurst_exponent, amplitudes=amplitudes, rms_gradient=surface.profile_rms_gradient)
     assert np.allclose(steep.coefficients, surface.coefficients, rtol=1e-12, atol=0)  # one profile, asked for twice
 
 
 def test_the_height_of_a_surface_is_exactly_the_one_asked_for():
-    surface = self_affine(rms_gradient=None, rms_height=3.0, dimensions=2, shortest_wavelength=5000.0)
+    surface = self_affine(rms_gradient=None, rms_height=3.0, dimensions=2, short_cutoff=5000.0)
     assert rms_height(surface.heights(128)) == pytest.approx(3.0, rel=1e-12)
     fine = surface.heights(1024)  # 32 points a wave: differences fall short of slopes by a part in a thousand
-    assert rms_gradient(fine, 160000.0 / 1024) == pytest.approx(surface.gradient, rel=2e-3)
+    assert rms_gradient(fine, 160000.0 / 1024) == pytest.approx(surface.profile_rms_gradient, rel=2e-3)
 
 
 def test_the_gradient_of_a_profile_is_the_one_asked_for():
-    assert self_affine().gradient == 1e-3
+    assert self_affine().profile_rms_gradient == 1e-3
 
 
 def test_differences_on_the_thesis_grid_miss_the_gradient_by_two_in_ten_thousand():
@@ -57,20 +63,22 @@ def test_a_finer_grid_samples_the_same_surface():
 
 def test_modes_lie_strictly_above_the_shortest_wavelength():
     assert self_affine().modes == 4095  # the text: zero at and below it
-    assert self_affine(shortest_wavelength=39.0).modes == 4102
+    assert self_affine(short_cutoff=39.0).modes == 4102
 
 
 def test_a_shorter_cut_off_keeps_the_numbers_of_the_longer_waves():
-    long, short = self_affine(shortest_wavelength=100.0), self_affine(shortest_wavelength=39.0625)
+    long, short = self_affine(short_cutoff=100.0), self_affine(short_cutoff=39.0625)
     ratio = short.coefficients[1 : long.modes + 1] / long.coefficients[1:]
     assert np.allclose(ratio, ratio[0], rtol=1e-12)  # one common factor, from the scaling of the gradient
 
 
-@pytest.mark.parametrize("hurst", [0.2, 0.8])
-def test_the_spectrum_has_the_exponents_of_eq_3_10(hurst):
+@pytest.mark.parametrize("hurst_exponent", [0.2, 0.8])
+def test_the_spectrum_has_the_exponents_of_eq_3_10(hurst_exponent):
     density = np.mean(
         [
-            spectrum(self_affine(hurst, seed=(1, member), amplitudes="fixed").heights(16384), 160000.0)[1][:4095]
+            spectrum(self_affine(hurst_exponent, seed=(1, member), amplitudes="fixed").heights(16384), 160000.0)[1][
+                :4095
+            ]
             for member in range(4)
         ],
         axis=0,
@@ -79,7 +87,7 @@ def test_the_spectrum_has_the_exponents_of_eq_3_10(hurst):
     flat, sloped = mode < 8, mode >= 8
     assert np.allclose(density[flat], density[0], rtol=0.05)  # one scale a member, so the mean is not quite flat
     slope = np.polyfit(np.log(mode[sloped]), np.log(density[sloped]), 1)[0]
-    assert slope == pytest.approx(-(1 + 2 * hurst), abs=0.01)
+    assert slope == pytest.approx(-(1 + 2 * hurst_exponent), abs=0.01)
 
 
 def test_gaussian_amplitudes_scatter_and_fixed_ones_do_not():
@@ -117,9 +125,9 @@ def test_smooth_surfaces_have_their_shape():
 @pytest.mark.parametrize(
     ("build", "key"),
     [
-        (lambda: self_affine(hurst=1.2), "hurst"),
-        (lambda: self_affine(rolloff_wavelength=2e5), "rolloff_wavelength"),
-        (lambda: self_affine(shortest_wavelength=2e4), "shortest_wavelength"),
+        (lambda: self_affine(hurst_exponent=1.2), "hurst_exponent"),
+        (lambda: self_affine(long_cutoff=2e5), "long_cutoff"),
+        (lambda: self_affine(short_cutoff=2e4), "short_cutoff"),
         (lambda: self_affine(rms_gradient=0.0), "rms_gradient"),
         (lambda: self_affine(rms_gradient=None), "rms_gradient"),
         (lambda: self_affine(rms_height=10.0), "rms_gradient"),

@@ -128,11 +128,13 @@ def test_one_step_of_4_nm_onto_a_rough_line_leads_where_sixteen_lead(name):
 
 
 def test_a_rough_line_is_the_one_that_its_rms_height_and_hurst_exponent_make():
-    for hurst, height in ((0.8, 2.5), (0.2, 30.0)):
-        heights = rough.Ridges(height, hurst).heights(rough.POINTS)
+    for hurst_exponent, height in ((0.8, 2.5), (0.2, 30.0)):
+        heights = rough.Ridges(height, hurst_exponent).heights(rough.POINTS)
         waves = np.abs(np.fft.rfft(heights)) * 2 / rough.POINTS
         assert np.sqrt((heights**2).mean()) == pytest.approx(height, rel=1e-12)
-        assert np.polyfit(np.log(np.arange(4, 64)), np.log(waves[4:64]), 1)[0] == pytest.approx(-(1 + 2 * hurst) / 2)
+        assert np.polyfit(np.log(np.arange(4, 64)), np.log(waves[4:64]), 1)[0] == pytest.approx(
+            -(1 + 2 * hurst_exponent) / 2
+        )
         assert waves[64:].max() < 1e-12 * height
 
 

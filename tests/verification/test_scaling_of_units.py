@@ -53,5 +53,5 @@ def test_in_a_layer_half_as_thick_as_the_longest_wave_of_the_power_law_it_does()
     # The thickest of the study is thicker still, the thin one half of the roll-off wavelength.
     study = Plan.read(ROOT / "config", "standard").studies["nonadhesive_compressible"].settings
     thin, thick = study["vary"]["body.thickness"]
-    assert thin == study["surface"]["rolloff_wavelength"] / 2
+    assert thin == study["surface"]["long_cutoff"] / 2
     assert thick / study["surface"]["length"] > 9e4

@@ -98,7 +98,7 @@ def departure(data: xr.Dataset, name: str, along: str) -> Departure:
         (a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]
     ):
         one, two = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
-        paired = along != "hurst"
+        paired = along != "hurst_exponent"
         gap = abs((one - two).mean("member")) if paired else abs(one.mean("member") - two.mean("member"))
         square = _squared_error(one - two) if paired else _squared_error(one) + _squared_error(two)
         error = np.sqrt(square)

@@ -18,10 +18,10 @@ def fits(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
     Returns b1 and b2 with half-widths of their 95 % confidence intervals by the jackknife over members: dims
     (fitted, weighting, fit_limit).
     """
-    area = converged(data.relative_contact_area, data).transpose("hurst", "member", "reduced_pressure").values
+    area = converged(data.relative_contact_area, data).transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
-    sets = [[row] for row in range(data.hurst.size)] + [list(range(data.hurst.size))]
-    names = [f"{value:g}" for value in data.hurst.values] + ["all"]
+    sets = [[row] for row in range(data.hurst_exponent.size)] + [list(range(data.hurst_exponent.size))]
+    names = [f"{value:g}" for value in data.hurst_exponent.values] + ["all"]
     values = np.full((4, len(sets), len(WEIGHTINGS), len(limits)), np.nan)
     for s, rows in enumerate(sets):
         for w, weighting in enumerate(WEIGHTINGS):

@@ -165,12 +165,12 @@ def mean_quantity(data: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
-    """Return κ of Eq. 3.11 fitted to the area, (hurst, reduced_pressure)."""
-    area = converged(data.relative_contact_area, data).transpose("hurst", "member", "reduced_pressure").values
+    """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure)."""
+    area = converged(data.relative_contact_area, data).transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
     samples = [area] * len(area) if together else area
     kappa = [reference.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in samples]
-    return xr.DataArray(kappa, dims=("hurst", "reduced_pressure"))
+    return xr.DataArray(kappa, dims=("hurst_exponent", "reduced_pressure"))
 
 
 def source_quantity(name: str) -> str | None:

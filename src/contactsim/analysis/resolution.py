@@ -19,7 +19,7 @@ def per_wavelength(data: xr.Dataset) -> xr.Dataset:
     """Return a dataset of rough contacts with its grids, `points`, counted per shortest wavelength."""
     surface = dataset.settings_of(data)["surface"]
     data = data if "points" in data.dims else data.drop_vars("points").expand_dims(points=[int(data.points)])
-    return data.assign_coords(points=data.points * surface["shortest_wavelength"] / surface["length"])
+    return data.assign_coords(points=data.points * surface["short_cutoff"] / surface["length"])
 
 
 def on_both_grids(data: xr.Dataset, finer: xr.Dataset) -> xr.Dataset:
@@ -28,7 +28,7 @@ def on_both_grids(data: xr.Dataset, finer: xr.Dataset) -> xr.Dataset:
     finer: of some of the members, Hurst exponents and loads.
     """
     coarse, fine = (per_wavelength(part)[[*QUANTITIES, "status"]] for part in (data, finer))
-    fine = fine.reindex({dim: coarse[dim] for dim in ("hurst", "member", "reduced_pressure")})
+    fine = fine.reindex({dim: coarse[dim] for dim in ("hurst_exponent", "member", "reduced_pressure")})
     return xr.concat([coarse, fine], "points").drop_duplicates("points").sortby("points")
 
 
@@ -42,7 +42,7 @@ def grid_table(data: xr.Dataset, finer: xr.Dataset) -> pd.DataFrame:
 
     Returns
     -------
-    table : quantity, hurst, reduced_pressure and grid, and the columns
+    table : quantity, hurst_exponent, reduced_pressure and grid, and the columns
 
         - value: the mean; on the grid of `finer`, the mean on the finest grid of `data` and the change from there,
           member by member
@@ -59,7 +59,7 @@ def grid_table(data: xr.Dataset, finer: xr.Dataset) -> pd.DataFrame:
             parts.append(limit.to_dataframe().reset_index().assign(quantity=name, points=np.inf))
     table = pd.concat(parts, ignore_index=True).dropna(subset="value")
     table["grid"] = [grid_name(count) for count in table.pop("points")]
-    first = ["quantity", "hurst", "reduced_pressure", "grid"]
+    first = ["quantity", "hurst_exponent", "reduced_pressure", "grid"]
     return table[[*first, *(column for column in table if column not in first)]]
 
 
@@ -86,8 +86,8 @@ def _limit(common: xr.Dataset, name: str, finest: xr.DataArray) -> xr.Dataset:
 def ratio_table(lines: xr.Dataset, surfaces: xr.Dataset) -> pd.DataFrame:
     """Return quantities of lines over those of surfaces, at equal points per shortest wavelength and in the limit.
 
-    Columns: quantity, hurst, reduced_pressure, grid, value and its standard `error`; in the limit also the `spread` of
-    `contactsim.analysis.ensemble.ratio_limits`.
+    Columns: quantity, hurst_exponent, reduced_pressure, grid, value and its standard `error`; in the limit also the
+    `spread` of `contactsim.analysis.ensemble.ratio_limits`.
     """
     parts = []
     for name in QUANTITIES:
@@ -107,7 +107,7 @@ def change_texts(table: pd.DataFrame, quantity: str, grid: str) -> list[str]:
 
     table: of `grid_table`; grid: one of its entries.
     """
-    rows = table[table.quantity == quantity].set_index(["hurst", "reduced_pressure", "grid"])
+    rows = table[table.quantity == quantity].set_index(["hurst_exponent", "reduced_pressure", "grid"])
     here = rows.xs(grid, level="grid")
     finest = grid_name(grid_counts(rows.index.get_level_values("grid"))[-1])
     settled = rows[rows.above_common == 0].index.get_level_values("grid")[0]

@@ -83,7 +83,7 @@ def grid_text(settings: Mapping[str, Any], *points: float) -> str:
     grids = ", ".join(f"{count:.0f}" for count in points)
     if surface["kind"] != "self_affine":
         return f"{grids} points (thesis {thesis})" if thesis else f"{grids} points"
-    share = surface["shortest_wavelength"] / surface["length"]
+    share = surface["short_cutoff"] / surface["length"]
     thesis_text = f" (thesis {thesis * share:g})" if thesis else ""
     per_wavelength = ", ".join(f"{count * share:g}" for count in points)
     return f"{grids} points, {per_wavelength} per shortest wavelength{thesis_text}"

@@ -54,12 +54,14 @@ def without_second_body(scene: Scene) -> Scene:
 def without_short_waves(scene: Scene) -> Scene:
     """Return a scene without the shortest octave of waves of a self-affine surface."""
     surface = scene.upper.surface
-    if not isinstance(surface, SelfAffine) or surface.smoothed is not None:  # no other surface has a shortest wave
+    if (
+        not isinstance(surface, SelfAffine) or surface.low_pass_cutoff is not None
+    ):  # no other surface has a shortest wave
         return scene
-    smoothed = SMOOTHING_RATIO * surface.shortest_wavelength
-    if smoothed >= surface.rolloff_wavelength:
+    low_pass_cutoff = SMOOTHING_RATIO * surface.short_cutoff
+    if low_pass_cutoff >= surface.long_cutoff:
         return scene
-    return replace(scene, upper=replace(scene.upper, surface=replace(surface, smoothed=smoothed)))
+    return replace(scene, upper=replace(scene.upper, surface=replace(surface, low_pass_cutoff=low_pass_cutoff)))
 
 
 SIMPLIFICATIONS: dict[str, Callable[[Scene], Scene]] = {

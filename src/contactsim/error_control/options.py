@@ -228,7 +228,7 @@ def choose_grid(scene: Scene, points: float, error: float) -> int:
         Where it has more than `MAX_POINTS` points in all; `error` is named as the cause.
     """
     surface = scene.upper.surface
-    points = max(points, POINTS_PER_WAVE * scene.length / surface.finest)
+    points = max(points, POINTS_PER_WAVE * scene.length / surface.effective_short_cutoff)
     if not math.prod(surface.shape(round_grid(min(points, MAX_POINTS)))) <= MAX_POINTS or points > MAX_POINTS:
         raise InputError("accuracy", error, f"an error for which {MAX_POINTS:.2g} grid points are enough")
     return round_grid(points)

@@ -194,11 +194,11 @@ def features(scene: Scene) -> list[dict[str, float]]:
     """Return numbers without units that describe a scene, whatever its grid: for each load, or for its path."""
     family, surface = scene_family(scene), scene.upper.surface
     bodies = scene.elasticities
-    numbers = {"one": 1.0, "rough": 0.0, "hurst": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
+    numbers = {"one": 1.0, "rough": 0.0, "hurst_exponent": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
     numbers["layers"] = float(sum(Trait.HALF_SPACE not in body.traits for body in bodies))
     if isinstance(surface, SelfAffine):
-        bandwidth = np.log(surface.rolloff_wavelength / surface.finest)
-        numbers |= {"rough": 1.0, "hurst": surface.hurst, "bandwidth": float(bandwidth)}
+        bandwidth = np.log(surface.long_cutoff / surface.effective_short_cutoff)
+        numbers |= {"rough": 1.0, "hurst_exponent": surface.hurst_exponent, "bandwidth": float(bandwidth)}
     if family in (LINE, SURFACE):
         return [numbers | _load_features(scene, step.value) for step in scene.path.steps]
     return [numbers | _path_features(scene)]
@@ -226,7 +226,7 @@ def _load_features(scene: Scene, pressure: float) -> dict[str, float]:
     """Return the features of a load: logarithms of the reduced pressure and of the expected contact area."""
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
-        reduced = pressure / (scene.contact_modulus * surface.gradient)
+        reduced = pressure / (scene.contact_modulus * surface.profile_rms_gradient)
         area = min(TYPICAL_KAPPA * reduced, 1.0)
     else:
         size = contact_scale(scene, pressure)
@@ -244,7 +244,7 @@ def contact_scale(scene: Scene, pressure: float = 0.0) -> float:
     """
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
-        return surface.finest
+        return surface.effective_short_cutoff
     return ROUND_SCALES[scene.kind](scene, pressure)
 
 

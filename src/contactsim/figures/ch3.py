@@ -97,7 +97,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
         contact_alone = r"reduced pressure $p_r^*$"
         panel.set(xscale="log", xlabel=BOTH_PRESSURES if panel in (area, both) else contact_alone)
     style.add_letters(axes)
-    area.legend(handles=style.hurst_handles(data.hurst.values), loc="upper left")
+    area.legend(handles=style.hurst_handles(data.hurst_exponent.values), loc="upper left")
     lines = {f"thesis, {kappa_r:g}": style.THESIS, r"Persson (2D), erf$(\sqrt{2}p^*)$": "-"}
     both.legend(handles=_gradient_handles(lines), loc="upper right")
     both.set_ylim(top=both.get_ylim()[1] * 1.25)
@@ -120,7 +120,7 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
     for panel in axes:
         panel.set(xscale="log", xlabel=BOTH_PRESSURES)
     style.add_letters(axes)
-    area.legend(handles=style.hurst_handles(data.hurst.values), loc="upper left")
+    area.legend(handles=style.hurst_handles(data.hurst_exponent.values), loc="upper left")
     lines = {rf"thesis, {kappa:g} and {kappa_r:g}": style.THESIS, r"Persson, erf$(\sqrt{2}p^*)$": "-"}
     factor.legend(handles=_gradient_handles(lines), loc="best")
     style.add_headroom(factor, 0.45)
@@ -168,23 +168,23 @@ def fig_3_5(
     style.add_letters(axes)
     names = {"over the whole surface": "kappa", "over the contact": "kappa_r", "over pairs": "kappa_r_pairs"}
     colours = {label: proportionality.FACTOR_COLOURS[name] for label, name in names.items()}
-    handles = style.hurst_handles(surface.hurst.values) + style.colour_handles(colours)
+    handles = style.hurst_handles(surface.hurst_exponent.values) + style.colour_handles(colours)
     axes[0].legend(handles=handles, loc="upper right", ncols=2)
     style.add_headroom(axes[0], 0.3)
-    return pd.concat(tables)[["grid", "quantity", "hurst", "reduced_pressure", "value", "error", "spread"]]
+    return pd.concat(tables)[["grid", "quantity", "hurst_exponent", "reduced_pressure", "value", "error", "spread"]]
 
 
 def _plot_ratios(axes: Axes, lines: xr.Dataset, surface: xr.Dataset) -> pd.DataFrame:
     """Plot the factors of lines over those of surfaces at the loads that both have."""
     tables = []
     loads = np.intersect1d(lines.reduced_pressure, surface.reduced_pressure)
-    for hurst in surface.hurst.values:
-        ensembles = [data.sel(reduced_pressure=loads, hurst=hurst) for data in (lines, surface)]
+    for hurst_exponent in surface.hurst_exponent.values:
+        ensembles = [data.sel(reduced_pressure=loads, hurst_exponent=hurst_exponent) for data in (lines, surface)]
         for name, colour in proportionality.FACTOR_COLOURS.items():
             ratios = ensemble.ratio_of_means(*ensembles, name)
-            look = style.hurst_look(hurst) | {"color": colour}
+            look = style.hurst_look(hurst_exponent) | {"color": colour}
             style.errorbars(axes, ratios.reduced_pressure, ratios.value, ratios.error, **look)
-            tables.append(ratios.to_dataframe().reset_index().assign(quantity=name, hurst=hurst))
+            tables.append(ratios.to_dataframe().reset_index().assign(quantity=name, hurst_exponent=hurst_exponent))
     return pd.concat(tables)
 
 
@@ -202,8 +202,11 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     Returns the constants of every fit, and κ of it at each load of the data.
     """
     _plot_fits(axes, data)
-    for hurst in data.hurst.values:
-        means, look = data.sel(hurst=hurst), style.hurst_look(hurst) | {"linestyle": "none", "color": "#888888"}
+    for hurst_exponent in data.hurst_exponent.values:
+        means, look = (
+            data.sel(hurst_exponent=hurst_exponent),
+            style.hurst_look(hurst_exponent) | {"linestyle": "none", "color": "#888888"},
+        )
         style.plot_means(axes, means.reduced_pressure, means, "kappa", **look)
     pressure, persson = proportionality.persson_curve(data, 200)
     axes.plot(pressure, persson / pressure, color=style.EXACT, lw=0.8, ls="-.")
@@ -212,7 +215,7 @@ def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     labels = {"fit to all $H$, of the area": ("all", "area"), "of its logarithm": ("all", "logarithm")}
     labels |= {"fit to one $H$, of the area": ("one", "area"), "of its logarithm ": ("one", "logarithm")}
     fits = [Line2D([], [], label=label, **proportionality.fit_look(*fit)) for label, fit in labels.items()]
-    handles = style.hurst_handles(data.hurst.values) + style.line_handles({"Persson (2D)": "-."}) + fits
+    handles = style.hurst_handles(data.hurst_exponent.values) + style.line_handles({"Persson (2D)": "-."}) + fits
     axes.legend(handles=handles, ncols=2, loc="upper right")
     names = [name for name in data.data_vars if str(name).startswith("fit_")]
     kappa = xr.apply_ufunc(proportionality.fitted_kappa, data.reduced_pressure, data.fit_b1, data.fit_b2)

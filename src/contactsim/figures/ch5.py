@@ -112,12 +112,14 @@ def cover(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
 
 
 def fig_5_6(
-    data: xr.Dataset, middle: xr.Dataset, high: xr.Dataset, hurst: xr.Dataset, axes: list[Axes]
+    data: xr.Dataset, middle: xr.Dataset, high: xr.Dataset, exponents_data: xr.Dataset, axes: list[Axes]
 ) -> pd.DataFrame:
     """Plot the area against the pressure for rms heights and Hurst exponents (thesis Fig. 5.6)."""
     strong = _strongest(data)
     heights = {10.0: strong, 15.0: middle, 30.0: high}
-    exponents = {float(value): hurst.sel(hurst=value) for value in hurst.hurst.values} | {0.8: strong}
+    exponents = {
+        float(value): exponents_data.sel(hurst_exponent=value) for value in exponents_data.hurst_exponent.values
+    } | {0.8: strong}
     tables = []
     for panel, variants, symbol, unit in (
         (axes[0], heights, r"h_{\mathrm{rms}}", " nm"),
@@ -137,20 +139,24 @@ def _strongest(data: xr.Dataset) -> xr.Dataset:
 
 
 def fig_5_7(
-    data: xr.Dataset, hurst: xr.Dataset, coarse: xr.Dataset, coarsest: xr.Dataset, axes: list[Axes]
+    data: xr.Dataset, exponents_data: xr.Dataset, coarse: xr.Dataset, coarsest: xr.Dataset, axes: list[Axes]
 ) -> pd.DataFrame:
     """Plot the area against the pressure with fewer and fewer short waves, and the interface (thesis Fig. 5.7)."""
-    whole = {0.8: _strongest(data), 0.2: hurst.sel(hurst=0.2)}
+    whole = {0.8: _strongest(data), 0.2: exponents_data.sel(hurst_exponent=0.2)}
     tables = []
     for value, variant in whole.items():
-        variants = {MANY_WAVES: variant, 128: coarse.sel(hurst=value), FEW_WAVES: coarsest.sel(hurst=value)}
+        variants = {
+            MANY_WAVES: variant,
+            128: coarse.sel(hurst_exponent=value),
+            FEW_WAVES: coarsest.sel(hurst_exponent=value),
+        }
         for (waves, paths), line in zip(variants.items(), ("-", "--", ":"), strict=True):
             look = {"color": style.hurst_colour(value), "ls": line, "marker": style.HURST_LOOKS[value][0]}
             label = rf"$H={value:g}$, {_waves_label(waves)}"
             tables.append(rough.plot_against_pressure(axes[0], with_indentation(paths), label, **look))
     rough.label_pressures(axes[0])
     for panel, (value, variant), share in zip(axes[1:], whole.items(), (PICTURE, CLOSE_UP), strict=True):
-        _plot_waves(panel, variant, coarsest.sel(hurst=value), share)
+        _plot_waves(panel, variant, coarsest.sel(hurst_exponent=value), share)
         panel.set_title(f"$H={value:g}$", fontsize=9)
     style.add_letters(axes)
     return pd.concat(tables)

@@ -159,7 +159,7 @@ def quantities(study: Study) -> list[str]:
     names |= _error_names(study, names & {*AVERAGED})
     if is_doubled(study.settings["vary"].get("points", [])):
         names |= {f"{name}{LIMIT}" for name in AVERAGED if name in names}
-    if study.dimensions == ["hurst", "member", "reduced_pressure"]:
+    if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
         names |= set(FITTED)
     return sorted(names)
 

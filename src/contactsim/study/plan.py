@@ -250,7 +250,7 @@ def _read_tier(file: Path, tier: str) -> dict:
     return read(tiers[tier] or {}, TIER_KEYS, file, tier)
 
 
-RESCALED_KEYS = ("hurst", "rms_height", "rms_gradient", "shortest_wavelength")
+RESCALED_KEYS = ("hurst_exponent", "rms_height", "rms_gradient", "short_cutoff")
 """Keys that leave the random waves of a self-affine surface the same, but for their size and how many there are."""
 
 

@@ -77,7 +77,7 @@ def _build_surface(settings: Mapping) -> Surface:
     section = dict(settings["surface"])
     kind = SURFACES[section.pop("kind")]
     if kind is SelfAffine:
-        seed = realisation_seed(settings["seed"], settings["study"], section["hurst"], settings["member"])
+        seed = realisation_seed(settings["seed"], settings["study"], section["hurst_exponent"], settings["member"])
         return _self_affine_surface(canonical(section), seed)
     return kind(**section)
 
@@ -162,7 +162,7 @@ def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elastic
 def _rms_gradient(surface: Surface, points: int | None) -> float:
     """Return the rms gradient that reduced pressures are counted by."""
     if isinstance(surface, SelfAffine):
-        return surface.gradient
+        return surface.profile_rms_gradient
     points = points or surface.points
     if points is None:
         raise InputError("points", None, "a whole number: only a measured surface comes with its own")

@@ -156,8 +156,8 @@ class Study:
         load, limits = self.settings["load"], self.settings["fit_limits"]
         if limits is None:
             return
-        if self.dimensions != ["hurst", "member", "reduced_pressure"]:
-            allowed = "none, unless surface.hurst alone is varied and the load is a reduced_pressure"
+        if self.dimensions != ["hurst_exponent", "member", "reduced_pressure"]:
+            allowed = "none, unless surface.hurst_exponent alone is varied and the load is a reduced_pressure"
             raise InputError(f"studies.{self.name}.fit_limits", limits, allowed, self.file)
         if min(limits) < load["values"][min(1, len(load["values"]) - 1)]:
             allowed = "limits with two loads or more below them"

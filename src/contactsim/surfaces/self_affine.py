@@ -47,33 +47,33 @@ class SelfAffine(Smooth):
     """Random heights with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
 
     The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
-    rolloff_wavelength, shortest_wavelength: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
+    long_cutoff, short_cutoff: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
     over a surface being the root of the mean of both squared slopes added; seed: of the random modes, two numbers each,
-    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); smoothed: waves shorter than this are
-    then left out, nm.
+    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); low_pass_cutoff: waves shorter than
+    this are then left out, nm.
     """
 
     length: float
-    hurst: float
-    rolloff_wavelength: float
-    shortest_wavelength: float
+    hurst_exponent: float
+    long_cutoff: float
+    short_cutoff: float
     rms_gradient: float | None = None
     rms_height: float | None = None
     amplitudes: str = "gaussian"
     dimensions: int = 1
-    smoothed: float | None = None
+    low_pass_cutoff: float | None = None
     seed: int | tuple[int, ...] = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
         check_length(self.length)
         check_dimensions(self.dimensions)
-        if not 0 <= self.hurst <= 1:
-            raise InputError("hurst", self.hurst, "a number from 0 to 1")
-        if not 0 < self.rolloff_wavelength <= self.length:
-            raise InputError("rolloff_wavelength", self.rolloff_wavelength, f"above 0 nm, at most {self.length} nm")
-        if not 0 < self.shortest_wavelength < self.rolloff_wavelength:
-            allowed = f"above 0 nm, below the roll-off wavelength {self.rolloff_wavelength} nm"
-            raise InputError("shortest_wavelength", self.shortest_wavelength, allowed)
+        if not 0 <= self.hurst_exponent <= 1:
+            raise InputError("hurst_exponent", self.hurst_exponent, "a number from 0 to 1")
+        if not 0 < self.long_cutoff <= self.length:
+            raise InputError("long_cutoff", self.long_cutoff, f"above 0 nm, at most {self.length} nm")
+        if not 0 < self.short_cutoff < self.long_cutoff:
+            allowed = f"above 0 nm, below the roll-off wavelength {self.long_cutoff} nm"
+            raise InputError("short_cutoff", self.short_cutoff, allowed)
         if (self.rms_gradient is None) == (self.rms_height is None):
             given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
             raise InputError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
@@ -81,10 +81,10 @@ class SelfAffine(Smooth):
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
                 raise InputError(name, value, f"a positive, finite number{unit}")
-        if self.smoothed is not None and not self.shortest_wavelength < self.smoothed < self.rolloff_wavelength:
-            ends = f"above the shortest wavelength {self.shortest_wavelength} nm, below the roll-off wavelength"
-            allowed = f"{ends} {self.rolloff_wavelength} nm, or left out"
-            raise InputError("smoothed", self.smoothed, allowed)
+        if self.low_pass_cutoff is not None and not self.short_cutoff < self.low_pass_cutoff < self.long_cutoff:
+            ends = f"above the shortest wavelength {self.short_cutoff} nm, below the roll-off wavelength"
+            allowed = f"{ends} {self.long_cutoff} nm, or left out"
+            raise InputError("low_pass_cutoff", self.low_pass_cutoff, allowed)
         if self.amplitudes not in AMPLITUDES:
             raise InputError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
 
@@ -95,12 +95,12 @@ class SelfAffine(Smooth):
         In two dimensions the waves with |k| up to `modes` are kept, all others are zero. That is the disc of the
         highest mode along the axes, so oblique waves between its wavelength and the shortest are left out.
         """
-        return _waves(self.length, self.finest)
+        return _waves(self.length, self.effective_short_cutoff)
 
     @property
-    def finest(self) -> float:
+    def effective_short_cutoff(self) -> float:
         """Wavelength above which there are waves, nm."""
-        return max(self.shortest_wavelength, self.smoothed or 0.0)
+        return max(self.short_cutoff, self.low_pass_cutoff or 0.0)
 
     @cached_property
     def coefficients(self) -> Array:
@@ -108,10 +108,10 @@ class SelfAffine(Smooth):
 
         Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
         """
-        if self.smoothed is None:
+        if self.low_pass_cutoff is None:
             return self._drawn(self.modes)
         modes = self.modes
-        half = self._drawn(_waves(self.length, self.shortest_wavelength))[..., : modes + 1]
+        half = self._drawn(_waves(self.length, self.short_cutoff))[..., : modes + 1]
         if self.dimensions == 2:
             half = np.concatenate((half[: modes + 1], half[half.shape[0] - modes :]))
         *y, x = self._mode_numbers(modes)
@@ -131,8 +131,10 @@ class SelfAffine(Smooth):
             normal /= np.abs(normal)
         half = np.zeros(x.shape, complex)
         places = tuple(index[order] for index in np.nonzero(drawn))
-        rolloff = 2 * np.pi / self.rolloff_wavelength
-        half[places] = np.maximum(q[places] / rolloff, 1.0) ** (-(self.dimensions + 2 * self.hurst) / 2) * normal
+        rolloff = 2 * np.pi / self.long_cutoff
+        half[places] = (
+            np.maximum(q[places] / rolloff, 1.0) ** (-(self.dimensions + 2 * self.hurst_exponent) / 2) * normal
+        )
         if y:  # along x = 0 waves of both signs of y are kept
             half[:, 0] += np.conj(np.roll(half[::-1, 0], 1))
         if self.rms_height is None:
@@ -150,9 +152,9 @@ class SelfAffine(Smooth):
         return 2 * np.pi / self.length * np.sqrt(sum(k**2.0 for k in reversed(numbers)))
 
     @property
-    def gradient(self) -> float:
+    def profile_rms_gradient(self) -> float:
         """Rms gradient of this very profile: the one asked for, or what follows from its rms height."""
-        if self.rms_gradient is not None and self.smoothed is None:
+        if self.rms_gradient is not None and self.low_pass_cutoff is None:
             return self.rms_gradient
         return _rms(self.coefficients, self._wavenumber(*self._mode_numbers(self.modes)))
 
@@ -165,9 +167,9 @@ class SelfAffine(Smooth):
         return grid.backward(half)
 
 
-def _waves(length: float, finest: float) -> int:
-    """Most waves in a period whose wavelength is strictly above the finest."""
-    return int(np.ceil(length / finest * (1 - 1e-12))) - 1
+def _waves(length: float, cutoff: float) -> int:
+    """Most waves in a period whose wavelength is strictly above the cutoff."""
+    return int(np.ceil(length / cutoff * (1 - 1e-12))) - 1
 
 
 def _rms(half: Array, factor: Array | float = 1.0) -> float:

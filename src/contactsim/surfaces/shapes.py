@@ -58,7 +58,7 @@ class Smooth:
     dimensions: int
     points = None
     modes = None
-    finest = np.inf
+    effective_short_cutoff = np.inf
 
     @property
     def lengths(self) -> tuple[float, ...]:

@@ -24,12 +24,12 @@ from contactsim.error_control.scaling import (
 )
 from contactsim.evaluation.calibration.measurement import MEASURED_QUANTITIES
 
-ROUGH = ("hurst", "bandwidth", "rough")
+ROUGH = ("hurst_exponent", "bandwidth", "rough")
 ERROR_FEATURES = {
     LINE: ("one", "grid", "pressure", *ROUGH),
     SURFACE: ("one", "grid", "pressure", *ROUGH),
     PATH: ("one", "grid", "zone", "friction"),
-    ROUGH_PATH: ("one", "grid", "hurst", "bandwidth", "strength"),
+    ROUGH_PATH: ("one", "grid", "hurst_exponent", "bandwidth", "strength"),
     SLIDE: ("one", "grid", "zone"),
 }
 WORK_FEATURES = {
@@ -42,7 +42,7 @@ WORK_FEATURES = {
         "strength",
         "grid",
         "deep",
-        "hurst",
+        "hurst_exponent",
         "bandwidth",
         "coupled",
         "friction",

@@ -24,7 +24,7 @@ KEYS = {
     "kinds": Key(mapping, f"a mapping from some of {', '.join(FAMILIES)} to ranges"),
 }
 RANGE = Key(pair, "a pair of numbers, the least and the largest")
-ROUGH = dict.fromkeys(("hurst", "wavelength_ratio"), RANGE)
+ROUGH = dict.fromkeys(("hurst_exponent", "wavelength_ratio"), RANGE)
 LAW = dict.fromkeys(("work_of_separation", "poisson_ratio", "work_ratio", "approach"), RANGE)
 WALL = ROUGH | {
     "round": Key(positive, "share of cylinders or spheres"),
@@ -97,12 +97,12 @@ def _draw_surface(kind: str, ranges: Mapping, rng: np.random.Generator) -> dict:
     rolloff = length / PERIODS[kind]
     surface = {
         "kind": "self_affine",
-        "hurst": _draw_number(rng, ranges["hurst"]),
+        "hurst_exponent": _draw_number(rng, ranges["hurst_exponent"]),
         "length": length,
-        "rolloff_wavelength": rolloff,
+        "long_cutoff": rolloff,
     }
     return surface | {
-        "shortest_wavelength": rolloff / _draw_number(rng, ranges["wavelength_ratio"]),
+        "short_cutoff": rolloff / _draw_number(rng, ranges["wavelength_ratio"]),
         "amplitudes": "gaussian",
     }
 

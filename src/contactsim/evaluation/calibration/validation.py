@@ -169,10 +169,10 @@ def _solved(setup: Setup, names: tuple[str, ...]) -> Solution | None:
 def _describe_scene(run: dict) -> str:
     """Return the drawn quantities of a scene in a few words."""
     surface, load, body = run["surface"], run["load"], run.get("counter_body") or run["body"]
-    if "hurst" in surface:
+    if "hurst_exponent" in surface:
         parts = [
-            f"H {surface['hurst']:.2g}",
-            f"λr/λs {surface['rolloff_wavelength'] / surface['shortest_wavelength']:.0f}",
+            f"H {surface['hurst_exponent']:.2g}",
+            f"λr/λs {surface['long_cutoff'] / surface['short_cutoff']:.0f}",
         ]
     else:
         parts = [f"{surface['kind']} R {surface['radius'] / 1000:.3g} µm"]

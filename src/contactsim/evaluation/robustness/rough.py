@@ -35,7 +35,7 @@ class Ridges:
     """
 
     rms_height: float = HEIGHT
-    hurst: float = HURST
+    hurst_exponent: float = HURST
     length: float = LENGTH
     points = None
 
@@ -60,7 +60,7 @@ class Ridges:
         """Heights (points,), nm."""
         wave = np.arange(1, self.modes)
         phase = np.random.default_rng(5).uniform(0.0, 2 * np.pi, wave.size)
-        size = np.maximum(wave * ROLLOFF / self.length, 1.0) ** (-(1 + 2 * self.hurst) / 2)
+        size = np.maximum(wave * ROLLOFF / self.length, 1.0) ** (-(1 + 2 * self.hurst_exponent) / 2)
         size *= self.rms_height / np.sqrt(np.sum(size**2) / 2)
         return np.cos(2 * np.pi * np.outer(np.arange(points) / points, wave) + phase) @ size
 
@@ -98,7 +98,7 @@ def steep_ridges(severity: float) -> PathCase:
 
 def jagged_line(severity: float) -> PathCase:
     """A rough line gets more jagged, H from 0.8 down to 0 at equal rms height: the branch is that of small steps."""
-    surface = Ridges(hurst=HURST * (1 - severity / 100))
+    surface = Ridges(hurst_exponent=HURST * (1 - severity / 100))
     return _case(_pressed(NormalCohesiveZone(WORK), _steps(-5.0, 0.0), surface=surface), -4.75, 2)
 
 

@@ -167,17 +167,19 @@ def _plot_against_grid(axes: Axes, values: xr.Dataset, quantity: str, xlabel: st
     definitions = {name: look for name, look in DEFINITIONS.items() if name in part} or {quantity: ("", style.CONTACT)}
     for name, (_, colour) in definitions.items():
         solved = converged(part[name], part)
-        mean = solved.mean([dim for dim in solved.dims if dim not in ("setting", "hurst")], skipna=False)
-        if "hurst" not in mean.dims:
-            mean = mean.expand_dims(hurst=[0.2])
-        for hurst in mean.hurst.values:
-            axes.plot(part.points, mean.sel(hurst=hurst), color=colour, **style.hurst_look(hurst))
+        mean = solved.mean([dim for dim in solved.dims if dim not in ("setting", "hurst_exponent")], skipna=False)
+        if "hurst_exponent" not in mean.dims:
+            mean = mean.expand_dims(hurst_exponent=[0.2])
+        for hurst_exponent in mean.hurst_exponent.values:
+            axes.plot(
+                part.points, mean.sel(hurst_exponent=hurst_exponent), color=colour, **style.hurst_look(hurst_exponent)
+            )
     first = next(iter(definitions))
     unit = VARIABLES[first][0]
     axes.set(xlabel=xlabel, ylabel=SYMBOLS[first] + (f" ({unit})" if unit != "1" else ""))
     axes.set_xscale("log", base=2)
     axes.yaxis.get_major_formatter().set_useOffset(False)
-    handles = style.hurst_handles(part.hurst.values) if "hurst" in part.dims else []
+    handles = style.hurst_handles(part.hurst_exponent.values) if "hurst_exponent" in part.dims else []
     labels = dict(definitions.values()) if first in DEFINITIONS else {}
     axes.legend(handles=handles + style.colour_handles(labels))
 

@@ -31,8 +31,8 @@ AXIS_LABELS = {
     "strength": "φn/(δn E)",
     "stiffness": "E of the stiffer over the softer body",
     "thickness": "thickness over roll-off wavelength",
-    "hurst": "Hurst exponent H",
-    "finest": "λs/λr",
+    "hurst_exponent": "Hurst exponent H",
+    "short_cutoff": "λs/λr",
 }
 
 

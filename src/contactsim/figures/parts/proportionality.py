@@ -26,8 +26,8 @@ FIT_LINES: dict[str, dict[str, Any]] = {"area": {"lw": 1.6, "alpha": 1.0}, "loga
 
 def plot_areas(axes: Axes, data: xr.Dataset) -> None:
     """Plot the mean area against the reduced pressure p* and against p_r*, one curve a Hurst exponent."""
-    for hurst in data.hurst.values:
-        means, look = data.sel(hurst=hurst), style.hurst_look(hurst)
+    for hurst_exponent in data.hurst_exponent.values:
+        means, look = data.sel(hurst_exponent=hurst_exponent), style.hurst_look(hurst_exponent)
         for pressure, colour in (
             (means.reduced_pressure, style.WHOLE),
             (means.reduced_pressure_contact_mean, style.CONTACT),
@@ -38,19 +38,19 @@ def plot_areas(axes: Axes, data: xr.Dataset) -> None:
 
 def plot_factors(axes: Axes, data: xr.Dataset, names: tuple[str, ...]) -> None:
     """Plot mean factors of proportionality, κ against p*, κ_r against p_r*, one curve a Hurst exponent."""
-    for hurst in data.hurst.values:
-        means = data.sel(hurst=hurst)
+    for hurst_exponent in data.hurst_exponent.values:
+        means = data.sel(hurst_exponent=hurst_exponent)
         for name in names:
-            look = style.hurst_look(hurst) | {"color": FACTOR_COLOURS[name]}
+            look = style.hurst_look(hurst_exponent) | {"color": FACTOR_COLOURS[name]}
             style.plot_means(axes, _pressure(means, name), means, name, **look)
 
 
 def plot_grid_errors(axes: Axes, data: xr.Dataset, names: tuple[str, ...]) -> None:
     """Plot the grid errors of factors of proportionality, one curve a Hurst exponent."""
-    for hurst in data.hurst.values:
-        means = data.sel(hurst=hurst)
+    for hurst_exponent in data.hurst_exponent.values:
+        means = data.sel(hurst_exponent=hurst_exponent)
         for name in names:
-            look = style.hurst_look(hurst) | {"color": FACTOR_COLOURS[name]}
+            look = style.hurst_look(hurst_exponent) | {"color": FACTOR_COLOURS[name]}
             style.plot_grid_error(axes, _pressure(means, name), means, name, **look)
     axes.set(yscale="log")
 
@@ -78,7 +78,7 @@ def constancy_text(data: xr.Dataset) -> str:
     if data.member.size < 2:
         return ""
     lines = []
-    for along, symbol, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst", "$H$", "$p^*$")):
+    for along, symbol, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst_exponent", "$H$", "$p^*$")):
         change = ensemble.departure(data, "kappa_r", along)
         first, second = (place[along] for place in change.places)
         (fixed,) = (value for name, value in change.places[0].items() if name != along)

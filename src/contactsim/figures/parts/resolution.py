@@ -49,7 +49,7 @@ def plot_grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: Ma
         panel.text(0.97, 0.97, "\n".join(change_texts(table, name, middle)), transform=panel.transAxes, **CORNER)
     style.add_letters(axes)
     values = " and ".join(f"{value:.2f}" for value in thesis.values())
-    handles = style.hurst_handles(data.hurst.values) + load_handles(list(data.reduced_pressure.values))
+    handles = style.hurst_handles(data.hurst_exponent.values) + load_handles(list(data.reduced_pressure.values))
     handles += style.line_handles({f"thesis, {values}": style.THESIS})
     axes[-1].legend(handles=handles, loc="lower right", ncols=2)
     return table
@@ -60,14 +60,14 @@ def plot_factor(table: pd.DataFrame, name: str, axes: Axes) -> None:
     rows = table[table.quantity == name]
     counts = grid_counts(rows.grid)
     end = counts[-1] * LIMIT_PLACE
-    loads, exponents = sorted(rows.reduced_pressure.unique()), sorted(rows.hurst.unique())
-    for (hurst, load), curve in rows.groupby(["hurst", "reduced_pressure"]):
-        look = {"color": FACTOR_COLOURS[name], "alpha": _opacity(loads, load)} | style.hurst_look(hurst)
+    loads, exponents = sorted(rows.reduced_pressure.unique()), sorted(rows.hurst_exponent.unique())
+    for (hurst_exponent, load), curve in rows.groupby(["hurst_exponent", "reduced_pressure"]):
+        look = {"color": FACTOR_COLOURS[name], "alpha": _opacity(loads, load)} | style.hurst_look(hurst_exponent)
         x = np.array([grid_count(grid) for grid in curve.grid])
         on_grid, limit = curve[np.isfinite(x)], curve[~np.isfinite(x)]
         style.errorbars(axes, x[np.isfinite(x)], on_grid.value, on_grid.standard_error, **look)
         if len(limit):
-            place = end * (1 + 0.05 * (3 * loads.index(load) + exponents.index(hurst)))
+            place = end * (1 + 0.05 * (3 * loads.index(load) + exponents.index(hurst_exponent)))
             style.plot_limits(axes, limit.value, [place], limit_error(limit.standard_error, limit.spread), **look)
     axes.axvspan(end * 0.93, end * 1.5, color="#eeeeee", zorder=0, lw=0)
     axes.set(xscale="log", xlabel="points per shortest wavelength", ylabel=SYMBOLS[name])
@@ -80,10 +80,10 @@ def plot_factor(table: pd.DataFrame, name: str, axes: Axes) -> None:
 def plot_ratio_limits(table: pd.DataFrame, axes: Axes) -> None:
     """Plot the limits of `contactsim.analysis.resolution.ratio_table` against reduced pressure."""
     limits = table[table.grid == "limit"]
-    exponents, names = sorted(limits.hurst.unique()), list(FACTOR_COLOURS)
-    for (name, hurst), rows in limits.groupby(["quantity", "hurst"]):
-        shift = 1 + 0.08 * (3 * names.index(name) + exponents.index(hurst) - 4)
-        look = style.hurst_look(hurst) | {"color": FACTOR_COLOURS[name]}
+    exponents, names = sorted(limits.hurst_exponent.unique()), list(FACTOR_COLOURS)
+    for (name, hurst_exponent), rows in limits.groupby(["quantity", "hurst_exponent"]):
+        shift = 1 + 0.08 * (3 * names.index(name) + exponents.index(hurst_exponent) - 4)
+        look = style.hurst_look(hurst_exponent) | {"color": FACTOR_COLOURS[name]}
         style.plot_limits(axes, rows.value, rows.reduced_pressure * shift, limit_error(rows.error, rows.spread), **look)
 
 

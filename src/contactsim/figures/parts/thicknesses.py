@@ -32,9 +32,11 @@ def plot_bodies(data: xr.Dataset, axes: list[Axes]) -> None:
     There is a curve for each Hurst exponent, Poisson's ratio and thickness. κ_r of the thickest body is plotted over
     pairs of points in contact too.
     """
-    for hurst, ratio, thickness in product(data.hurst.values, data.poisson_ratio.values, data.thickness.values):
-        body = data.sel(hurst=hurst, poisson_ratio=ratio, thickness=thickness)
-        look = style.poisson_look(ratio) | {"color": style.hurst_colour(hurst), "linewidth": 0.9}
+    for hurst_exponent, ratio, thickness in product(
+        data.hurst_exponent.values, data.poisson_ratio.values, data.thickness.values
+    ):
+        body = data.sel(hurst_exponent=hurst_exponent, poisson_ratio=ratio, thickness=thickness)
+        look = style.poisson_look(ratio) | {"color": style.hurst_colour(hurst_exponent), "linewidth": 0.9}
         look["linestyle"] = thickness_line(data, thickness)
         _plot_body(body, axes, look, thickness == data.thickness.max())
 
@@ -66,7 +68,7 @@ def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     for panel in axes:
         panel.set(xscale="log", xlabel="reduced pressure " + (r"$p^*$" if panel is change else r"$p_r^*$"))
     style.add_letters(axes)
-    colours = {f"$H={value:g}$": style.hurst_colour(value) for value in data.hurst.values}
+    colours = {f"$H={value:g}$": style.hurst_colour(value) for value in data.hurst_exponent.values}
     lines = {f"$h={_number(value)}$ nm": thickness_line(data, value) for value in data.thickness.values}
     handles = style.colour_handles(colours) + style.line_handles(lines | {f"thesis, {kappa_r:g}": style.THESIS})
     area.legend(handles=handles + style.poisson_handles(data.poisson_ratio.values), loc="upper left")
