@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.elasticity.registry import make_elasticity
 from contactsim.elasticity.subsurface import SubsurfaceFields, subsurface_fields
 from contactsim.grid import Grid
-from contactsim.study.scenes import build_elasticity
 
 DEPTHS, MARGIN = 81, 1.2
 """Number of depths, and the largest of them over the length of contact, which also bounds the positions."""
@@ -32,7 +32,7 @@ def stress_below_contact(state: xr.Dataset) -> SubsurfaceFields:
     traction = np.stack([np.roll(state[f"{name}_traction"].values, shift) for name in ("normal", "tangential")])
     reach = MARGIN * float(state.final_contact_length)
     middle = grid.positions()[state.x.size // 2]
-    body = build_elasticity(dataset.settings_of(state)["body"])
+    body = make_elasticity(**dataset.settings_of(state)["body"])
     fields = subsurface_fields(body, grid, traction, np.linspace(0.0, reach, DEPTHS)).between(
         middle - reach, middle + reach
     )

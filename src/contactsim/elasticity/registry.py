@@ -2,7 +2,47 @@
 
 from __future__ import annotations
 
+from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
+from contactsim.errors import InputError
 
 ELASTICITIES = {"half_space": HalfSpace, "layer": Layer}
+
+
+def make_elasticity(
+    kind: str,
+    *,
+    contact_modulus: float | None = None,
+    youngs_modulus: float | None = None,
+    poisson_ratio: float | None = None,
+    **options: float,
+) -> Elasticity:
+    """Return an elastic body by its contact modulus or by Young's modulus.
+
+    Parameters
+    ----------
+    kind : str
+        Name of the kind, of `ELASTICITIES`.
+    contact_modulus, youngs_modulus : float
+        E* or E = (1 - ν²) E* (GPa); exactly one, the second with Poisson's ratio ν.
+    poisson_ratio : float, optional
+        Poisson's ratio.
+    **options : float
+        Further parameters of the kind, such as `thickness` (nm).
+
+    Raises
+    ------
+    InputError
+        For both or none of the moduli, or one that is not positive.
+    """
+    if (youngs_modulus is None) == (contact_modulus is None):
+        both = {"contact_modulus": contact_modulus, "youngs_modulus": youngs_modulus}
+        raise InputError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
+    if youngs_modulus is not None:
+        if poisson_ratio is None:
+            raise InputError("poisson_ratio", None, "a number, where Young's modulus is given")
+        if not youngs_modulus > 0:
+            raise InputError("youngs_modulus", youngs_modulus, "a positive, finite number in GPa")
+        contact_modulus = youngs_modulus / (1 - poisson_ratio**2)
+    return ELASTICITIES[kind](contact_modulus=contact_modulus, poisson_ratio=poisson_ratio, **options)

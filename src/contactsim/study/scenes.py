@@ -15,7 +15,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.contact.simplification import simplify
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.base import Elasticity
-from contactsim.elasticity.registry import ELASTICITIES
+from contactsim.elasticity.registry import make_elasticity
 from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.interface.pairing import ALIGNED, Pairing
@@ -61,7 +61,7 @@ def build_scene(settings: Mapping) -> Scene:
     A flat body lies below, the surface above; either may be rigid.
     """
     surface = _build_surface(settings)
-    lower, upper = build_elasticity(settings["body"]), build_elasticity(settings.get("counter_body"))
+    lower, upper = _build_elasticity(settings["body"]), _build_elasticity(settings.get("counter_body"))
     if lower is None and upper is None:
         raise InputError("counter_body", None, "an elastic body, as the one below is rigid")
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
@@ -96,26 +96,9 @@ def _build_pairing(section: Mapping | None) -> Pairing:
     return PAIRINGS[options.pop("kind")](**options)
 
 
-def build_elasticity(section: Mapping | None) -> Elasticity | None:
-    """Return a body by its contact modulus E* or, with Poisson's ratio ν, by Young's modulus E = (1 - ν²) E*.
-
-    None for a rigid body, and without a section.
-    """
-    if section is None or section["kind"] == RIGID:
-        return None
-    options = {name: value for name, value in section.items() if name not in ("kind", "youngs_modulus")}
-    young = section.get("youngs_modulus")
-    if (young is None) == (options.get("contact_modulus") is None):
-        both = {name: section.get(name) for name in ("contact_modulus", "youngs_modulus")}
-        raise InputError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
-    if young is not None:
-        ratio = options.get("poisson_ratio")
-        if ratio is None:
-            raise InputError("poisson_ratio", None, "a number, where Young's modulus is given")
-        if not young > 0:
-            raise InputError("youngs_modulus", young, "a positive, finite number in GPa")
-        options["contact_modulus"] = young / (1 - ratio**2)
-    return ELASTICITIES[section["kind"]](**options)
+def _build_elasticity(section: Mapping | None) -> Elasticity | None:
+    """Return a body; None for a rigid one, and without a section."""
+    return None if section is None or section["kind"] == RIGID else make_elasticity(**section)
 
 
 def _build_path(settings: Mapping, surface: Surface, elasticities: list[Elasticity]) -> LoadPath:
