@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -118,14 +119,15 @@ def stamped(data: xr.Dataset, title: str, settings: object, source: str) -> xr.D
 
 def write(data: xr.Dataset, path: str | Path) -> None:
     """Write a dataset, large arrays compressed, in one move: a reader sees the old file or the new one."""
-    encoding = {}
+    encoding: dict[str, dict[str, object]] = {}
     for name, item in data.variables.items():
         if item.dtype.kind in "fiu":
-            encoding[name] = {"_FillValue": None, "fletcher32": item.ndim > 0}  # checksums: damage is an error
+            encoding[str(name)] = {"_FillValue": None, "fletcher32": item.ndim > 0}  # checksums: damage is an error
             if item.nbytes > 1 << 14:
-                encoding[name] |= {"zlib": True, "complevel": 1}
-    kind = {"engine": "netcdf4", "format": "NETCDF4", "encoding": encoding}
-    write_atomically(path, lambda file: data.to_netcdf(file, **kind))
+                encoding[str(name)] |= {"zlib": True, "complevel": 1}
+    write_atomically(
+        path, lambda file: data.to_netcdf(file, engine="netcdf4", format="NETCDF4", encoding=encoding)
+    )
 
 
 def load_dataset(path: str | Path) -> xr.Dataset:
@@ -136,6 +138,6 @@ def load_dataset(path: str | Path) -> xr.Dataset:
         raise InputError("dataset", Path(path), f"a readable netCDF file ({error})") from error
 
 
-def settings_of(data: xr.Dataset) -> dict:
+def settings_of(data: xr.Dataset) -> dict[str, Any]:
     """The settings stored with a dataset."""
     return json.loads(data.attrs["settings"])

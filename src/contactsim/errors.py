@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from numbers import Real
 from pathlib import PurePath
+from typing import TypeGuard
 
 import numpy as np
 
@@ -48,9 +49,9 @@ class InputError(ValueError):
         return InputError(key, self.value, self.allowed, self.file if self.file is not None else file)
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[float]:
     """Return True for one finite real number; text, booleans and arrays are none."""
-    if type(value) in (int, float):  # the usual case: the abstract class is slow to ask
+    if type(value) is float or type(value) is int:  # the usual case: the abstract class is slow to ask
         return math.isfinite(value)
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 

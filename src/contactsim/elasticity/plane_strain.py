@@ -32,7 +32,8 @@ MAX_DEPTH = 1500.0
 
 def sinh_less_argument(y: Array) -> Array:
     """Return 2e^{-y} (sinh y - y) for y ≥ 0, to rounding."""
-    series, square = 1.0, np.minimum(y, 2.0) ** 2
+    series: Array | float = 1.0
+    square = np.minimum(y, 2.0) ** 2
     for n in range(23, 4, -2):
         series = 1 + square / (n * (n - 1)) * series
     return np.where(y < 2, y**3 / 3 * np.exp(-y) * series, -np.expm1(-2 * y) - 2 * y * np.exp(-y))
@@ -40,7 +41,8 @@ def sinh_less_argument(y: Array) -> Array:
 
 def cosh_less_sinh(y: Array) -> Array:
     """Return 2e^{-y} (y cosh y - sinh y) for y ≥ 0, to rounding."""
-    series, square = 1.0, np.minimum(y, 2.0) ** 2
+    series: Array | float = 1.0
+    square = np.minimum(y, 2.0) ** 2
     for n in range(11, 0, -1):
         series = 1 + square / (2 * n * (2 * n + 3)) * series
     return np.where(y < 2, 2 * y**3 / 3 * np.exp(-y) * series, y * (1 + np.exp(-2 * y)) + np.expm1(-2 * y))

@@ -23,7 +23,11 @@ class Symbol(Protocol):
     """A matrix at each wavenumber that acts on coefficients of shape (component, …)."""
 
     components: ClassVar[tuple[str, ...]]
-    diagonal: Array
+
+    @property
+    def diagonal(self) -> Array:
+        """Entry of each component with itself, shape (component, …)."""
+        ...
 
     @property
     def held(self) -> Array:
@@ -36,6 +40,14 @@ class Symbol(Protocol):
 
     def inverse(self, shift: float | Array = 0.0) -> Symbol:
         """Return the inverse of the symbol plus `shift` ≥ 0, one number or one for each component; held modes stay."""
+        ...
+
+    def modes(self, selection: slice) -> Symbol:
+        """Return the symbol at some of the wavenumbers of a line."""
+        ...
+
+    def coarser(self, count: int) -> Symbol:
+        """Return the symbol on a line of fewer points, an even number, with `count` wavenumbers."""
         ...
 
 
