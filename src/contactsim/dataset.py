@@ -125,9 +125,7 @@ def write(data: xr.Dataset, path: str | Path) -> None:
             encoding[str(name)] = {"_FillValue": None, "fletcher32": item.ndim > 0}  # checksums: damage is an error
             if item.nbytes > 1 << 14:
                 encoding[str(name)] |= {"zlib": True, "complevel": 1}
-    write_atomically(
-        path, lambda file: data.to_netcdf(file, engine="netcdf4", format="NETCDF4", encoding=encoding)
-    )
+    write_atomically(path, lambda file: data.to_netcdf(file, engine="netcdf4", format="NETCDF4", encoding=encoding))
 
 
 def load_dataset(path: str | Path) -> xr.Dataset:

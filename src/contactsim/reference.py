@@ -13,18 +13,18 @@ import numpy as np
 from contactsim.grid import Array, Grid
 
 
-def cylinder_load(half_width: Array, radius: float, contact_modulus: float) -> Array:
+def cylinder_load(half_width: Array | float, radius: float, contact_modulus: float) -> Array:
     """Line load π E* c²/(4R) that gives contact half-width c (Eq. 3.5); nm, GPa to N/m."""
     return np.pi * contact_modulus * np.asarray(half_width) ** 2 / (4 * radius)
 
 
-def cylinder_pressure(position: Array, half_width: float, radius: float, contact_modulus: float) -> Array:
+def cylinder_pressure(position: Array | float, half_width: float, radius: float, contact_modulus: float) -> Array:
     """Hertz's pressure E*/(2R) √(c² - x²), zero outside; nm, GPa (Johnson 1985, doi:10.1017/CBO9781139171731)."""
     inside = np.maximum(half_width**2 - np.asarray(position) ** 2, 0.0)
     return contact_modulus / (2 * radius) * np.sqrt(inside)
 
 
-def cylinder_stress_on_axis(depth: Array, half_width: float, peak_pressure: float) -> tuple[Array, Array]:
+def cylinder_stress_on_axis(depth: Array | float, half_width: float, peak_pressure: float) -> tuple[Array, Array]:
     """Stresses σ_xx and σ_zz on the axis below a cylinder's contact; nm, GPa (Johnson 1985, Eq. 4.46).
 
     Their difference is largest at depth 0.786 c, where the shear is 0.300 of the peak pressure.
@@ -34,7 +34,7 @@ def cylinder_stress_on_axis(depth: Array, half_width: float, peak_pressure: floa
     return along, -peak_pressure * half_width / root
 
 
-def cylinder_rms_gradient(half_width: Array, radius: float) -> Array:
+def cylinder_rms_gradient(half_width: Array | float, radius: float) -> Array:
     """Rms gradient c/(R√3) over the contact of a cylinder (Eq. 3.6)."""
     return np.asarray(half_width) / (radius * np.sqrt(3))
 
@@ -43,18 +43,18 @@ CYLINDER_KAPPA_R = 8 / (np.pi * np.sqrt(3))
 """Proportionality of area and reduced pressure for a cylinder, 1.470 (Eq. 3.7)."""
 
 
-def sphere_load(contact_radius: Array, radius: float, contact_modulus: float) -> Array:
+def sphere_load(contact_radius: Array | float, radius: float, contact_modulus: float) -> Array:
     """Load 4E*c³/(3R) that gives contact radius c (Hertz; Table 3.1); nm, GPa to nN."""
     return 4 * contact_modulus * np.asarray(contact_radius) ** 3 / (3 * radius)
 
 
-def sphere_pressure(distance: Array, contact_radius: float, radius: float, contact_modulus: float) -> Array:
+def sphere_pressure(distance: Array | float, contact_radius: float, radius: float, contact_modulus: float) -> Array:
     """Hertz's pressure 2E*/(πR) √(c² - r²) at a distance from the centre, zero outside; nm, GPa."""
     inside = np.maximum(contact_radius**2 - np.asarray(distance) ** 2, 0.0)
     return 2 * contact_modulus / (np.pi * radius) * np.sqrt(inside)
 
 
-def sphere_rms_gradient(contact_radius: Array, radius: float) -> Array:
+def sphere_rms_gradient(contact_radius: Array | float, radius: float) -> Array:
     """Rms gradient c/(R√2) over the contact of a sphere (Table 3.1)."""
     return np.asarray(contact_radius) / (radius * np.sqrt(2))
 
@@ -68,18 +68,18 @@ def full_contact_pressure(amplitude: float, length: float, contact_modulus: floa
     return np.pi * contact_modulus * amplitude / length
 
 
-def sinusoid_area(pressure_ratio: Array) -> Array:
+def sinusoid_area(pressure_ratio: Array | float) -> Array:
     """Relative contact area (2/π) asin √(p/p_c) of a sinusoid at p/p_c ≤ 1 (Westergaard 1939)."""
     return 2 / np.pi * np.arcsin(np.sqrt(np.clip(pressure_ratio, 0.0, 1.0)))
 
 
-def sinusoid_mean_gap(pressure_ratio: Array, amplitude: float) -> Array:
+def sinusoid_mean_gap(pressure_ratio: Array | float, amplitude: float) -> Array:
     """Mean gap h₀(1 - r + r ln r) of a sinusoid of amplitude h₀ at r = p/p_c, 0 < r ≤ 1 (Westergaard 1939); nm."""
     ratio = np.asarray(pressure_ratio)
     return amplitude * (1 - ratio + ratio * np.log(ratio))
 
 
-def sinusoid_pressure(phase: Array, pressure_ratio: float, mean_pressure: float) -> Array:
+def sinusoid_pressure(phase: Array | float, pressure_ratio: float, mean_pressure: float) -> Array:
     """Pressure 2p cos φ √(r - sin²φ)/r at φ = πx/λ from a crest, zero where sin²φ > r (Westergaard 1939); GPa."""
     inside = np.maximum(pressure_ratio - np.sin(phase) ** 2, 0.0)
     return 2 * mean_pressure / pressure_ratio * np.abs(np.cos(phase)) * np.sqrt(inside)
@@ -94,14 +94,14 @@ def complete_contact(heights: Array, length: float, contact_modulus: float) -> A
     return grid.backward(grid.forward(heights) * (contact_modulus * grid.wavenumber / 2))
 
 
-def persson_area(reduced_pressure: Array) -> Array:
+def persson_area(reduced_pressure: Array | float) -> Array:
     """Relative contact area erf(√2 p*) of a rough surface (J. Chem. Phys. 115, 3840, doi:10.1063/1.1388626)."""
     from scipy.special import erf  # takes longer to import than most of this package
 
     return erf(np.sqrt(2) * np.asarray(reduced_pressure))
 
 
-def line_area(reduced_pressure: Array, b1: float, b2: float) -> Array:
+def line_area(reduced_pressure: Array | float, b1: float, b2: float) -> Array:
     """Relative contact area erf(√2 p*/Ψ), Ψ = b1 + (1 - b1) erf(b2 p*), of a rough line (Eq. 3.11)."""
     pressure = np.asarray(reduced_pressure)
     from scipy.special import erf
@@ -109,7 +109,7 @@ def line_area(reduced_pressure: Array, b1: float, b2: float) -> Array:
     return persson_area(pressure / (b1 + (1 - b1) * erf(b2 * pressure)))
 
 
-def cylinder_pull_off(work: Array, radius: float, contact_modulus: float) -> Array:
+def cylinder_pull_off(work: Array | float, radius: float, contact_modulus: float) -> Array:
     """Pull-off 3 (π E* w² R/16)^(1/3) of an adhesive cylinder in the limit of JKR; N/m, nm, GPa to N/m.
 
     Hertz's load less that of a crack whose energy release rate P²/(2π c E*) is the work w,
@@ -118,7 +118,7 @@ def cylinder_pull_off(work: Array, radius: float, contact_modulus: float) -> Arr
     return 3 * (np.pi * contact_modulus * np.asarray(work) ** 2 * radius / 16) ** (1 / 3)
 
 
-def rigid_cylinder_pull_off(work: Array, radius: float, length: float) -> Array:
+def rigid_cylinder_pull_off(work: Array | float, radius: float, length: float) -> Array:
     """Pull-off w √(2π R/(e δ)) of a rigid cylinder by the exponential cohesive zone; N/m, nm to N/m.
 
     Over the gap g + x²/(2R) the traction w y e^(-y)/δ, y the gap over δ, amounts to w √(2π R/δ) (g/δ + 1/2) e^(-g/δ),
@@ -127,17 +127,17 @@ def rigid_cylinder_pull_off(work: Array, radius: float, length: float) -> Array:
     return np.asarray(work) * np.sqrt(2 * np.pi * radius / (np.e * length))
 
 
-def normal_strength(work: float, length: float, slip: Array) -> Array:
+def normal_strength(work: float, length: float, slip: Array | float) -> Array:
     """Largest normal traction φn/(e δn) exp(-s²) of the mixed-mode cohesive zone at s = Δt/δt (Eq. 2.18); GPa."""
     return work / (np.e * length) * np.exp(-(np.asarray(slip) ** 2))
 
 
-def tangential_strength(work: float, length: float, opening: Array) -> Array:
+def tangential_strength(work: float, length: float, opening: Array | float) -> Array:
     """Largest tangential traction √(2/e) φt/δt exp(-y) of the mixed-mode cohesive zone at y = Δn/δn (Eq. 2.18); GPa."""
     return np.sqrt(2 / np.e) * work / length * np.exp(-np.asarray(opening))
 
 
-def spring_sum(offset: Array, lattice_constant: float, length: float = 1.0) -> tuple[Array, Array]:
+def spring_sum(offset: Array | float, lattice_constant: float, length: float = 1.0) -> tuple[Array, Array]:
     """Sums over a lattice of what springs contribute, C = Σ exp(-s²) and S = Σ 2s exp(-s²), s = (Δt + jl)/δt.
 
     offset: Δt of any shape, lattice_constant l and length δt, nm. A flat lattice exerts (φn/δn) y e^{-y} C and

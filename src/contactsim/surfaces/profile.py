@@ -15,8 +15,9 @@ import netCDF4
 import numpy as np
 
 from contactsim.errors import InputError
+from contactsim.grid import Array
 from contactsim.surfaces import io
-from contactsim.surfaces.io import TEXT, TOLERANCE, Array, Kinds
+from contactsim.surfaces.io import TEXT, TOLERANCE, Kinds
 
 SUFFIXES = (".npy", *TEXT, ".nc")
 

@@ -23,8 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactsim.errors import InputError
+from contactsim.grid import Array
 from contactsim.surfaces import io
-from contactsim.surfaces.io import TEXT, TOLERANCE, Array, Kinds
+from contactsim.surfaces.io import TEXT, TOLERANCE, Kinds
 
 SUFFIXES = (".npy", *TEXT, ".nc")
 LIBRARY = "SurfaceTopography"
