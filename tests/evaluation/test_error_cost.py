@@ -14,7 +14,7 @@ GRIDS = [("points", 16, 1e-3), ("points", 32, 1e-3)]
 
 
 def table_of(**jobs):
-    return error_cost.table(SETTINGS, {"reference": REFERENCE} | jobs, study(), "active_set")
+    return error_cost.error_table(SETTINGS, {"reference": REFERENCE} | jobs, study(), "active_set")
 
 
 def rows(errors, costs, **columns):
@@ -39,7 +39,7 @@ def test_the_error_is_the_root_mean_square_over_loads_and_the_work_transforms_ti
 def test_the_work_on_a_surface_counts_all_of_its_points():
     grids = job(GRIDS, [2.1, 2.1], [10, 30]).assign(points_y=("setting", [8, 32]))
     jobs = {"reference": REFERENCE, "conjugate_gradients": grids}
-    table = error_cost.table(SETTINGS, jobs, study().assign(points_y=16), "conjugate_gradients")
+    table = error_cost.error_table(SETTINGS, jobs, study().assign(points_y=16), "conjugate_gradients")
     assert table.work.tolist() == [2 * 10 * 16 * 8, 2 * 30 * 32 * 32, 8 * 64 * 16, 12 * 64 * 16]
     assert table.own.all()
     assert set(table.solver) == {"conjugate_gradients"}
@@ -49,12 +49,12 @@ def test_the_work_on_a_surface_counts_all_of_its_points():
 def test_a_setting_without_a_value_at_one_load_has_no_finite_error(missing):
     table = table_of(active_set=job(GRIDS, [missing, [2.1, 2.1]]))
     assert table.kappa_r[0] == np.inf
-    assert len(error_cost.met(table.query("knob == 'points'"), "kappa_r")) == 1
+    assert len(error_cost.converged_rows(table.query("knob == 'points'"), "kappa_r")) == 1
 
 
 def test_a_reference_without_a_value_leaves_no_error():
     data = {"reference": REFERENCE.assign(kappa_r=REFERENCE.kappa_r * np.nan), "active_set": job(GRIDS, [2.1, 2.1])}
-    assert np.isinf(error_cost.table(SETTINGS, data, study(), "active_set").kappa_r[:2]).all()
+    assert np.isinf(error_cost.error_table(SETTINGS, data, study(), "active_set").kappa_r[:2]).all()
 
 
 def test_the_share_of_unconverged_solutions_is_told():
@@ -76,7 +76,7 @@ def test_the_work_of_an_ensemble_is_its_members_and_its_error_falls_as_their_roo
 def test_an_ensemble_with_unconverged_solutions_says_so():
     data = study()
     data["status"][0, 0] = Status.MAX_ITERATIONS.value[0]
-    table = error_cost.table(
+    table = error_cost.error_table(
         SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, data, "active_set"
     )
     assert (table[table.knob == "members"].unconverged == 1 / 6).all()
@@ -84,12 +84,12 @@ def test_an_ensemble_with_unconverged_solutions_says_so():
 
 def test_one_member_is_no_ensemble():
     jobs = {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}
-    table = error_cost.table(SETTINGS, jobs, study(members=1), "active_set")
+    table = error_cost.error_table(SETTINGS, jobs, study(members=1), "active_set")
     assert set(table.knob) == {"points"}
 
 
 def path_table(data, study):
-    return error_cost.table(PATH_SETTINGS, {"reference": PATH_REFERENCE, "newton": data}, study, "newton")
+    return error_cost.error_table(PATH_SETTINGS, {"reference": PATH_REFERENCE, "newton": data}, study, "newton")
 
 
 def test_the_table_of_a_path_has_its_increments_each_against_their_own_reference():
@@ -122,30 +122,30 @@ def test_an_ensemble_of_paths_has_the_standard_error_of_what_they_amount_to():
 
 def test_the_cost_at_an_error_is_that_of_the_cheapest_setting_where_larger_errors_cost_more():
     table = rows([0.5, 0.1, 0.02], [9.0, 2.0, 4.0])
-    assert error_cost.cost_at(table, "error", 0.3, "work") == pytest.approx(2.0)
-    assert error_cost.cost_at(table, "error", 0.05, "work") == pytest.approx(2.0 * 2 ** (np.log(2) / np.log(5)))
-    assert np.isnan(error_cost.cost_at(table, "error", 0.6, "work"))
+    assert error_cost.cost_at_error(table, "error", 0.3, "work") == pytest.approx(2.0)
+    assert error_cost.cost_at_error(table, "error", 0.05, "work") == pytest.approx(2.0 * 2 ** (np.log(2) / np.log(5)))
+    assert np.isnan(error_cost.cost_at_error(table, "error", 0.6, "work"))
 
 
 def test_the_observed_order_and_the_cost_at_an_error_are_those_planted():
     points = np.array([100, 200, 400, 800])
     table = rows(5.0 * points**-1.5, 7.0 * points, points=points)
-    assert error_cost.order(table, "error") == pytest.approx(1.5)
-    assert error_cost.cost_at(table, "error", 5.0 * 300**-1.5, "work") == pytest.approx(2100.0)
-    assert np.isnan(error_cost.cost_at(table, "error", 1e-9, "work"))  # no setting meets it
+    assert error_cost.convergence_order(table, "error") == pytest.approx(1.5)
+    assert error_cost.cost_at_error(table, "error", 5.0 * 300**-1.5, "work") == pytest.approx(2100.0)
+    assert np.isnan(error_cost.cost_at_error(table, "error", 1e-9, "work"))  # no setting meets it
 
 
 @pytest.mark.parametrize("bad", [{"unconverged": 0.1}, {"error": np.inf}, {"error": 0.0}, {"error": 1e-16}])
 def test_the_observed_order_leaves_out_failures_and_rounding(bad):
     table = rows([0.4, 0.2, 0.1, 7.0], [1.0, 2.0, 4.0, 8.0])
     table.loc[3, list(bad)] = list(bad.values())
-    assert error_cost.order(table, "error") == pytest.approx(1.0)
-    assert np.isnan(error_cost.order(table[2:], "error"))
+    assert error_cost.convergence_order(table, "error") == pytest.approx(1.0)
+    assert np.isnan(error_cost.convergence_order(table[2:], "error"))
 
 
 def test_on_the_front_a_dearer_setting_is_a_better_one():
     table = rows([0.5, 0.6, 0.2, 0.2, 0.1, 1e-12, 1e-14], [1.0, 2.0, 3.0, 3.5, 5.0, 6.0, 7.0])
-    found = error_cost.front(table.sample(frac=1, random_state=1), "error", "work")
+    found = error_cost.pareto_front(table.sample(frac=1, random_state=1), "error", "work")
     assert found.error.tolist() == [0.5, 0.2, 0.1, 1e-12]
     assert found.work.tolist() == [1.0, 3.0, 5.0, 6.0]
 
@@ -154,7 +154,7 @@ def test_on_the_front_a_dearer_setting_is_a_better_one():
 def test_failures_are_not_on_the_front(bad):
     table = rows([0.5, 0.2, 0.1], [1.0, 2.0, 3.0])
     table.loc[1, list(bad)] = list(bad.values())
-    assert error_cost.front(table, "error", "work").index.tolist() == [0, 2]
+    assert error_cost.pareto_front(table, "error", "work").index.tolist() == [0, 2]
 
 
 def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
@@ -163,8 +163,10 @@ def test_solvers_are_compared_at_equal_error_and_failures_do_not_count():
         rows(1 / points, factor * points, solver=kind, unconverged=bad, own=kind == "active_set")
         for kind, factor, bad in (("active_set", 1.0, 0), ("slow", 30.0, 0), ("failed", 0.1, 1))
     )
-    found = error_cost.compared(table, "error", {"points": [0.005, 1e-9]}, ["work"]).set_index(["solver", "error"])
+    found = error_cost.compare_solvers(table, "error", {"points": [0.005, 1e-9]}, ["work"]).set_index(
+        ["solver", "error"]
+    )
     assert found.work["slow", 0.005] == pytest.approx(30.0)
     assert np.isnan(found.work["slow", 1e-9])
     assert "failed" not in found.index
-    assert error_cost.compared(table, "error", {"tolerance": [0.1]}, ["work"]).empty
+    assert error_cost.compare_solvers(table, "error", {"tolerance": [0.1]}, ["work"]).empty

@@ -160,7 +160,7 @@ def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_pat
 def test_the_overview_shows_every_case_and_leaves_ensembles_out(tmp_path):
     plan = Plan.read(ROOT / "config", "quick")
     cases = case_config.read_cases(ROOT / "config", plan)
-    told = case_config.overview(case_config.read_overview(ROOT / "config"), cases, "quick")
+    told = case_config.overview_figure_job(case_config.read_overview(ROOT / "config"), cases, "quick")
     tables = []
     for name, case in sorted(told["cases"].items()):
         rows = {

@@ -99,19 +99,19 @@ def measured(tmp_path_factory):
 def table_of(measured, made):
     one, jobs = measured
     study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
-    return error_cost.table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
+    return error_cost.error_table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
 
 
 def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
     one = case(tmp_path)
-    turned = one.turned("active_set")
+    turned = one.settings_of("active_set")
     assert [(at.points, at.tolerance) for at in turned if at.knob == "points"] == [
         (256, 1e-4),
         (512, 1e-4),
         (1024, 1e-4),
     ]
     assert [(at.points, at.tolerance) for at in turned if at.knob == "tolerance"] == [(512, 10.0), (512, 1e-2)]
-    assert not set(one.turned(cases.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.turned(job)}
+    assert not set(one.settings_of(cases.REFERENCE)) & {at for job in one.jobs()[1:] for at in one.settings_of(job)}
 
 
 def test_errors_are_those_by_hand_and_fall_with_the_grid(measured, made):
@@ -150,7 +150,7 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
     data = jobs["polonsky_keer"].isel(setting=0)
     alone = study(members=1).rename(reduced_pressure="contact_ratio").assign_coords(contact_ratio=data.contact_ratio)
     table = (
-        error_cost.table(one.settings, jobs, alone.assign(length=1.0), one.default)
+        error_cost.error_table(one.settings, jobs, alone.assign(length=1.0), one.default)
         .query("knob == 'points'")
         .set_index("solver")
     )
@@ -161,7 +161,7 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
 
 def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
     one = case(tmp_path, **ROUGH_CASE)
-    (run,) = one.study_at(one.turned("active_set")[0], "active_set").runs()
+    (run,) = one.study_at(one.settings_of("active_set")[0], "active_set").runs()
     whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst_exponent": 0.8})
     assert run.coordinates == {"hurst_exponent": 0.8}
     assert run.settings["surface"] == whole.settings["surface"]
@@ -193,7 +193,7 @@ def test_grids_that_miss_the_shortest_wave_are_refused_before_any_job(tmp_path, 
 
 def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_path):
     one = case(tmp_path, PATH_CASE)
-    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned("newton")]
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.settings_of("newton")]
     assert numbers == [
         ("points", 64, 1e-4, 0.5),
         ("points", 128, 1e-4, 0.5),
@@ -201,7 +201,7 @@ def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_
         ("increment", 64, 1e-4, 1.0),
         ("increment", 64, 1e-4, 0.2),
     ]
-    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.turned(cases.REFERENCE)]
+    numbers = [(at.knob, at.points, at.tolerance, at.increment) for at in one.settings_of(cases.REFERENCE)]
     assert numbers == [
         ("points", 256, 1e-7, 0.5),
         ("tolerance", 64, 1e-7, 0.5),
@@ -223,7 +223,7 @@ def test_a_path_is_measured_whole(followed):
     data, seconds = jobs["newton"]
     assert dict(data.sizes) == {"setting": 5, "member": 1}
     assert len(seconds) == 5
-    last = one.turned("newton")[-1]
+    last = one.settings_of("newton")[-1]
     (run,) = one.study_at(last, "newton").runs()
     alone = simulate(run.setup.scene, points=64, tolerance=1e-4, solver="newton")
     assert alone.step.size == 45  # 4 nm there and 5 nm back, in increments of 0.2
@@ -237,7 +237,7 @@ def test_a_path_is_measured_whole(followed):
 def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_the_same_by_another_solver(followed):
     one, jobs = followed
     jobs = {job: data for job, (data, _) in jobs.items()}
-    table = error_cost.table(one.settings, jobs, path_study([1.0]), one.default).query("knob == 'increment'")
+    table = error_cost.error_table(one.settings, jobs, path_study([1.0]), one.default).query("knob == 'increment'")
     by_hand = jobs["newton"].pull_off_load_loading.values[3:, 0] / jobs["reference"].pull_off_load_loading.values[2, 0]
     own = table[table.own]
     assert own.increment.tolist() == [1.0, 0.2]
@@ -251,13 +251,13 @@ def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_t
 @pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])
 def test_a_path_with_any_step_that_did_not_converge_is_unconverged(tmp_path, monkeypatch, place, share):
     one = case(tmp_path, PATH_CASE, solvers={"newton": {"increment": [0.2]}})
-    data = cases.simulate_run(one.study_at(one.turned("newton")[0], "newton").runs()[0])
+    data = cases.simulate_run(one.study_at(one.settings_of("newton")[0], "newton").runs()[0])
     if place is not None:
         data["status"][place] = Status.MAX_ITERATIONS.value[0]
         data["status"][place:][1:] = Status.SKIPPED.value[0]
     monkeypatch.setattr(cases, "simulate_run", lambda run: data)
     found, _ = one.measure("newton")
-    assert float(error_cost._unconverged(found)) == share
+    assert float(error_cost.unconverged_share(found)) == share
     assert found.status.item() == (0 if place is None else Status.MAX_ITERATIONS.value[0])
 
 
@@ -272,7 +272,7 @@ def test_seconds_are_apart_and_the_dataset_is_reproducible(measured):
 @pytest.mark.parametrize(("spent", "best"), [([3.0, 1.0, 2.0], 1.0), ([1.0, 2.0, 3.0], 1.0), ([9.0, 1.0, 1.0], 9.0)])
 def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path, monkeypatch, spent, best):
     one = case(tmp_path, repeats=3, solvers={"active_set": {"points": [256]}})
-    run = one.study_at(one.turned("active_set")[0], "active_set").runs()[0]
+    run = one.study_at(one.settings_of("active_set")[0], "active_set").runs()[0]
     solved, left = cases.simulate_run(run), [*spent]
 
     def timed(run):
@@ -280,7 +280,7 @@ def test_the_best_of_the_timings_counts_and_a_long_one_is_the_only_one(tmp_path,
 
     monkeypatch.setattr(cases, "simulate_run", timed)
     assert one.measure("active_set")[1] == pytest.approx([best])
-    assert len(left) == (2 if best > cases.LONG else 0)
+    assert len(left) == (2 if best > cases.MAX_REPEATED_SECONDS else 0)
 
 
 def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
@@ -378,7 +378,7 @@ def test_the_marks_of_a_path_are_increments_that_are_solved_as_asked_for():
     one = case_config.read_cases(ROOT / "config", PLAN)["adhesive_asperity"]
     tiers = case_config.read_all_tiers(ROOT / "config", PLAN)
     assert tiers["quick"] is PLAN
-    found = case_config.figure_settings(one, PLAN, tiers)
+    found = case_config.case_figure_job(one, PLAN, tiers)
     marks = found["marks"]
     assert {name: own.get("increment") for name, own in marks.items()} == {
         "quick": None,  # they adapt
@@ -417,11 +417,11 @@ def test_the_real_cases_can_be_read_at_every_tier_and_mark_what_the_tiers_and_th
         own = [case.default for case in every_case.values()]
         assert own == ["active_set"] * 3 + ["conjugate_gradients"] * 2 + ["newton"] * 3
         assert every_case["layer"].selection == {"thickness": [640.0]}
-        marks = case_config.figure_settings(every_case["rough_line"], plan, tiers)["marks"]
+        marks = case_config.case_figure_job(every_case["rough_line"], plan, tiers)["marks"]
         points = {"quick": 131072, "standard": 262144, "full": 1048576, "thesis": 262144}
         members = {"quick": 3, "standard": 10, "full": 10, "thesis": 10}
         assert {name: own["points"] for name, own in marks.items()} == points
         assert {name: own["members"] for name, own in marks.items()} == members
         assert marks["quick"]["tolerance"] == plan.studies["rough_line"].settings["tolerance"]
         assert "tolerance" not in marks["thesis"]
-        assert "members" not in case_config.figure_settings(every_case["cylinder"], plan, tiers)["marks"]["thesis"]
+        assert "members" not in case_config.case_figure_job(every_case["cylinder"], plan, tiers)["marks"]["thesis"]

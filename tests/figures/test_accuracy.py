@@ -111,7 +111,7 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     """The panels of a case, drawn in full, with seconds a thousandth of the work; the table."""
     settings = plan["settings"]
     ensemble = study(members) if settings["load"] else path_study([200.0] * members)
-    table = error_cost.table(settings, jobs, ensemble, plan["default"])
+    table = error_cost.error_table(settings, jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
     table = table.assign(predicted_work=np.where(table.own, table.work * 1.5, np.nan))
     table["predicted_seconds"] = table.predicted_work / 1000
@@ -120,7 +120,7 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
         settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4]
     )
     axes = np.reshape(panels, (2, columns))
-    equal = error_cost.compared(table, settings["quantities"][0], settings["levels"], accuracy.COSTS)
+    equal = error_cost.compare_solvers(table, settings["quantities"][0], settings["levels"], accuracy.COSTS)
     accuracy.plot_accuracy(table, equal, jobs[plan["default"]], axes, plan)
     FigureCanvasAgg(figure).draw()
     return axes, table

@@ -15,7 +15,7 @@ from contactsim.analysis.reductions import REDUCTIONS, mean_quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
-from contactsim.evaluation.work_precision.case_config import PRICED
+from contactsim.evaluation.work_precision.case_config import MEASURED_QUANTITIES
 from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
@@ -295,7 +295,7 @@ def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
 
 
 def test_every_quantity_that_can_be_priced_has_a_symbol():
-    assert [name for name in PRICED if name not in notation.SYMBOLS] == []
+    assert [name for name in MEASURED_QUANTITIES if name not in notation.SYMBOLS] == []
 
 
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):

@@ -16,7 +16,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.evaluation.work_precision.knobs import solutions
+from contactsim.evaluation.work_precision.knobs import summarise_solutions
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.observables import friction, peeling, sliding
@@ -425,7 +425,7 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
 
 
 def test_a_slide_is_priced_whole_with_its_slips():
-    found = solutions(combine_runs([(dataset(), {"member": 0})]))
+    found = summarise_solutions(combine_runs([(dataset(), {"member": 0})]))
     assert found.transforms.item() == dataset().transforms.sum().item()
     assert found.static_friction.item() == friction.summarise_slides(dataset()).static_friction.item()
     assert "event" not in found.dims

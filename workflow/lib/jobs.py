@@ -137,7 +137,7 @@ class EvaluationJobs:
 
     def case_params(self, wildcards: Wildcards) -> str:
         """Return what the errors of a solver in a work–precision case depend on."""
-        return canonical(cases.job_plan(self.products.cases[wildcards.case], wildcards.job))
+        return canonical(cases.case_job(self.products.cases[wildcards.case], wildcards.job))
 
     def case_files(self, folder: str, ending: str) -> ByWildcards:
         """Return a function for the files of all jobs of a case, in a folder and with an ending."""
@@ -161,12 +161,12 @@ class EvaluationJobs:
     def case_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of a case depends on."""
         case = self.products.cases[wildcards.case]
-        return canonical(case_config.figure_settings(case, self.products.plan, self.products.all_tiers))
+        return canonical(case_config.case_figure_job(case, self.products.plan, self.products.all_tiers))
 
     def overview_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all cases depends on."""
         products = self.products
-        return canonical(case_config.overview(products.overview or {}, products.cases, products.plan.tier))
+        return canonical(case_config.overview_figure_job(products.overview or {}, products.cases, products.plan.tier))
 
     def hazard_params(self, wildcards: Wildcards) -> str:
         """Return what the survey of a hazard depends on."""

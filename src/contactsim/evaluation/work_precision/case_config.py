@@ -1,8 +1,4 @@
-"""What accuracy costs: cases and the page of all of them as their files give them, and what their figures depend on.
-
-`contactsim.evaluation.work_precision.cases` solves them; `contactsim.evaluation.work_precision.error_cost` makes errors
-and costs of it.
-"""
+"""Read the cases of the work-precision study from their files, and what their figures depend on."""
 
 from __future__ import annotations
 
@@ -13,19 +9,27 @@ from pathlib import Path
 
 from contactsim.error_control.forecast import forecast_setup
 from contactsim.errors import InputError
-from contactsim.evaluation.work_precision.cases import REFERENCE, Case, job_plan
-from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, WholeSlide, kind_of, read_turned
-from contactsim.provenance import digest, source_digest
+from contactsim.evaluation.work_precision.cases import REFERENCE, Case, case_job
+from contactsim.evaluation.work_precision.knobs import (
+    Setting,
+    SingleLoads,
+    WholePath,
+    WholeSlide,
+    find_case_kind,
+    read_knobs,
+)
+from contactsim.provenance import digest
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.claim_plan import quantities
 from contactsim.study.kinds import study_kind
 from contactsim.study.plan import RESERVED_NAMES, Plan
 from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
+from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
-PRICED = (*SingleLoads.quantities, *WholeSlide.quantities)
+MEASURED_QUANTITIES = (*SingleLoads.quantities, *WholeSlide.quantities)
 CASE_KEYS = {
     "title": Key(text, "a line of text"),
     "caption": Key(text, "text"),
@@ -34,7 +38,7 @@ CASE_KEYS = {
     "vary": Key(mapping, "a mapping from keys that the study varies to lists of some of their values", {}),
     "load": Key(listed(number), "a list of the study's loads", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
-    "quantities": Key(listed(choice(PRICED)), f"a list from {', '.join(PRICED)}"),
+    "quantities": Key(listed(choice(MEASURED_QUANTITIES)), f"a list from {', '.join(MEASURED_QUANTITIES)}"),
     "settled": Key(mapping, "a value of each knob, at which the others are turned"),
     "reference": Key(mapping, "the value of each knob in the references"),
     "solvers": Key(mapping, "a mapping from solvers to the values of each knob"),
@@ -47,7 +51,7 @@ OVERVIEW_KEYS = {name: CASE_KEYS[name] for name in ("title", "caption", "size")}
 
 
 def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
-    """The cases of accuracy.yaml at the plan's tier, by name; none without that file."""
+    """Return the cases of accuracy.yaml at the plan's tier by name; none without that file."""
     file = Path(folder) / "accuracy.yaml"
     if not file.exists():
         return {}
@@ -56,17 +60,17 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
         raise InputError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
     if not isinstance(tiers[plan.tier], dict):
         raise InputError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
-    return {name: _case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
+    return {name: _read_case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
 
 
 def read_overview(folder: str | Path) -> dict | None:
-    """Settings of the page that shows all cases; None without overview.yaml."""
+    """Return the settings of the page of all cases; None without overview.yaml."""
     file = Path(folder) / "overview.yaml"
     return read(load_yaml(file), OVERVIEW_KEYS, file) if file.exists() else None
 
 
-def overview(settings: dict, cases: dict[str, Case], tier: str) -> dict:
-    """What the page that shows all cases depends on, beside their tables."""
+def overview_figure_job(settings: dict, cases: dict[str, Case], tier: str) -> dict:
+    """Return what the page of all cases depends on, apart from their tables."""
     shown = {
         name: {"title": case.settings["title"].rpartition(": ")[2], "quantity": case.settings["quantities"][0]}
         for name, case in cases.items()
@@ -75,11 +79,11 @@ def overview(settings: dict, cases: dict[str, Case], tier: str) -> dict:
         "settings": settings,
         "cases": shown,
         "tier": tier,
-        "source": source_digest("contactsim.figures.diagnostics.overview"),
+        "source": stage_digest("overview_figure"),
     }
 
 
-def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
+def _read_case(name: str, section: object, plan: Plan, file: Path) -> Case:
     target = f"accuracy_{name}"
     if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED_NAMES, *plan.studies, *plan.figures):
         allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
@@ -91,30 +95,30 @@ def _case(name: str, section: object, plan: Plan, file: Path) -> Case:
     study = plan.studies[settings["study"]]
     if study.settings["accuracy"] is not None:
         raise InputError(f"{prefix}.study", study.name, "a study whose knobs can be turned, without an accuracy", file)
-    kind = kind_of(study)
+    kind = find_case_kind(study)
     if kind is None:
         raise InputError(f"{prefix}.study", study.name, "a study of loads, or of a path of smooth laws", file)
     for key in {*settings["solvers"]} - {*SOLVERS}:
         raise InputError(f"{prefix}.solvers", key, f"one of {', '.join(sorted(SOLVERS))}", file)
-    settings |= read_turned(settings, kind, file, prefix)
-    _check_known(settings, study, kind, file, prefix)
-    case = Case(name, settings, _narrowed(study, settings["vary"], file, f"{prefix}.vary"))
+    settings |= read_knobs(settings, kind, file, prefix)
+    _check_keys(settings, study, kind, file, prefix)
+    case = Case(name, settings, _select_values(study, settings["vary"], file, f"{prefix}.vary"))
     if case.default not in settings["solvers"]:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
         raise InputError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
     for job in case.jobs():
-        for setting in case.turned(job):
+        for setting in case.settings_of(job):
             _check_setting(case, job, setting, file, prefix)
     return case
 
 
 def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: str) -> None:
-    """Build the scenes of a job at one setting, so that nothing impossible is found out by the job."""
+    """Build the scenes of a job at one setting, so that an impossible one is refused before the job runs."""
     try:
         for run in case.study_at(setting, job).runs():
             scene = run.setup.scene
             scene.upper.surface.check(setting.points)
-            check_solver(solver_class(case.solved_by(job))(), scene)
+            check_solver(solver_class(case.solver_of(job))(), scene)
             study_kind(run.settings).check(run.setup)
     except InputError as error:
         if error.key == "solver":
@@ -123,12 +127,12 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
         raise error.located(file, f"{prefix}.{turned if error.key == setting.knob else 'settled'}") from error
 
 
-def _check_known(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
-    """Loads and quantities are the study's own, and there is nothing that its kind has no use for."""
-    for key, why in kind.without.items():
+def _check_keys(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
+    """Refuse loads and quantities that the study lacks, and keys that its kind does not use."""
+    for key, why in kind.unused_keys.items():
         if settings.get(key) is not None:
             raise InputError(f"{prefix}.{key}", settings[key], why, file)
-    if settings["load"] is None and "load" not in kind.without:
+    if settings["load"] is None and "load" not in kind.unused_keys:
         raise InputError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
     own = [name for name in kind.quantities if name in quantities(study)]
     for key, known in (("load", study.settings["load"]["values"]), ("quantities", own)):
@@ -137,8 +141,8 @@ def _check_known(settings: dict, study: Study, kind: SingleLoads | WholePath, fi
                 raise InputError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
 
 
-def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
-    """The study of some of its varied values."""
+def _select_values(study: Study, vary: dict, file: Path, prefix: str) -> Study:
+    """Return the study restricted to some of its varied values."""
     for key, values in vary.items():
         known = study.settings["vary"].get(key)
         if known is None:
@@ -150,51 +154,48 @@ def _narrowed(study: Study, vary: dict, file: Path, prefix: str) -> Study:
 
 
 def read_all_tiers(folder: str | Path, plan: Plan) -> dict[str, Plan]:
-    """The plans of all tiers; plan: that of its tier, which is not read again."""
+    """Return the plans of all tiers by name; plan: the one that is not read again."""
     tiers = load_yaml(Path(folder) / "tiers.yaml")
     return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
 
 
-def figure_settings(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
-    """What the figure of a case depends on: settings, jobs and their digests, the study's, and where its marks are.
+def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
+    """Return what the figure of a case depends on.
 
-    The marks are each tier's value of each knob, and the thesis's as far as it is known. tiers: from `read_all_tiers`.
+    Its marks are each tier's value of each knob, and the thesis's where it is known; tiers: from `read_all_tiers`.
     """
     studies = {tier: own.studies[case.study.name].settings for tier, own in tiers.items()}
     shared = ("points", "tolerance", "members")
-    marks = {tier: {knob: own[knob] for knob in shared} | case.kind.turns(own) for tier, own in studies.items()}
+    marks = {tier: {knob: own[knob] for knob in shared} | case.kind.knob_values(own) for tier, own in studies.items()}
     thesis = {knob: case.settings[f"thesis_{knob}"] for knob in ("members", "increment")}
     thesis |= {"points": case.study.settings["thesis_points"]}
     return {
         "settings": case.settings,
         "jobs": case.jobs(),
-        "digests": [job_plan(case, job) for job in case.jobs()],
+        "digests": [case_job(case, job) for job in case.jobs()],
         "marks": marks | {"thesis": {knob: value for knob, value in thesis.items() if value}},
         "tier": plan.tier,
         "default": case.default,
         "selection": case.selection,
-        "expected": [[f"{value:.6g}" for value in one] for one in expected(case)],
+        "expected": [[f"{value:.6g}" for value in one] for one in forecast_costs(case)],
         "loads": case.kind.loads(case.study, case.settings["load"]),
         "units": case.kind.units(case.study),
         "surface": Trait.SURFACE in case.study.runs()[0].setup.scene.traits,
-        "source": source_digest("contactsim.figures.diagnostics.accuracy"),
+        "source": stage_digest("work_precision_figure"),
         "study": digest(plan.study_settings(case.study.name)),
     }
 
 
-def expected(case: Case) -> list[list[float]]:
-    """Of every setting of the study's own solver, work and units of time that it is forecast to take.
-
-    NaN of what was not measured.
-    """
-    found = []
-    for setting in case.turned(case.default):
+def forecast_costs(case: Case) -> list[list[float]]:
+    """Return the forecast work and units of time of every setting of the study's own solver; NaN without forecast."""
+    costs = []
+    for setting in case.settings_of(case.default):
         try:
             setups = [run.setup for run in case.study_at(setting, case.default).runs()]
             runs = [forecast_setup(setup) for setup in setups]
         except InputError:
-            found.append([float("nan")] * 2)
+            costs.append([float("nan")] * 2)
         else:
             total = setups[0].size
-            found.append([sum(one.transforms for one in runs) * total, sum(one.units for one in runs)])
-    return found
+            costs.append([sum(run.transforms for run in runs) * total, sum(run.units for run in runs)])
+    return costs

@@ -1,9 +1,8 @@
-"""A case of what accuracy costs: a scene of a study, the settings at which each solver meets it, and their solution.
+"""Cases of the work-precision study: a study's scene, the settings of each solver, and their solution.
 
-Its knobs, those of `contactsim.evaluation.work_precision.knobs`, are turned one at a time, with each solver that may
-take it; the study's own is
-the measure of the others, and solves the references. The reference of the points is a finer grid, that of the tolerance
-the same grid solved far more tightly, that of the increment the same path in far smaller ones; none is on a curve.
+Knobs are varied one at a time, with each solver. The study's own solver computes the references and is the one with
+which others are compared. The reference of the points is a finer grid, that of the tolerance the same grid solved far
+more tightly, that of the increment the same path in far smaller ones; no reference lies on a curve.
 """
 
 from __future__ import annotations
@@ -13,23 +12,30 @@ from dataclasses import dataclass, replace
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.evaluation.work_precision.knobs import Setting, SingleLoads, WholePath, kind_of, solutions
+from contactsim.evaluation.work_precision.knobs import (
+    Setting,
+    SingleLoads,
+    WholePath,
+    find_case_kind,
+    summarise_solutions,
+)
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.driver import follow_path
-from contactsim.provenance import computing_digest, digest
+from contactsim.provenance import digest
 from contactsim.solvers.registry import is_installed, package_version, solver_module
 from contactsim.study.execute import label_run
 from contactsim.study.keys import ERROR_RUNS
+from contactsim.study.stages import computing_stage_digest
 from contactsim.study.study import Run, Study
 
 REFERENCE = "reference"
-LONG = 5.0
+MAX_REPEATED_SECONDS = 5.0
 """Seconds above which a setting is not timed again."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A scene to price: its name, settings as read, the study that it belongs to, of the values to price alone."""
+    """A case: its name, its settings, and its study restricted to the selected values."""
 
     name: str
     settings: dict
@@ -37,25 +43,25 @@ class Case:
 
     @property
     def kind(self) -> SingleLoads | WholePath:
-        """What is priced of the study."""
-        return kind_of(self.study)
+        """Return the kind of the study's solutions, with their knobs and quantities."""
+        return find_case_kind(self.study)
 
     @property
     def default(self) -> str:
-        """The study's own solver, the measure of others."""
+        """Return the study's own solver, with which others are compared."""
         return self.study.settings["solver"]["kind"]
 
     @property
     def selection(self) -> dict[str, list]:
-        """What is priced of the study's dataset: values by dimension, those left out whole."""
+        """Return the selected values of the study's dataset by dimension; other dimensions count whole."""
         return {dataset.dimension(name): values for name, values in self.settings["vary"].items()}
 
     def jobs(self) -> list[str]:
-        """The jobs of a case: its reference and its solvers, as far as they are installed."""
+        """Return the jobs of a case: its reference and its installed solvers."""
         return [REFERENCE, *filter(is_installed, self.settings["solvers"])]
 
-    def turned(self, job: str) -> list[Setting]:
-        """The settings that a job measures."""
+    def settings_of(self, job: str) -> list[Setting]:
+        """Return the settings that a job measures."""
         settled, reference = self.settings["settled"], self.settings["reference"]
         if job == REFERENCE:
             tight = {"points": {"tolerance": reference["tolerance"]}}  # a finer grid has smaller steps
@@ -63,34 +69,39 @@ class Case:
         knobs = self.settings["solvers"][job]
         return [Setting(knob, **settled | {knob: value}) for knob in settled for value in knobs[knob]]
 
-    def solved_by(self, job: str) -> str:
-        """The solver of a job."""
+    def solver_of(self, job: str) -> str:
+        """Return the solver of a job."""
         return self.default if job == REFERENCE else job
 
     def job_settings(self, job: str) -> dict:
-        """Everything that a job's result depends on but the code."""
+        """Return what a job's result depends on, apart from the code."""
         kept = ("load", "members", "quantities", "settled", "reference", "repeats")
-        turned = [{"knob": one.knob} | one.numbers for one in self.turned(job)]
+        turned = [{"knob": one.knob} | one.numbers for one in self.settings_of(job)]
         own = {name: self.settings[name] for name in kept} | {"turned": turned}
-        runs = [run.settings for run in self.study_at(self.turned(job)[0], job).runs()]
+        runs = [run.settings for run in self.study_at(self.settings_of(job)[0], job).runs()]
         return {"case": self.name, "job": job, "settings": own, "runs": runs}
 
     def study_at(self, setting: Setting, job: str) -> Study:
-        """The study of a job at one setting."""
-        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solved_by(job)}}
-        changed |= self.kind.changed(self.study, self.settings["load"], setting)
+        """Return the study of a job at one setting."""
+        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solver_of(job)}}
+        changed |= self.kind.edit_settings(self.study, self.settings["load"], setting)
         apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(ERROR_RUNS)
         return replace(self.study, settings=self.study.settings | changed | apart)
 
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:
-        """Quantities and transforms of every setting of a job, and seconds.
+        """Solve every setting of a job.
 
-        Dims (setting, varied keys, member, load), of paths without the last.
+        Returns
+        -------
+        data : xarray.Dataset
+            Quantities, transforms and statuses, dimensions (setting, varied keys, member, load); paths have no load.
+        seconds : list of float
+            Shortest CPU time of each setting.
         """
         found, seconds = [], []
-        for setting in self.turned(job):
+        for setting in self.settings_of(job):
             runs, times = self.study_at(setting, job).runs(), []
-            while len(times) < self.settings["repeats"] and not (times and times[-1] > LONG):
+            while len(times) < self.settings["repeats"] and not (times and times[-1] > MAX_REPEATED_SECONDS):
                 parts = [(simulate_run(run), run) for run in runs]
                 times.append(float(sum(data.seconds.sum() for data, _ in parts)))
             data = combine_runs(
@@ -99,7 +110,7 @@ class Case:
                     for data, run in parts
                 ]
             )
-            solved = solutions(data)
+            solved = summarise_solutions(data)
             kept = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
             found.append(kept.assign(setting.numbers | {"knob": setting.knob}))
             seconds.append(min(times))
@@ -111,8 +122,8 @@ def simulate_run(run: Run) -> xr.Dataset:
     return follow_path(run.setup)
 
 
-def job_plan(case: Case, job: str) -> dict:
-    """What a job depends on: its settings and its code."""
-    solved_by = case.solved_by(job)
-    source = computing_digest("contactsim.evaluation.work_precision.cases", solver_module(solved_by))
-    return {"job": case.job_settings(job), "source": digest(source, package_version(solved_by))}
+def case_job(case: Case, job: str) -> dict:
+    """Return what a job depends on: its settings and its code."""
+    solver = case.solver_of(job)
+    source = computing_stage_digest("work_precision", solver_module(solver))
+    return {"job": case.job_settings(job), "source": digest(source, package_version(solver))}

@@ -15,7 +15,7 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.evaluation.work_precision.cases import REFERENCE
-from contactsim.evaluation.work_precision.knobs import KNOBS, solutions
+from contactsim.evaluation.work_precision.knobs import KNOBS, summarise_solutions
 from contactsim.observables.forms import load_dimension
 from contactsim.status import is_solved
 
@@ -23,48 +23,48 @@ ROUNDING = 1e-10
 """Errors below it are rounding: both solutions have the same contact."""
 
 
-def table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, default: str) -> pd.DataFrame:
-    """One row a setting: solver, knob, the value of each, members, error of each quantity, work, share unconverged.
+def error_table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, default: str) -> pd.DataFrame:
+    """Return one row a setting: solver, knob, its values, members, error of each quantity, work, share unconverged.
 
     jobs: datasets by solver, with the reference's; study: the study's dataset, as far as it is priced, for the size of
     the ensemble; default: its own solver. Errors are relative, root mean square over variants, members and
     loads, infinite where one of them has no value, as without contact; work is transforms times all points of the grid.
     """
     rows = []
-    references = {str(one.knob.item()): one for one in _each(jobs[REFERENCE])}
+    references = {str(one.knob.item()): one for one in _split_settings(jobs[REFERENCE])}
     knobs = [knob for knob in KNOBS if knob in jobs[REFERENCE]]
     for kind, data in jobs.items():
-        for one in _each(data) if kind != REFERENCE else ():
+        for one in _split_settings(data) if kind != REFERENCE else ():
             reference = references[one.knob.item()]
             rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", *knobs)})
             for name in case_settings["quantities"]:
                 rows[-1][name] = _root_mean_square(one[name] / reference[name] - 1)
             rows[-1]["work"] = float(one.transforms.sum() * _size(one))
-            rows[-1]["unconverged"] = _unconverged(one)
+            rows[-1]["unconverged"] = unconverged_share(one)
     columns = ["solver", "knob", *knobs, "members", *case_settings["quantities"], "work", "unconverged"]
     table = pd.DataFrame(rows + list(_ensembles(case_settings, study, default)), columns=columns)
     return table.assign(own=table.solver == default)
 
 
-def _each(data: xr.Dataset) -> Iterable[xr.Dataset]:
+def _split_settings(data: xr.Dataset) -> Iterable[xr.Dataset]:
     return (data.isel(setting=place) for place in range(data.setting.size))
 
 
 def _size(data: xr.Dataset) -> float:
-    """All points of the grid."""
+    """Return the points of the whole grid."""
     return float(data.points) * float(data.get("points_y", 1))
 
 
 def _ensembles(case_settings: dict, study: xr.Dataset, default: str) -> Iterable[dict]:
-    """The standard error of ensembles of two members up to all, from the study's own scatter."""
+    """Return the standard errors of ensembles of two to all members, from the study's own scatter."""
     most, loads = study.member.size, case_settings["load"]
-    chosen = solutions(study.sel({load_dimension(study): loads}, method="nearest") if loads else study)
+    chosen = summarise_solutions(study.sel({load_dimension(study): loads}, method="nearest") if loads else study)
     for members in range(2, most + 1) if most > 1 else ():
         row = {"solver": default, "knob": "members", "points": int(study.points), "members": members}
         for name in case_settings["quantities"]:
             row[name] = _root_mean_square(_standard_error(chosen, name) * np.sqrt(most / members))
         work = float(chosen.transforms.mean("member").sum() * members * _size(study))
-        yield row | {"work": work, "unconverged": _unconverged(chosen)}
+        yield row | {"work": work, "unconverged": unconverged_share(chosen)}
 
 
 def _standard_error(study: xr.Dataset, name: str) -> xr.DataArray:
@@ -76,38 +76,39 @@ def _standard_error(study: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def _root_mean_square(errors: xr.DataArray) -> float:
+    """Return the root mean square of errors; infinite where one of them has no value."""
     return float(np.sqrt((errors**2).mean(skipna=False).fillna(np.inf)))
 
 
-def _unconverged(data: xr.Dataset) -> float:
-    """The share of solutions that did not converge."""
+def unconverged_share(data: xr.Dataset) -> float:
+    """Return the share of unconverged solutions."""
     return float((~is_solved(data.status)).mean())
 
 
-def met(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
-    """The settings at which every solution converged and has an error."""
+def converged_rows(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
+    """Return the settings at which every solution converged and has an error."""
     return table[(table.unconverged == 0) & np.isfinite(table[quantity])]
 
 
-def order(table: pd.DataFrame, quantity: str) -> float:
-    """Observed order of convergence in the number of points: slope of log error, by least squares.
+def convergence_order(table: pd.DataFrame, quantity: str) -> float:
+    """Return the observed order of convergence in the number of points: slope of log error, by least squares.
 
     Settings that failed, and those whose error is rounding, are left out.
     """
-    good = met(table, quantity)
+    good = converged_rows(table, quantity)
     good = good[good[quantity] > ROUNDING]
     return -float(np.polyfit(np.log(good.points), np.log(good[quantity]), 1)[0]) if len(good) > 1 else float("nan")
 
 
-def front(table: pd.DataFrame, quantity: str, cost: str) -> pd.DataFrame:
-    """The settings that no other beats in both error and cost, the cheapest first; all errors of rounding are equal."""
-    good = met(table, quantity).sort_values([cost, quantity])
+def pareto_front(table: pd.DataFrame, quantity: str, cost: str) -> pd.DataFrame:
+    """Return the settings that no other beats in both error and cost, the cheapest first; rounding errors are equal."""
+    good = converged_rows(table, quantity).sort_values([cost, quantity])
     errors = np.maximum(good[quantity], ROUNDING)
     return good[errors < errors.cummin().shift(fill_value=np.inf)]
 
 
-def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
-    """Least cost at which the error is met, on straight lines between the points of a curve; NaN outside its errors.
+def cost_at_error(table: pd.DataFrame, quantity: str, error: float, cost: str) -> float:
+    """Return the least cost that meets the error, on straight lines between a curve's points; NaN outside its errors.
 
     Where larger errors cost more, it is that of the cheapest setting.
     """
@@ -118,21 +119,22 @@ def cost_at(table: pd.DataFrame, quantity: str, error: float, cost: str) -> floa
     return float(np.exp(np.interp(-np.log(error), -np.minimum.accumulate(found), np.log(curve[cost]))))
 
 
-def compared(
+def compare_solvers(
     table: pd.DataFrame, quantity: str, levels: Mapping[str, Iterable[float]], costs: Iterable[str]
 ) -> pd.DataFrame:
-    """At equal error, how many times more each solver costs than the study's own: one row a knob, level and solver.
+    """Return the cost of each solver over that of the study's own at equal error: a row a knob, level and solver.
 
     levels: errors by knob; a ratio is NaN where a solver was not measured at that error.
     """
     rows = []
-    good = met(table, quantity)
+    good = converged_rows(table, quantity)
     good = good[good.knob.isin(levels)]
     for (knob, kind), curve in good.groupby(["knob", "solver"], sort=False):
         own = good[(good.knob == knob) & good.own]
         for level in levels[knob]:
             ratios = {
-                cost: cost_at(curve, quantity, level, cost) / cost_at(own, quantity, level, cost) for cost in costs
+                cost: cost_at_error(curve, quantity, level, cost) / cost_at_error(own, quantity, level, cost)
+                for cost in costs
             }
             rows.append({"knob": knob, "error": level, "solver": kind} | ratios)
     return pd.DataFrame(rows, columns=["knob", "error", "solver", *costs])

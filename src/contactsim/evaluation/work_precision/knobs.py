@@ -1,9 +1,8 @@
-"""What is priced of a study, loads or a path, and the knobs on which its accuracy depends.
+"""The knobs on which a study's accuracy depends, and the three kinds of solutions that have them.
 
-Loads of a hard wall are solved on their own, and each has its error. Of smooth laws the past decides, so a path is
-priced whole: its error is that of what it amounts to, its cost that of all its steps, and it has not converged if one
-of them has not. Its increment is one knob more; of a slide it is that of the slide, and the tangential cutoff of the
-lattice another. Whoever prices asks the kind of a study, and not what acts in it.
+Loads at a hard wall are solved on their own, and each has its error. A path of cohesive laws counts whole: its error is
+that of its summary, its cost that of all steps, and one unconverged step makes it unconverged. A path has its increment
+as a further knob; a slide over a lattice also has the tangential cutoff.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ class Knob:
     finest: Callable[..., float]
 
     def check(self, values: list, reference: float, file: Path, key: str) -> None:
-        """Refuse what is not coarser than the reference that it is measured against."""
+        """Refuse a value that is not coarser than its reference."""
         finest = self.finest(values, default=None)
         if finest is not None and self.finest(finest, reference) == finest:
             below = f"fewer than the reference's, {reference:g}"
@@ -79,34 +78,34 @@ class Setting:
 class SingleLoads:
     """Loads of a hard wall, each solved on its own.
 
-    knobs: those that it has; quantities: whose error can be measured; without: keys that it has no use for, and what is
-    said of them.
+    knobs: those that it has; quantities: whose error can be measured; unused_keys: keys that it does not use, and the
+    reason.
     """
 
     knobs = ("points", "tolerance")
     quantities = AVERAGED
-    without = dict.fromkeys(
+    unused_keys = dict.fromkeys(
         ("increment", "thesis_increment"), "no such key: the study's loads are solved on their own, without increments"
     ) | {"tangential_cutoff": "no such key: the study does not slide"}
 
-    def takes(self, study: Study) -> bool:
-        """Whether the study has such loads."""
+    def accepts(self, study: Study) -> bool:
+        """Return True where the study has such loads."""
         return study.settings["path"] is None
 
     def loads(self, study: Study, loads: list[float]) -> dict[str, list[float]]:
-        """The loads priced, by their dimension."""
+        """Return the selected loads by their dimension."""
         return {study.settings["load"]["name"]: loads}
 
-    def changed(self, study: Study, loads: list[float], setting: Setting) -> dict:
-        """What pricing changes in the study's settings beside points and tolerance: its loads."""
+    def edit_settings(self, study: Study, loads: list[float], setting: Setting) -> dict:
+        """Return the edits of the study's settings beside points and tolerance: its loads."""
         return {"load": {"name": study.settings["load"]["name"], "values": sorted(loads)}}
 
-    def turns(self, settings: dict) -> dict[str, float]:
-        """Where a study has the knobs that not every study has: there are none."""
+    def knob_values(self, settings: dict) -> dict[str, float]:
+        """Return a study's values of knobs that not every study has: none."""
         return {}
 
     def units(self, study: Study) -> dict[str, str]:
-        """Units of the knobs: none, as a tolerance is in grid steps."""
+        """Return the units of knobs: none, as a tolerance is in grid steps."""
         return {}
 
 
@@ -115,32 +114,32 @@ class WholePath:
 
     knobs = (*SingleLoads.knobs, "increment")
     quantities = (*SUMMARY, *CYCLE, *AREA_LOAD)
-    without = {
+    unused_keys = {
         "load": "no such key: the study follows a path, which is priced whole",
         "tangential_cutoff": "no such key: the study does not slide",
     }
 
-    def takes(self, study: Study) -> bool:
-        """Whether the study follows smooth laws."""
+    def accepts(self, study: Study) -> bool:
+        """Return True where the study follows a path of cohesive laws."""
         return problem_kind(study.settings["effects"]) is ProblemKind.COHESIVE
 
     def loads(self, study: Study, loads: None) -> dict[str, list[float]]:
-        """All of the path."""
+        """Return no selection: the path counts whole."""
         return {}
 
-    def changed(self, study: Study, loads: None, setting: Setting) -> dict:
-        """The increment; and that none is interpolated, and no fields are kept."""
+    def edit_settings(self, study: Study, loads: None, setting: Setting) -> dict:
+        """Return the edited increment; none is interpolated, and no fields are kept."""
         path = {key: value for key, value in study.settings["load"].items() if key != "values"}
         asked = {"increments": {"kind": "requested"}, "snapshots": None}
         return asked | {"load": path | {"increment": setting.increment}}
 
-    def turns(self, settings: dict) -> dict[str, float]:
-        """The increment, unless it adapts itself."""
+    def knob_values(self, settings: dict) -> dict[str, float]:
+        """Return the increment, unless it is adaptive."""
         asked = settings["increments"]["kind"] == "requested"
         return {"increment": settings["load"]["increment"]} if asked else {}
 
     def units(self, study: Study) -> dict[str, str]:
-        """The increment's is that of what the path prescribes; a tolerance is in parts of the strength."""
+        """Return the unit of the increment, that of the path's control; a tolerance is in parts of the strength."""
         return {"increment": VARIABLES[study.settings["load"]["control"]][0]}
 
 
@@ -149,45 +148,45 @@ class WholeSlide(WholePath):
 
     knobs = (*WholePath.knobs, "tangential_cutoff")
     quantities = (*WholePath.quantities, *ONSET)
-    without = {"load": WholePath.without["load"]}
+    unused_keys = {"load": WholePath.unused_keys["load"]}
 
-    def takes(self, study: Study) -> bool:
-        """Whether the study slides over a lattice."""
+    def accepts(self, study: Study) -> bool:
+        """Return True where the study slides over a lattice."""
         pairing = study.settings["pairing"] or {}
         return study.settings["slide"] is not None and pairing.get("kind") == "lattice"
 
-    def changed(self, study: Study, loads: None, setting: Setting) -> dict:
-        """The increment of the slide and the tangential cutoff; no increment is interpolated, no fields are kept."""
+    def edit_settings(self, study: Study, loads: None, setting: Setting) -> dict:
+        """Return the edited increment of the slide and tangential cutoff; none is interpolated, no fields are kept."""
         asked = {"increments": {"kind": "requested"}, "snapshots": None}
         asked["slide"] = study.settings["slide"] | {"increment": setting.increment}
         return asked | {"pairing": study.settings["pairing"] | {"tangential_cutoff": setting.tangential_cutoff}}
 
-    def turns(self, settings: dict) -> dict[str, float]:
-        """Increment, unless it adapts itself, and tangential cutoff."""
+    def knob_values(self, settings: dict) -> dict[str, float]:
+        """Return the increment, unless it is adaptive, and the tangential cutoff."""
         asked = settings["increments"]["kind"] == "requested"
         cutoff = {"tangential_cutoff": settings["pairing"].get("tangential_cutoff", Lattice.tangential_cutoff)}
         return cutoff | ({"increment": settings["slide"]["increment"]} if asked else {})
 
     def units(self, study: Study) -> dict[str, str]:
-        """A slide is a length; a cutoff counts tangential lengths."""
+        """Return the unit of the slide's increment; a cutoff counts tangential lengths."""
         return {"increment": "nm"}
 
 
 KINDS: tuple[SingleLoads | WholePath, ...] = (WholeSlide(), WholePath(), SingleLoads())
 
 
-def kind_of(study: Study) -> SingleLoads | WholePath | None:
-    """The kind of a study; None of a hard wall that is taken along a path."""
-    return next((kind for kind in KINDS if kind.takes(study)), None)
+def find_case_kind(study: Study) -> SingleLoads | WholePath | None:
+    """Return the kind of a study; None for a hard wall along a path."""
+    return next((kind for kind in KINDS if kind.accepts(study)), None)
 
 
-def read_turned(settings: dict, kind: SingleLoads | WholePath, file: Path, prefix: str) -> dict:
-    """The sections of a case that are about knobs, of those that its kind has; every setting is below the reference."""
+def read_knobs(settings: dict, kind: SingleLoads | WholePath, file: Path, prefix: str) -> dict:
+    """Return the sections of a case about the knobs of its kind; every setting is coarser than the reference."""
 
     def knobs(section: object, keys: dict[str, Key], key: str) -> dict:
         """A section with a value, or values, for each knob."""
-        for name in set(kind.without) & set(section if isinstance(section, dict) else ()):
-            raise InputError(f"{key}.{name}", section[name], kind.without[name], file)
+        for name in set(kind.unused_keys) & set(section if isinstance(section, dict) else ()):
+            raise InputError(f"{key}.{name}", section[name], kind.unused_keys[name], file)
         return read(section, {name: keys[name] for name in kind.knobs}, file, key)
 
     found = {part: knobs(settings[part], SETTING_KEYS, f"{prefix}.{part}") for part in ("settled", "reference")}
@@ -204,8 +203,8 @@ def read_turned(settings: dict, kind: SingleLoads | WholePath, file: Path, prefi
     return found
 
 
-def solutions(data: xr.Dataset) -> xr.Dataset:
-    """Loads as they are; of paths what each amounts to, all its transforms, and its first status that is a failure."""
+def summarise_solutions(data: xr.Dataset) -> xr.Dataset:
+    """Return loads as they are, and paths as their summaries with all transforms and the first failed status."""
     form = form_of(data)
     found = form.derive(data)
     if not form.is_path:

@@ -44,7 +44,7 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
 
     Parameters
     ----------
-    plan : of `contactsim.evaluation.work_precision.case_config.figure_settings`
+    plan : of `contactsim.evaluation.work_precision.case_config.case_figure_job`
     files : data and costs, the jobs' files in the order of the plan; study and study_costs, of the study
     targets : png, pdf, csv, and equal_error for the comparison at equal error
     """
@@ -52,7 +52,7 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
     data = {job: dataset.load_dataset(path) for job, path in zip(jobs, files["data"], strict=True)}
     costs = {job: json.loads(Path(path).read_text()) for job, path in zip(jobs, files["costs"], strict=True)}
     study = dataset.load_dataset(files["study"]).sel(plan["selection"])
-    table = error_cost.table(settings, data, study, plan["default"])
+    table = error_cost.error_table(settings, data, study, plan["default"])
     seconds = {job: cost["seconds"] for job, cost in costs.items() if job != REFERENCE}
     member = seconds_of_member(pd.read_csv(files["study_costs"]), plan["selection"] | plan["loads"])
     table = table.assign(seconds=seconds_of_rows(table, seconds, member))
@@ -61,7 +61,7 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
     layout = settings | {"panels": columns}
     widths = [1.0] * (columns - 1) + [LAST_COLUMN]
     figure, panels = empty_figure(layout, footer_text(table, plan), rows=2, widths=widths)
-    equal = error_cost.compared(table, quantity, settings["levels"], COSTS)
+    equal = error_cost.compare_solvers(table, quantity, settings["levels"], COSTS)
     plot_accuracy(table, equal, data[plan["default"]], np.reshape(panels, (2, columns)), plan)
     save(figure, table, targets)
     write_atomically(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
@@ -72,7 +72,7 @@ def with_forecast(table: pd.DataFrame, forecasts: Sequence[Sequence[str]], trans
 
     Parameters
     ----------
-    table : of `contactsim.evaluation.work_precision.error_cost.table`
+    table : of `contactsim.evaluation.work_precision.error_cost.error_table`
     forecasts : work and units of time of each setting of the study's own solver, in their order
     transform_seconds : unit of time on the machine that measured the seconds
     """
@@ -120,7 +120,7 @@ def plot_accuracy(
     Parameters
     ----------
     table : one row a setting, with work, seconds and their forecasts
-    equal : of `contactsim.evaluation.work_precision.error_cost.compared`
+    equal : of `contactsim.evaluation.work_precision.error_cost.compare_solvers`
     values : dataset of the study's own solver
     axes : (2, varied knobs + 1)
     plan : as of `write_accuracy`; the error of its first quantity is plotted
@@ -188,7 +188,9 @@ def _write_comparison(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> N
     """Write the observed orders, and a table of the cost at equal error over that of the study's own solver."""
     axes.axis("off")
     grids = table[(table.knob == "points") & table.own]
-    orders = [f"{symbol} {error_cost.order(grids, name):.2f}" for name, symbol in SYMBOLS.items() if name in table]
+    orders = [
+        f"{symbol} {error_cost.convergence_order(grids, name):.2f}" for name, symbol in SYMBOLS.items() if name in table
+    ]
     text = f"{wrapped_list('Observed order in grid points: ', orders)}\n\n"
     text += f"Cost at equal error over that of {own_solver(table)},\nin transforms × points (in seconds)"
     axes.text(0, 1, text, fontsize=7, va="top", linespacing=1.3)

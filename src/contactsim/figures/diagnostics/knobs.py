@@ -48,7 +48,7 @@ def names_by_value(marks: Mapping[str, Mapping[str, float]], knob: str) -> dict[
 
 def marked_rows(table: pd.DataFrame, quantity: str, knob: str, value: float) -> pd.DataFrame:
     """Return the settings of the study's own solver at a value of a knob whose error is known."""
-    good = error_cost.met(table, quantity)
+    good = error_cost.converged_rows(table, quantity)
     return good[(good.knob == knob) & good.own & np.isclose(good[knob], value, rtol=1e-9)]
 
 
@@ -58,7 +58,7 @@ def plot_knob(axes: Axes, part: pd.DataFrame, quantity: str, cost: str, names: M
     Parameters
     ----------
     axes : to plot on
-    part : settings of the knob, of `contactsim.evaluation.work_precision.error_cost.table`
+    part : settings of the knob, of `contactsim.evaluation.work_precision.error_cost.error_table`
     quantity : whose error is plotted; an error of zero or infinity stands in a margin
     cost : column of the cost
     names : of the rings, by value of the knob
@@ -102,7 +102,7 @@ def _with_places(axes: Axes, part: pd.DataFrame, quantity: str) -> pd.DataFrame:
 def _plot_solver(axes: Axes, curve: pd.DataFrame, quantity: str, cost: str, kind: str) -> None:
     """Plot the curve of a solver; settings without error stand beside it, failed ones are crosses."""
     marker, colour = SOLVER_LOOKS.get(kind, OTHER_LOOK)
-    good = curve.index.isin(error_cost.met(curve, quantity).index)
+    good = curve.index.isin(error_cost.converged_rows(curve, quantity).index)
     on_curve = good & (curve[quantity] > ROUNDING)
     look = {"marker": marker, "color": colour, "markersize": 4, "linewidth": 1.0, "markerfacecolor": "white"}
     axes.plot(curve["at"][on_curve], curve[cost][on_curve], label=style.solver_name(kind), **look)
@@ -113,7 +113,7 @@ def _plot_solver(axes: Axes, curve: pd.DataFrame, quantity: str, cost: str, kind
 def _plot_least_cost(axes: Axes, part: pd.DataFrame, quantity: str, cost: str) -> None:
     """Plot the least cost at which an error is met by any of several solvers."""
     if len(part.solver.unique()) > 1:
-        front = error_cost.front(part, quantity, cost)
+        front = error_cost.pareto_front(part, quantity, cost)
         look: dict[str, Any] = {"color": "#bbbbbb", "lw": 4, "alpha": 0.5, "zorder": 0.5, "label": "least cost"}
         axes.step(front["at"], front[cost], where="pre", **look)
 

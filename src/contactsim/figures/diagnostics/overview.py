@@ -53,7 +53,7 @@ def write_overview(plan: Mapping[str, Any], paths: Sequence[str], targets: Mappi
 
 def plot_case(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
     """Plot seconds against the error of a quantity: for each solver a curve of grids and one of tolerances."""
-    good = error_cost.met(table, quantity)
+    good = error_cost.converged_rows(table, quantity)
     for kind, rows in good.groupby("solver", sort=False):
         marker, colour = SOLVER_LOOKS.get(str(kind), OTHER_LOOK)
         width = 1.8 if rows.own.any() else 1.0
