@@ -17,7 +17,8 @@ from contactsim.observables.adhesion import state_observables
 from contactsim.paths.increments import Requested
 from contactsim.paths.state import PathState
 from contactsim.solvers.registry import make_solver
-from contactsim.surfaces.shapes import Cylinder, Flat, Surface
+from contactsim.surfaces.base import Surface
+from contactsim.surfaces.shapes import Cylinder, Flat
 
 LENGTH, RADIUS = 10000.0, 25000.0
 LAYER = Layer(70.0 / (1 - 0.3**2), 0.3, 5000.0)

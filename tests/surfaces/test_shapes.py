@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,7 @@ from contactsim.surfaces.measured import Measured, Sampled
 from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
-from contactsim.surfaces.statistics import rms_gradient, rms_height, spectrum
+from contactsim.surfaces.statistics import rms_gradient, rms_height
 
 THESIS = {"length": 160000.0, "long_cutoff": 20000.0, "short_cutoff": 39.0625, "rms_gradient": 1e-3}
 
@@ -72,13 +74,15 @@ def test_a_shorter_cut_off_keeps_the_numbers_of_the_longer_waves():
     assert np.allclose(ratio, ratio[0], rtol=1e-12)  # one common factor, from the scaling of the gradient
 
 
+def power_spectrum(heights):
+    return np.abs(np.fft.rfft(heights)) ** 2
+
+
 @pytest.mark.parametrize("hurst_exponent", [0.2, 0.8])
 def test_the_spectrum_has_the_exponents_of_eq_3_10(hurst_exponent):
     density = np.mean(
         [
-            spectrum(self_affine(hurst_exponent, seed=(1, member), amplitudes="fixed").heights(16384), 160000.0)[1][
-                :4095
-            ]
+            power_spectrum(self_affine(hurst_exponent, seed=(1, member), amplitudes="fixed").heights(16384))[1:4096]
             for member in range(4)
         ],
         axis=0,
@@ -160,3 +164,19 @@ def test_a_measured_profile_is_detrended_and_made_periodic_by_the_named_options(
     mirrored = Measured(str(tmp_path / "profile.npy"), "mean", "mirror", 2.0)
     assert mirrored.points == 6
     assert mirrored.heights(6) == pytest.approx([-2, 0, -1, 3, -1, 0])
+
+
+def test_without_cut_offs_the_long_one_is_the_period_and_the_short_one_a_512th():
+    surface = SelfAffine(length=1e4, hurst_exponent=0.8, rms_gradient=0.1, seed=1)
+    assert (surface.long_cutoff, surface.short_cutoff) == (1e4, 1e4 / 512)
+    assert surface.modes == 511
+
+
+def test_the_text_of_a_rough_surface_is_one_line_and_tells_all_that_differ_apart():
+    surface = SelfAffine(length=1e4, hurst_exponent=0.8, rms_gradient=0.1, seed=1)
+    assert repr(surface) == (
+        "SelfAffine(length=10000.0, hurst_exponent=0.8, long_cutoff=10000.0, short_cutoff=19.53125, "
+        "rms_gradient=0.1, seed=1)"
+    )
+    changes = {"seed": 2, "amplitudes": "fixed", "dimensions": 2, "low_pass_cutoff": 40.0, "rms_gradient": 0.1 + 1e-15}
+    assert len({repr(replace(surface, **{key: value})) for key, value in changes.items()} | {repr(surface)}) == 6

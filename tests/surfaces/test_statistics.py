@@ -3,8 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.errors import InputError
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_pairs, rms_height, spectrum
+from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_pairs, rms_height
 
 
 def wave(points, mode=3):
@@ -50,15 +49,3 @@ def test_no_points_give_nan():
         rms_curvature(np.ones(4), 1.0, nowhere),
     ):
         assert np.isnan(value)
-
-
-@pytest.mark.parametrize("points", [63, 64])
-def test_the_spectrum_integrates_to_the_variance(points):
-    heights = np.random.default_rng(0).normal(size=points)
-    q, density = spectrum(heights, 7.0)
-    assert 2 * np.sum(density) * q[0] == pytest.approx(np.var(heights), rel=1e-12)
-
-
-def test_the_spectrum_of_a_surface_is_refused():
-    with pytest.raises(InputError, match="one dimension"):
-        spectrum(np.zeros((4, 4)), 1.0)

@@ -20,7 +20,8 @@ from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, is_coupled
 from contactsim.interface.pairing import ALIGNED, Pairing
-from contactsim.surfaces.shapes import Flat, Surface
+from contactsim.surfaces.base import Surface
+from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 
 

@@ -223,7 +223,9 @@ def keys_of(kind: type) -> Mapping[str, Key]:
     for entry in dataclasses.fields(kind):
         if entry.init and hints[entry.name] in _TYPES:
             convert, allowed = _TYPES[hints[entry.name]]
-            default = REQUIRED if entry.default is dataclasses.MISSING else entry.default
+            # A number with the default None is computed from others in Python; a file must give it.
+            required = entry.default is dataclasses.MISSING or (hints[entry.name] is float and entry.default is None)
+            default = REQUIRED if required else entry.default
             keys[entry.name] = Key(convert, allowed, default)
     return MappingProxyType(keys)
 

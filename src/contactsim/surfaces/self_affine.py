@@ -11,16 +11,19 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
-from contactsim.surfaces.shapes import Smooth, check_dimensions, check_length
+from contactsim.surfaces.base import Smooth, check_dimensions, check_length
 
 AMPLITUDES = ("gaussian", "fixed")
+CUTOFF_RATIO = 512
+"""Long over short cut-off where none is chosen: that of the thesis's rough lines."""
 
 
 def realisation_seed(seed: int, *labels: object) -> tuple[int, ...]:
@@ -42,21 +45,40 @@ def _label_word(label: object) -> int:
     return int.from_bytes(hashlib.sha256(json.dumps(label).encode()).digest()[:8], "big")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SelfAffine(Smooth):
-    """Random heights with the spectrum of Eq. 3.10: flat to the roll-off, a power law to the shortest wavelength.
+    """Random heights with a self-affine power spectrum (Eq. 3.10): flat at long waves, a power law at short ones.
 
-    The power falls as q^-(d+2H): -(1+2H) along a line, -2(1+H) over a surface, which is isotropic. length,
-    long_cutoff, short_cutoff: nm; rms_gradient or rms_height (nm): scaled to this exactly, the gradient
-    over a surface being the root of the mean of both squared slopes added; seed: of the random modes, two numbers each,
-    longest waves first; amplitudes: "gaussian" or "fixed" (random phases alone); low_pass_cutoff: waves shorter than
-    this are then left out, nm.
+    The power falls with the wavenumber as q^-(1+2H) along a line and as q^-2(1+H) over an isotropic surface.
+
+    Parameters
+    ----------
+    length : float
+        Period in each direction, in nm.
+    hurst_exponent : float
+        Hurst exponent H, from 0 to 1.
+    long_cutoff : float, optional
+        Roll-off wavelength in nm: the spectrum is flat above it. Default: `length`.
+    short_cutoff : float, optional
+        Wavelength in nm at and below which there are no waves. Default: `long_cutoff` / 512, the thesis's ratio.
+    rms_gradient : float, optional
+        Rms gradient to which the heights are scaled exactly; over a surface the mean squares of both slopes are added.
+    rms_height : float, optional
+        Rms height to which they are scaled instead, in nm. Exactly one of the two is needed.
+    amplitudes : {"gaussian", "fixed"}
+        Gaussian amplitudes, or random phases alone.
+    dimensions : int
+        1 for a line, 2 for a surface.
+    low_pass_cutoff : float, optional
+        Wavelength in nm below which waves are left out after the scaling.
+    seed : int or tuple of int
+        Seed of the random numbers. The numbers of a wave do not depend on the grid nor on the short cut-off.
     """
 
     length: float
     hurst_exponent: float
-    long_cutoff: float
-    short_cutoff: float
+    long_cutoff: float = cast("float", None)  # `length` or a number once the surface is made
+    short_cutoff: float = cast("float", None)
     rms_gradient: float | None = None
     rms_height: float | None = None
     amplitudes: str = "gaussian"
@@ -66,13 +88,17 @@ class SelfAffine(Smooth):
 
     def __post_init__(self) -> None:
         check_length(self.length)
+        if self.long_cutoff is None:
+            object.__setattr__(self, "long_cutoff", self.length)
+        if self.short_cutoff is None:
+            object.__setattr__(self, "short_cutoff", self.long_cutoff / CUTOFF_RATIO)
         check_dimensions(self.dimensions)
         if not 0 <= self.hurst_exponent <= 1:
             raise InputError("hurst_exponent", self.hurst_exponent, "a number from 0 to 1")
         if not 0 < self.long_cutoff <= self.length:
             raise InputError("long_cutoff", self.long_cutoff, f"above 0 nm, at most {self.length} nm")
         if not 0 < self.short_cutoff < self.long_cutoff:
-            allowed = f"above 0 nm, below the roll-off wavelength {self.long_cutoff} nm"
+            allowed = f"above 0 nm, below the long cut-off {self.long_cutoff} nm"
             raise InputError("short_cutoff", self.short_cutoff, allowed)
         if (self.rms_gradient is None) == (self.rms_height is None):
             given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
@@ -82,15 +108,21 @@ class SelfAffine(Smooth):
             if value is not None and not (np.isfinite(value) and value > 0):
                 raise InputError(name, value, f"a positive, finite number{unit}")
         if self.low_pass_cutoff is not None and not self.short_cutoff < self.low_pass_cutoff < self.long_cutoff:
-            ends = f"above the shortest wavelength {self.short_cutoff} nm, below the roll-off wavelength"
+            ends = f"above the short cut-off {self.short_cutoff} nm, below the long cut-off"
             allowed = f"{ends} {self.long_cutoff} nm, or left out"
             raise InputError("low_pass_cutoff", self.low_pass_cutoff, allowed)
         if self.amplitudes not in AMPLITUDES:
             raise InputError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
 
+    def __repr__(self) -> str:
+        """Return the exact fields that differ from their defaults: equal texts mean equal surfaces."""
+        values = ((entry, getattr(self, entry.name)) for entry in fields(self))
+        chosen = [f"{entry.name}={value!r}" for entry, value in values if value != entry.default]
+        return f"SelfAffine({', '.join(chosen)})"
+
     @property
     def modes(self) -> int:
-        """Most waves in the period along any direction: their wavelength is strictly above the shortest (Eq. 3.10).
+        """Highest number of waves in the period along any direction, their wavelength above the cut-off (Eq. 3.10).
 
         In two dimensions the waves with |k| up to `modes` are kept, all others are zero. That is the disc of the
         highest mode along the axes, so oblique waves between its wavelength and the shortest are left out.
@@ -99,7 +131,7 @@ class SelfAffine(Smooth):
 
     @property
     def effective_short_cutoff(self) -> float:
-        """Wavelength above which there are waves, nm."""
+        """Wavelength above which there are waves, after the low-pass filter, nm."""
         return max(self.short_cutoff, self.low_pass_cutoff or 0.0)
 
     @cached_property
@@ -109,16 +141,16 @@ class SelfAffine(Smooth):
         Shape (modes + 1,) or (2 modes + 1, modes + 1), in the order of a real transform; those of q = 0 are zero.
         """
         if self.low_pass_cutoff is None:
-            return self._drawn(self.modes)
+            return self._draw_coefficients(self.modes)
         modes = self.modes
-        half = self._drawn(_waves(self.length, self.short_cutoff))[..., : modes + 1]
+        half = self._draw_coefficients(_waves(self.length, self.short_cutoff))[..., : modes + 1]
         if self.dimensions == 2:
             half = np.concatenate((half[: modes + 1], half[half.shape[0] - modes :]))
         *y, x = self._mode_numbers(modes)
         return half * (self._wavenumber(*y, x) <= 2 * np.pi / self.length * modes * (1 + 1e-12))
 
-    def _drawn(self, modes: int) -> Array:
-        """Coefficients of all waves up to `modes`, of the size that is asked for; the same each time."""
+    def _draw_coefficients(self, modes: int) -> Array:
+        """Return the coefficients of all waves up to `modes`, scaled to the rms gradient or height."""
         *y, x = self._mode_numbers(modes)
         q = self._wavenumber(*y, x)
         drawn = (x > 0) | sum((k > 0 for k in y), np.zeros(x.shape, bool))  # the others are conjugates, or the mean
@@ -142,24 +174,24 @@ class SelfAffine(Smooth):
         return half * (self.rms_height / _rms(half))
 
     def _mode_numbers(self, modes: int) -> list[Array]:
-        """Whole numbers of waves in the period for each coefficient, along y first."""
+        """Return the number of waves in the period of each coefficient, along y first."""
         along = np.arange(modes + 1)
         across = [np.concatenate((along, -along[:0:-1]))] * (self.dimensions - 1)
         return list(np.meshgrid(*across, along, indexing="ij"))
 
     def _wavenumber(self, *numbers: Array) -> Array:
-        """|q| (rad/nm) of modes."""
+        """Return the wavenumber |q| (rad/nm) of modes."""
         return 2 * np.pi / self.length * np.sqrt(sum(k**2.0 for k in reversed(numbers)))
 
     @property
     def profile_rms_gradient(self) -> float:
-        """Rms gradient of this very profile: the one asked for, or what follows from its rms height."""
+        """Rms gradient of these heights: the prescribed one, or the one that follows from the rms height or filter."""
         if self.rms_gradient is not None and self.low_pass_cutoff is None:
             return self.rms_gradient
         return _rms(self.coefficients, self._wavenumber(*self._mode_numbers(self.modes)))
 
     def heights(self, points: int) -> Array:
-        """Heights with zero mean, shape (points,) or (points, points), nm."""
+        """Return heights of zero mean in nm, shape (points,) or (points, points)."""
         self.check(points)
         grid = Grid((points,) * self.dimensions, self.lengths)
         half = np.zeros(grid.half_shape, complex)
@@ -168,12 +200,12 @@ class SelfAffine(Smooth):
 
 
 def _waves(length: float, cutoff: float) -> int:
-    """Most waves in a period whose wavelength is strictly above the cutoff."""
+    """Return the highest number of waves in a period with a wavelength strictly above the cut-off."""
     return int(np.ceil(length / cutoff * (1 - 1e-12))) - 1
 
 
 def _rms(half: Array, factor: Array | float = 1.0) -> float:
-    """Root of the mean square of a real field, each wave times a factor, from its half-complex coefficients."""
+    """Return the rms of a real field, each wave times a factor, from its half-complex coefficients."""
     twice = np.full(half.shape[-1], 2.0)
     twice[0] = 1.0
     return float(np.sqrt(np.sum(twice * factor**2 * np.abs(half) ** 2)))

@@ -1,6 +1,6 @@
 """Statistics of height profiles, over all of a surface or over the part in contact.
 
-Root-mean-square height, gradient and curvature by finite differences on the periodic grid, and the power spectrum.
+Root-mean-square height, gradient and curvature by finite differences on the periodic grid.
 Eq. 3.8 gives a contact point the mean of its two squared slopes, one of which leads out of the contact at an edge of
 a patch: the statistic then depends on the grid. `rms_gradient_pairs` counts only the slopes between two points that
 are both in contact; in the limit of a fine grid the two agree, on real grids the second is there already.
@@ -12,8 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from contactsim.errors import InputError
-from contactsim.grid import Array, Grid, blocks
+from contactsim.grid import Array, blocks
 
 
 def rms_height(heights: Array, where: Array | None = None) -> float:
@@ -103,18 +102,3 @@ def rms_curvature(heights: Array, spacing: float | Sequence[float], where: Array
         total += np.sum(picked**2)
         count += picked.size
     return float(np.sqrt(total / count)) if count else float("nan")
-
-
-def spectrum(heights: Array, length: float) -> tuple[Array, Array]:
-    """Two-sided power spectral density C(q) of a periodic profile, so that ∫C dq over all q is the variance.
-
-    heights: (n,), nm; length: period, nm. Returns q > 0 (rad/nm) and C (nm³), each of shape (n // 2,). At the Nyquist
-    wavenumber of an even grid the coefficient holds both signs of q and is halved.
-    """
-    if np.ndim(heights) != 1:
-        raise InputError("heights", heights, "one dimension")
-    grid = Grid((len(heights),), (length,))
-    power = np.abs(grid.forward(np.ascontiguousarray(heights, float))) ** 2 * length / (2 * np.pi)
-    if len(heights) % 2 == 0:
-        power[-1] /= 2
-    return grid.wavenumber[1:], power[1:]
