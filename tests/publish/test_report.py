@@ -14,27 +14,16 @@ import pytest
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.claims import CONDITION, NOT_REPRODUCED
 from contactsim.analysis.wording import rounded_texts
 from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.publish import report
 from contactsim.publish.gallery import VERDICTS
-from contactsim.publish.rulegraph import HEIGHT, WIDTH, drawn
 from contactsim.study.plan import Plan
 from support.places import ROOT
 
 pytestmark = pytest.mark.slow
 
-DOT = """
-0[label = "all", color = "0.02 0.6 0.85", style="rounded"];
-1[label = "fig_3_1", color = "0.06 0.6 0.85"];
-2[label = "fig_4_7", color = "0.06 0.6 0.85"];
-3[label = "run", color = "0.06 0.6 0.85"];
-1 -> 0
-2 -> 0
-3 -> 1
-3 -> 2
-"""
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 QUIET = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
 --disable-component-update --disable-sync --hide-scrollbars --virtual-time-budget=20000""".split()
@@ -90,13 +79,12 @@ def page(made, plan):
     """The page of the quick tier, with a stand-in for the map of stability."""
     folder = made / plan.results
     Image.fromarray(np.arange(40000, dtype=np.uint8).reshape(100, 400)).save(folder / "figures/stability.png")
-    return report.render(report.found(plan, json.loads(json.dumps(asked(plan))), folder), DOT)
+    return report.page_text(report.collect_results(plan, json.loads(json.dumps(report_settings(plan))), folder))
 
 
-def asked(plan, rules="rule all:"):
-    return report.settings(
-        plan, {"stability": {"stability": read_robustness(ROOT / "config", plan)}, "effects": {}}, rules
-    )
+def report_settings(plan):
+    others = {"stability": {"stability": read_robustness(ROOT / "config", plan)}, "effects": {}}
+    return report.report_settings(plan, others)
 
 
 @pytest.fixture(scope="module")
@@ -159,10 +147,9 @@ def test_the_page_needs_nothing_but_itself_and_its_links_lead_somewhere(page):
     assert {one[1:] for one in used if one.startswith("#")} <= set(places)
 
 
-def test_other_settings_and_other_rules_have_another_digest(plan):
-    assert asked(plan) == asked(plan)
-    assert asked(Plan.read(ROOT / "config", "standard"))["data"] != asked(plan)["data"]
-    assert asked(plan, "rule other:")["source"] != asked(plan)["source"]
+def test_other_settings_have_another_digest(plan):
+    assert report_settings(plan) == report_settings(plan)
+    assert report_settings(Plan.read(ROOT / "config", "standard"))["data"] != report_settings(plan)["data"]
 
 
 @pytest.mark.skipif(BROWSER is None, reason="needs Chromium")
@@ -191,24 +178,7 @@ def test_a_browser_shows_all_of_it_without_errors_or_requests(page, every, tmp_p
     assert {url for url in urls if not OWN.search(url)} <= {"file://"}
 
 
-def test_no_line_of_the_graph_of_rules_passes_behind_a_box():
-    names = "abcdz"
-    needs = ("ab", "bc", "cz", "ad", "dz")
-    nodes = "".join(f'{count}[label = "{name}", color]\n' for count, name in enumerate(names))
-    edges = "".join(f"{names.index(one)} -> {names.index(two)}\n" for one, two in needs)
-    found = str(drawn(nodes + edges, {}))
-    boxes = {(int(x), int(y) + HEIGHT // 2) for x, y in re.findall(r'<rect x="(\d+)" y="(\d+)"', found)}
-    through = [(int(x) - WIDTH, int(y)) for x, y in re.findall(r"L(\d+) (\d+)", found)]
-    assert len(boxes) == 5
-    assert len(through) == 1, "the line from a to d passes the column of b"
-    assert not boxes & {*through}
-    assert {x for x, _ in through} <= {x for x, _ in boxes}
-
-
-def test_the_graph_of_rules_puts_what_is_needed_to_the_left_and_joins_figures():
-    found = str(drawn(DOT, {"fig_3_1": "figures", "fig_4_7": "figures"}))
-    places = {name: int(x) for x, name in re.findall(r'<text x="(\d+)"[^>]*>(\w+)</text>', found)}
-    assert places.keys() == {"run", "figures", "all"}
-    assert places["run"] < places["figures"] < places["all"]
-    assert found.count("<path") == 2
-    assert REPRODUCED not in found
+def test_the_picture_of_the_stages_is_part_of_the_page(page):
+    part = page[page.index("<h3>Stages</h3>") :]
+    stages = re.findall(r'font-weight="600">([^<]+)</text>', part)
+    assert {"config", "runs", "datasets", "figures", "claims", "report"} <= {*stages}

@@ -56,12 +56,10 @@ class Pages:
         return self.products.study_files() + pictures + self.products.all_claims()
 
     def report_params(self, wildcards: Wildcards) -> str:
-        """Return what the report depends on beside its files; it draws the rules, so on their text too."""
+        """Return what the report depends on beside its files."""
         from contactsim.publish import report
 
-        rules = sorted(self.products.config.parent.glob("workflow/rules/*.smk"))
-        texts = "".join(file.read_text(encoding="utf-8") for file in rules)
-        return canonical(report.settings(self.products.plan, self.products.evaluation_figures, texts))
+        return canonical(report.report_settings(self.products.plan, self.products.evaluation_figures))
 
     def gallery_params(self, wildcards: Wildcards) -> str:
         """Return what the gallery depends on beside its files."""

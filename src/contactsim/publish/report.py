@@ -1,7 +1,7 @@
-"""All that a tier found, on one page that needs nothing else: verdicts first, then figures, prices, hazards, effects.
+"""Report of a tier on one HTML page: verdicts, figures, accuracy versus cost, robustness and effects.
 
-The page is a template filled with what lies in the results: statements with their verdicts, pictures, what the datasets
-say of their grids and errors, what their runs cost. Pictures are part of the file: it can be sent and opened anywhere.
+A template is filled with the results: claims with their verdicts, pictures, grids and errors of the datasets, and costs
+of the runs. Pictures are part of the file, so it can be sent and opened anywhere.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 import xarray as xr
+from markupsafe import Markup
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -27,11 +28,10 @@ from contactsim.figures.sketch import sketch
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, Entry, duration, named_in
-from contactsim.publish.rulegraph import drawn
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import build_setup
 
-TEMPLATE = Path(__file__).with_name("report.html")
+TEMPLATE, STAGES = Path(__file__).with_name("report.html"), Path(__file__).with_name("stages.svg")
 SKETCH = (4.6, 2.9), 160
 """Size in inches and dots an inch of a sketch."""
 COLOURS, FINE = 256, 2
@@ -73,14 +73,15 @@ class Solved:
     sketch: Picture
 
 
-def settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]], rules: str) -> dict:
-    """What the page depends on, beside the files that it is made of.
+def report_settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]]) -> dict:
+    """Return what the page depends on, beside the files that it shows.
 
-    others: by group and name, all other figures; rules: the text of the workflow's rules.
+    others: settings of the figures that belong to no chapter, by group and name
     """
     data = [gallery.settings(plan, {}), {study: plan.study_settings(study) for study in plan.studies}]
     shown = {group: {name: _titled(one) for name, one in figures.items()} for group, figures in others.items()}
-    source = digest(source_digest("contactsim.publish.report"), TEMPLATE.read_text(encoding="utf-8"), rules)
+    texts = [file.read_text(encoding="utf-8") for file in (TEMPLATE, STAGES)]
+    source = digest(source_digest("contactsim.publish.report"), *texts)
     made = {"tier": plan.tier, "others": shown, "order": list(shown), "data": digest(data), "source": source}
     used = {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas")}
     return made | {"versions": {"Python": platform.python_version()} | versions() | used}
@@ -90,10 +91,14 @@ def _titled(settings: Mapping) -> dict[str, str]:
     return {key: settings[key] for key in ("title", "caption")}
 
 
-def found(plan: Plan, settings: Mapping, folder: Path) -> dict:
-    """All that the page shows, but for the rules.
+def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
+    """Return all that the page shows.
 
-    settings: from the function of that name; folder: of the tier's results.
+    Parameters
+    ----------
+    plan : of the tier
+    settings : of `report_settings`
+    folder : of the tier's results
     """
     every = gallery.verdicts(folder, list(plan.claims))
     return {
@@ -107,16 +112,15 @@ def found(plan: Plan, settings: Mapping, folder: Path) -> dict:
         "studies": {name: _study(plan, folder, name) for name in plan.studies},
         "own": {_chapter(chapter): _studies_of(plan, chapter) for chapter in plan.chapters.values()},
         "others": _others(settings, folder),
-        "together": {name: _chapter(figure.chapter) for name, figure in plan.figures.items()},
         "versions": settings["versions"],
     }
 
 
-def render(shown: Mapping, rules: str) -> str:
-    """The page as HTML; shown: from `found`; rules: the graph of rules as dot."""
+def page_text(results: Mapping) -> str:
+    """Return the page as HTML; results: of `collect_results`."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     page = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
-    return page.render(shown, rules=drawn(rules, shown["together"]))
+    return page.render(results, stages=Markup(STAGES.read_text(encoding="utf-8")))
 
 
 def _chapter(name: str) -> str:

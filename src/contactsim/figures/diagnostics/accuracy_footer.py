@@ -53,7 +53,7 @@ def _value_text(plan: Mapping[str, Any], knob: str, values: Mapping[str, float])
     value = values[knob]
     if knob == "points":
         return f"{value} × {value} points" if plan["surface"] else f"{value} points"
-    return f"{knob} {value:g}{_unit_text(plan, knob)}"
+    return f"{KNOB_NAMES[knob]} {value:g}{_unit_text(plan, knob)}"
 
 
 def _unit_text(plan: Mapping[str, Any], knob: str) -> str:
