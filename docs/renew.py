@@ -1,4 +1,4 @@
-"""Put gallery, verdicts and pictures of the standard tier into docs/ and README.md; `make gallery` before."""
+"""Put gallery and pictures of the standard tier into docs/, its verdicts into README.md; `make gallery` before."""
 
 import re
 import shutil
@@ -24,6 +24,5 @@ for name in PICTURES:
 shutil.copyfile(RESULTS / "figures/trials.csv", DOCS / "trials.csv")
 readme = DOCS.parent / "README.md"
 text = readme.read_text(encoding="utf-8")
-text = between(text, "gallery", (DOCS / "gallery/gallery.md").read_text(encoding="utf-8"))
 text = between(text, "verdicts", (DOCS / "gallery/counts.md").read_text(encoding="utf-8"))
 readme.write_text(text, encoding="utf-8")

@@ -1,7 +1,7 @@
-"""`contactsim explain | run | cost | compare`: one scene from the shell; two tiers side by side.
+"""`contactsim explain | run | estimate | compare`: one scene from the shell; two tiers side by side.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
-`full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `cost` take the name of a study in
+`full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a study in
 ./config; without either, `cost` estimates every figure there. `compare` reads the CSV files of figures in the results.
 """
 
@@ -177,7 +177,7 @@ def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     return controlled.data, updated_settings(settings, controlled.last.setup)
 
 
-def cost_scene(options: argparse.Namespace) -> None:
+def estimate_cost(options: argparse.Namespace) -> None:
     """Print what a scene, each run of a study or every figure is expected to cost, as it is or to an accuracy."""
     if options.scene is None:
         if options.accuracy is not None:
@@ -257,11 +257,11 @@ def main(arguments: list[str] | None = None) -> None:
     threads = "of the transforms, default 1; results are the same bit for bit at one number of threads"
     running.add_argument("--threads", type=int, default=1, help=threads)
     running.set_defaults(call=run_scene)
-    costing = commands.add_parser("cost", help="what it is expected to cost, before anything runs")
+    costing = commands.add_parser("estimate", help="expected cost and error, before anything runs")
     costing.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; without it, all figures")
     costing.add_argument("--tier", help="tier of the study or figures")
     costing.add_argument("--accuracy", type=float, help="relative error for which grid and increments are chosen")
-    costing.set_defaults(call=cost_scene)
+    costing.set_defaults(call=estimate_cost)
     comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
     comparing.add_argument("first", help="a tier, such as quick")
     comparing.add_argument("second", help="the tier that differences are relative to")

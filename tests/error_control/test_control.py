@@ -307,7 +307,7 @@ def test_a_forecast_tells_what_it_does_not_know():
 def test_the_shell_tells_the_cost_of_a_scene_and_runs_it_to_its_accuracy(tmp_path, capsys):
     file = tmp_path / "scene.yaml"
     file.write_text(yaml.safe_dump(LINE_SCENE))
-    cli.main(["cost", str(file)])
+    cli.main(["estimate", str(file)])
     out = capsys.readouterr().out
     assert "a coarser run before included" in out
     assert "relative_contact_area_subgrid" in out
@@ -316,12 +316,12 @@ def test_the_shell_tells_the_cost_of_a_scene_and_runs_it_to_its_accuracy(tmp_pat
     assert dataset.load_dataset(tmp_path / "scene.nc").accuracy_reached == 1
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}
     file.write_text(yaml.safe_dump(plain | {"points": 1024, "tolerance": 1e-3}))
-    cli.main(["cost", str(file)])
+    cli.main(["estimate", str(file)])
     assert "1024 points" in capsys.readouterr().out
-    cli.main(["cost", str(file), "--accuracy", "0.01"])
+    cli.main(["estimate", str(file), "--accuracy", "0.01"])
     assert "1024 points" not in capsys.readouterr().out
     with pytest.raises(SystemExit, match="accuracy"):
-        cli.main(["cost", str(file), "--accuracy", "2"])
+        cli.main(["estimate", str(file), "--accuracy", "2"])
 
 
 def test_what_lies_ahead_is_told_with_what_is_not_known(tmp_path):

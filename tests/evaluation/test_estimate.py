@@ -82,11 +82,11 @@ def test_what_a_run_of_the_same_settings_took_at_another_tier_counts_where_nothi
 
 def test_the_shell_tells_the_cost_of_every_figure(monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
-    cli.main(["cost", "--tier", "quick"])
+    cli.main(["estimate", "--tier", "quick"])
     told = capsys.readouterr().out
     assert all(f"{name}  " in told for name in Plan.read("config", "quick").figures)
     with pytest.raises(SystemExit, match="--accuracy"):
-        cli.main(["cost", "--tier", "quick", "--accuracy", "0.1"])
+        cli.main(["estimate", "--tier", "quick", "--accuracy", "0.1"])
 
 
 def test_a_run_asks_for_more_than_is_forecast_and_for_as_much_again_with_each_attempt(plan, tmp_path):

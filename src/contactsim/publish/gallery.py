@@ -94,12 +94,12 @@ def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, st
     return pd.DataFrame(rows)
 
 
-def markdown(rows: pd.DataFrame, pictures: str) -> str:
-    """The gallery as it stands in the README: pictures side by side, below each its verdicts, errors and run time.
+def gallery_page(rows: pd.DataFrame) -> str:
+    """Return the gallery as Markdown: pictures side by side, below each its verdicts, errors and run time.
 
-    rows: from `table`; pictures: the folder of the small pictures, from the README.
+    rows: from `table`; the small pictures lie beside the page.
     """
-    cells = [_cell(row, pictures) for row in rows.to_dict("records")]
+    cells = [_cell(row) for row in rows.to_dict("records")]
     lines = [cells[place : place + ACROSS] for place in range(0, len(cells), ACROSS)]
     return "\n".join(["<table>", *(f"<tr>{''.join(line)}</tr>" for line in lines), "</table>"]) + "\n"
 
@@ -145,15 +145,16 @@ def _statement(row: Mapping) -> str:
     return f"| {' | '.join(cells)} |"
 
 
-def _cell(row: Mapping, pictures: str) -> str:
+def _cell(row: Mapping) -> str:
+    """Return the cell of a figure."""
     name, title = row["figure"], row["title"]
     counted = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
-    told = ["; ".join(counted)] * bool(counted)
-    told += [row["errors"]] * (isinstance(row["errors"], str) and row["errors"] != "")
-    told += [f"{duration(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
-    picture = f'<a href="{pictures}/{name}.png"><img src="{pictures}/{name}.png" width="260" alt="{title}"></a>'
+    lines = ["; ".join(counted)] * bool(counted)
+    lines += [row["errors"]] * (isinstance(row["errors"], str) and row["errors"] != "")
+    lines += [f"{duration(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
+    picture = f'<a href="{name}.png"><img src="{name}.png" width="260" alt="{title}"></a>'
     width = f"{100 // ACROSS}%"
-    return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(told)}</sub></td>'
+    return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(lines)}</sub></td>'
 
 
 def duration(seconds: float) -> str:
@@ -182,7 +183,7 @@ def make(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> N
         small(folder / "figures" / f"{name}.png", target / f"{name}.png")
     every.to_csv(target / "verdicts.csv", index=False)
     (target / "verdicts.md").write_text(verdict_page(every, plan.tier), encoding="utf-8")
-    (target / "gallery.md").write_text(markdown(rows, "docs/gallery"), encoding="utf-8")
+    (target / "gallery.md").write_text(gallery_page(rows), encoding="utf-8")
     (target / "counts.md").write_text(counts(every), encoding="utf-8")
     rows.to_csv(target / "gallery.csv", index=False)  # last: with it the gallery is whole
 
