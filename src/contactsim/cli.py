@@ -1,8 +1,9 @@
 """`contactsim explain | run | estimate | compare`: one scene from the shell; two tiers side by side.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
-`full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a study in
-./config; without either, `cost` estimates every figure there. `compare` reads the CSV files of figures in the results.
+`full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a
+study in ./config; without either, `estimate` is for every figure there. `compare` reads the CSV files of the figures in
+./config, as they lie in its results folder.
 """
 
 from __future__ import annotations
