@@ -271,7 +271,7 @@ def test_a_smoothed_surface_is_the_same_without_its_short_waves(dimensions):
     assert smooth.profile_rms_gradient < surface.profile_rms_gradient
     assert np.array_equal(surface.heights(64), surface.heights(64))
     smooth.check(16)
-    with refused("low_pass_cutoff", "below the roll-off"):
+    with refused("low_pass_cutoff", "below the long cut-off"):
         SelfAffine(**given, low_pass_cutoff=40.0, seed=realisation_seed(1, 0.5))
 
 

@@ -23,7 +23,8 @@ from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, GapExtension
 from contactsim.solvers.registry import SOLVERS, make_solver
 from contactsim.status import Status
-from contactsim.surfaces.profile import Profile, prepare
+from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.statistics import rms_gradient

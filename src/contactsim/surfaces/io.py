@@ -9,12 +9,12 @@ from __future__ import annotations
 import itertools
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 import netCDF4
 import numpy as np
@@ -23,30 +23,27 @@ from numpy.typing import ArrayLike, NDArray
 from contactsim.errors import InputError
 from contactsim.grid import Array
 
-Kinds = Mapping[str, Callable[[Array], Array]]
-
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
 TEXT = (".csv", ".txt", ".xyz", ".dat")
 TOLERANCE = 1e-3  # of positions, in mean spacings
-TAPER = 0.1  # of the length, at each end
 
 
-def existing(path: object) -> Path:
-    """The path of a file that there is; InputError else."""
+def existing_path(path: object) -> Path:
+    """Return the path of an existing file; InputError otherwise."""
     if not isinstance(path, str | Path) or not Path(path).is_file():
         raise InputError("path", path, "an existing file", path)
     return Path(path)
 
 
 def refuse_unused(key: str, value: object, suffixes: tuple[str, ...], file: Path) -> None:
-    """InputError if a value is given for a file whose suffix has no use for it."""
+    """Raise an InputError if a value is given that files with this suffix do not use."""
     if value is not None and file.suffix.lower() not in suffixes:
         raise InputError(key, value, f"none for {file.suffix.lower()}, only for {', '.join(suffixes)}", file)
 
 
 @contextmanager
-def readable(file: Path, *more: type[Exception]) -> Iterator[None]:
-    """Turn what a damaged file makes a reader raise, and `more`, into a InputError."""
+def report_unreadable(file: Path, *more: type[Exception]) -> Iterator[None]:
+    """Turn the errors that a reader raises on a damaged file, and `more`, into an InputError."""
     try:
         yield
     except InputError:
@@ -56,15 +53,15 @@ def readable(file: Path, *more: type[Exception]) -> Iterator[None]:
         raise InputError("path", str(file), f"a readable {file.suffix.lower()} file ({why})", file) from error
 
 
-def positive(spacing: object, file: object) -> float:
-    """A spacing as a float; InputError unless it is a positive finite number."""
+def positive_spacing(spacing: object, file: object) -> float:
+    """Return a spacing as a float; InputError unless it is a positive finite number."""
     if isinstance(spacing, Real) and not isinstance(spacing, bool) and 0 < spacing < np.inf:
         return float(spacing)
     raise InputError("spacing", spacing, "a positive finite number, in nm", file)
 
 
-def finite(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
-    """A scaled float64 copy of finite numbers, two or more in each of `dims` directions."""
+def finite_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
+    """Return a scaled float64 copy of finite numbers, two or more in each of `dims` directions."""
     array = np.ma.asarray(values)
     if array.dtype.kind not in "iuf" or array.ndim != dims or min(array.shape) < 2:
         allowed = f"two or more real numbers{' each way' * (dims > 1)}, in {dims}D"
@@ -82,8 +79,8 @@ def finite(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: 
     return numbers
 
 
-def factor(key: str, stated: str | None, unit: str | None, file: Path) -> float:
-    """Nanometres in the unit that the file states, or else the one given; they must not differ."""
+def unit_factor(key: str, stated: str | None, unit: str | None, file: Path) -> float:
+    """Return the nanometres in the unit that the file states, or else in `unit`; they must not differ."""
     names = [unicodedata.normalize("NFKC", str(name)).strip() for name in (stated or None, unit) if name is not None]
     wrong = [name for name in names if name not in UNITS]
     if wrong or not names:
@@ -95,7 +92,7 @@ def factor(key: str, stated: str | None, unit: str | None, file: Path) -> float:
 
 
 def mean_step(positions: Array, key: str, file: Path) -> float:
-    """The step of equally spaced positions (n,), negative if they descend; InputError if they are not."""
+    """Return the step of positions (n,), negative if they descend; InputError unless they are equally spaced."""
     mean = float(positions[-1] - positions[0]) / (positions.size - 1)
     off = np.abs(np.diff(positions) - mean)
     row = int(np.argmax(off)) + 1
@@ -105,15 +102,15 @@ def mean_step(positions: Array, key: str, file: Path) -> float:
     return mean
 
 
-def agreeing(spacing: float, given: float | None, file: Path) -> float:
-    """The spacing that a file states; InputError if one is given that differs."""
+def check_spacing(spacing: float, given: float | None, file: Path) -> float:
+    """Return the spacing that a file states; InputError if the requested spacing differs."""
     if given is not None and abs(given - spacing) > TOLERANCE * spacing:
         raise InputError("spacing", given, f"none, or that of the positions, {spacing:.6g} nm", file)
     return spacing
 
 
-def load_npy(file: Path) -> NDArray:
-    """The array in a .npy file; pickled objects are not loaded."""
+def load_npy(file: Path) -> NDArray[Any]:
+    """Return the array in a .npy file; pickled objects are not loaded."""
     with file.open("rb") as stream:
         return np.lib.format.read_array(stream, allow_pickle=False)
 
@@ -155,7 +152,7 @@ class Text:
         found = self._at_once()
         if found is not None and found.shape[1] in widths:
             return found
-        table = []
+        table: list[Array] = []
         for number, line in _rows(self.file):
             if number < self.first:
                 continue
@@ -180,7 +177,7 @@ def _opened(file: Path) -> TextIO:
 
 
 def _rows(file: Path) -> Iterator[tuple[int, str]]:
-    """Lines without comments and blank ones, with their numbers."""
+    """Yield the lines other than comments and blank ones, with their numbers."""
     with _opened(file) as stream:
         for number, text in enumerate(stream, 1):
             line = text.replace("\udcb5", "\u03bc").strip()  # latin-1 micro sign
@@ -200,7 +197,7 @@ def _numbers(line: str, mark: str) -> list[float | None]:
 
 
 def find_heights(data: netCDF4.Dataset, dims: int, variable: str | None, file: Path) -> netCDF4.Variable:
-    """The heights in a netCDF file: the variable named, else one named like heights, else the only floats."""
+    """Return the heights in a netCDF file: `variable`, or the one named like heights, or the only floats."""
     fields = {name: each for name, each in data.variables.items() if each.ndim == dims}
     near = {name for each in data.variables.values() for name in _near(each)}
     free = [name for name in fields if name not in near]
@@ -215,58 +212,20 @@ def find_heights(data: netCDF4.Dataset, dims: int, variable: str | None, file: P
 def positions_along(
     dimension: str, data: netCDF4.Dataset, heights: netCDF4.Variable, unit: str | None, file: Path
 ) -> Array | None:
-    """The coordinate (n,) of the heights along a dimension, in nm; None if there is none."""
+    """Return the coordinate (n,) of the heights along a dimension, in nm, or None."""
     others = [data.variables[name] for name in _near(heights) if name in data.variables and name != heights.name]
     for each in others:
         if each.dimensions == (dimension,):
-            return finite(each[:], each.name, file, factor(each.name, stated_unit(each) or unit, None, file))
+            return finite_numbers(
+                each[:], each.name, file, unit_factor(each.name, stated_unit(each) or unit, None, file)
+            )
     return None
 
 
 def stated_unit(variable: netCDF4.Variable) -> str:
-    """The unit that a netCDF variable states as `units`, or as some writers do as `unit`; empty if none."""
+    """Return the unit that a netCDF variable states as `units` or, as some writers do, `unit`; empty if none."""
     return str(getattr(variable, "units", getattr(variable, "unit", "")))
 
 
 def _near(variable: netCDF4.Variable) -> list[str]:
     return [*variable.dimensions, *str(getattr(variable, "coordinates", "")).split()]
-
-
-def less_fit(degree: int, heights: Array) -> Array:
-    """Heights less their least-squares polynomial of a total degree in all directions.
-
-    Products of the discrete orthonormal polynomials of each direction are orthonormal on the grid, so the fit is a
-    projection.
-    """
-    bases = [np.linalg.qr(np.polynomial.legendre.legvander(np.linspace(-1, 1, n), degree)).Q for n in heights.shape]
-    fit = heights
-    for basis in bases:  # each direction in turn leads, and goes last
-        fit = np.tensordot(fit, basis, (0, 0))
-    fit = np.where(sum(np.indices(fit.shape)) <= degree, fit, 0.0)
-    for basis in bases:
-        fit = np.tensordot(fit, basis, (0, 1))
-    return heights - fit
-
-
-def windowed(heights: Array) -> Array:
-    """Mean-free heights tapered by cosines to zero over `TAPER` of the length at each end of each direction."""
-    tapered = heights - heights.mean()
-    for axis, size in enumerate(heights.shape):
-        edge = np.minimum(np.arange(size), np.arange(size)[::-1]) / (size - 1)
-        taper = 0.5 - 0.5 * np.cos(np.pi * np.minimum(edge / TAPER, 1))
-        tapered *= np.expand_dims(taper, [other for other in range(heights.ndim) if other != axis])
-    return tapered
-
-
-def mirrored(heights: Array) -> Array:
-    """Heights followed by their reverse in each direction, the ends once: n become 2n-2."""
-    for axis, size in enumerate(heights.shape):
-        heights = heights.take([*range(size), *range(size - 2, 0, -1)], axis)
-    return heights
-
-
-def applied(kinds: Kinds, key: str, kind: str, heights: ArrayLike, source: object, dims: int) -> Array:
-    """Checked heights, shaped by the one of `kinds` named; InputError else."""
-    if not isinstance(kind, str) or kind not in kinds:
-        raise InputError(key, kind, f"one of {', '.join(kinds)}", source)
-    return kinds[kind](finite(heights, "heights", source, dims=dims))

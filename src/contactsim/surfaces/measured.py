@@ -8,12 +8,11 @@ import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.surfaces.preparation import prepare
 from contactsim.surfaces.profile import Profile, read_profile
-from contactsim.surfaces.profile import prepare as prepare_profile
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from contactsim.surfaces.topography import Topography, read_topography
-from contactsim.surfaces.topography import prepare as prepare_topography
 
 
 @dataclass(frozen=True)
@@ -50,7 +49,7 @@ class Sampled:
 
 @dataclass(frozen=True)
 class Measured(Sampled):
-    """A profile read from a file, detrended and made periodic (options as in `contactsim.surfaces.profile`)."""
+    """A profile read from a file, detrended and made periodic (options as in `contactsim.surfaces.preparation`)."""
 
     profile: Profile = field(init=False, repr=False)
     file: str
@@ -62,12 +61,12 @@ class Measured(Sampled):
 
     def __post_init__(self) -> None:
         raw = read_profile(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "profile", prepare_profile(raw, self.detrend, self.periodic))
+        object.__setattr__(self, "profile", prepare(raw, self.detrend, self.periodic))
 
 
 @dataclass(frozen=True)
 class MeasuredSurface(Sampled):
-    """A topography read from a file, detrended and made periodic (options as in `contactsim.surfaces.topography`)."""
+    """A topography read from a file, detrended and made periodic (options as in `contactsim.surfaces.preparation`)."""
 
     profile: Topography = field(init=False, repr=False)
     file: str
@@ -80,7 +79,7 @@ class MeasuredSurface(Sampled):
 
     def __post_init__(self) -> None:
         raw = read_topography(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "profile", prepare_topography(raw, self.detrend, self.periodic))
+        object.__setattr__(self, "profile", prepare(raw, self.detrend, self.periodic))
 
 
 SURFACES = {

@@ -2,7 +2,8 @@
 
 A topography is a grid of heights in nm, rows along y and columns along x: element (0, 0) has the smallest x and y.
 Heights point up as in the file: the largest touches first (for the other side, negate them).
-The solvers are periodic and a measurement is not, so `prepare` removes form and closes the seams.
+The solvers are periodic and a measurement is not: `contactsim.surfaces.preparation.prepare` removes form and closes the
+seams.
 
 Text, numpy and netCDF files are read here; the formats of instruments by the library SurfaceTopography where it is
 installed. Its heights have x first, so they are transposed.
@@ -15,7 +16,6 @@ import importlib
 import itertools
 import re
 import sys
-from functools import partial
 from pathlib import Path
 
 import netCDF4
@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.surfaces import io
-from contactsim.surfaces.io import TEXT, TOLERANCE, Kinds
+from contactsim.surfaces.io import TEXT, TOLERANCE
 
 SUFFIXES = (".npy", *TEXT, ".nc")
 LIBRARY = "SurfaceTopography"
@@ -48,7 +48,7 @@ class Topography:
 
     def __post_init__(self) -> None:
         """Check both and keep them as float64 and floats."""
-        object.__setattr__(self, "heights", io.finite(self.heights, "heights", self.source, dims=2))
+        object.__setattr__(self, "heights", io.finite_numbers(self.heights, "heights", self.source, dims=2))
         object.__setattr__(self, "spacing", _pair(self.spacing, self.source))
 
 
@@ -69,7 +69,7 @@ def read_topography(
     the points of a complete grid in any order. A unit in a header line like `z [um]`, of .xyz like `x [um] y [um]
     z [nm]`. InputError, with the file, for all else.
     """
-    file = io.existing(path)
+    file = io.existing_path(path)
     if file.suffix.lower() in SUFFIXES:
         io.refuse_unused("variable", variable, (".nc",), file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
@@ -78,7 +78,7 @@ def read_topography(
     if None in found and None in given:
         raise InputError("spacing", None, "a spacing in nm, or a pair (dy, dx), since the file states none", file)
     both = zip(found, given, strict=True)
-    dy, dx = (asked if own is None else io.agreeing(own, asked, file) for own, asked in both)
+    dy, dx = (asked if own is None else io.check_spacing(own, asked, file) for own, asked in both)
     return Topography(heights, (dy, dx), str(file))
 
 
@@ -87,19 +87,19 @@ def _pair(spacing: object, file: object) -> Pair:
     both = list(spacing) if isinstance(spacing, list | tuple | np.ndarray) and np.ndim(spacing) == 1 else [spacing] * 2
     if len(both) != 2:
         raise InputError("spacing", spacing, "a positive finite number, in nm, or a pair (dy, dx) of them", file)
-    return io.positive(both[0], file), io.positive(both[1], file)
+    return io.positive_spacing(both[0], file), io.positive_spacing(both[1], file)
 
 
 def _read(file: Path, unit: str | None, variable: str | None, delimiter: str | None) -> Read:
     suffix = file.suffix.lower()
     if suffix not in SUFFIXES:
         return _read_instrument(file, unit, variable)
-    with io.readable(file):
+    with io.report_unreadable(file):
         if suffix == ".nc":
             return _read_netcdf(file, unit, variable)
         if suffix == ".npy":
-            scale = io.factor("heights", None, "nm" if unit is None else unit, file)
-            return io.finite(io.load_npy(file), "heights", file, scale, 2), (None, None)
+            scale = io.unit_factor("heights", None, "nm" if unit is None else unit, file)
+            return io.finite_numbers(io.load_npy(file), "heights", file, scale, 2), (None, None)
         text = io.Text.read(file, delimiter)
         return _read_points(text, unit, file) if suffix == ".xyz" else _read_grid(text, unit, file)
 
@@ -111,8 +111,8 @@ def _read_grid(text: io.Text, unit: str | None, file: Path) -> Read:
     if table.shape[1] == 3 and (names >= {"x", "y", "z"} or _has_positions(table)):
         found = "three columns, of which two are positions on a grid"
         raise InputError("heights", found, "heights alone; name a file of points x y z .xyz", file)
-    scale = io.factor("heights", next(iter(text.units(1, file)), None), unit, file)
-    return io.finite(table, "heights", file, scale, 2), (None, None)
+    scale = io.unit_factor("heights", next(iter(text.units(1, file)), None), unit, file)
+    return io.finite_numbers(table, "heights", file, scale, 2), (None, None)
 
 
 def _has_positions(table: Array) -> bool:
@@ -134,10 +134,10 @@ def _read_points(text: io.Text, unit: str | None, file: Path) -> Read:
     x, y, z = text.table(range(3, 4), "three numbers 1.5: x, y and z", file).T
     units = text.units(3, file) or [None] * 3
     (column, left, dx), (row, low, dy) = (
-        _levels(io.finite(at, key, file, io.factor(key, of or unit, None, file)), key, file)
+        _levels(io.finite_numbers(at, key, file, io.unit_factor(key, of or unit, None, file)), key, file)
         for key, at, of in (("x", x, units[0]), ("y", y, units[1]))
     )
-    scale = io.factor("heights", units[2], unit, file)
+    scale = io.unit_factor("heights", units[2], unit, file)
     nx, ny = int(column.max()) + 1, int(row.max()) + 1
     places, times = np.unique(row * nx + column, return_counts=True)
     doubled = places[times > 1]
@@ -153,7 +153,7 @@ def _read_points(text: io.Text, unit: str | None, file: Path) -> Read:
             raise InputError("positions", found, "each point of a complete grid once", file)
     heights = np.empty((ny, nx))
     heights[row, column] = z
-    return io.finite(heights, "heights", file, scale, 2), (dy, dx)
+    return io.finite_numbers(heights, "heights", file, scale, 2), (dy, dx)
 
 
 def _levels(at: Array, key: str, file: Path) -> tuple[NDArray[np.int64], float, float]:
@@ -180,8 +180,8 @@ def _read_netcdf(file: Path, unit: str | None, variable: str | None) -> Read:
         for name in found.dimensions:
             places = io.positions_along(name, data, found, unit, file)
             steps.append(None if places is None else io.mean_step(places, name, file))
-        scale = io.factor(found.name, io.stated_unit(found), unit, file)
-        heights = io.finite(found[:], found.name, file, scale, 2)
+        scale = io.unit_factor(found.name, io.stated_unit(found), unit, file)
+        heights = io.finite_numbers(found[:], found.name, file, scale, 2)
         heights = heights[tuple(slice(None, None, -1 if step and step < 0 else 1) for step in steps)]
         dy, dx = (step and abs(step) for step in steps)
         return (heights.T, (dx, dy)) if found.dimensions == ("x", "y") else (heights, (dy, dx))
@@ -194,7 +194,7 @@ def _read_instrument(file: Path, unit: str | None, variable: str | None) -> Read
     except ImportError as error:
         allowed = f"a name ending in one of {', '.join(SUFFIXES)}; for others install {LIBRARY} (pip install {LIBRARY})"
         raise InputError("path", file.name, allowed, file) from error
-    with io.readable(file, Exception), library.open_topography(str(file)) as reader:
+    with io.report_unreadable(file, Exception), library.open_topography(str(file)) as reader:
         channels = {each.channel_id: each for each in reader.channels if each.is_height_channel}
         name = reader.default_channel.channel_id if variable is None else variable
         if name not in channels:
@@ -204,30 +204,8 @@ def _read_instrument(file: Path, unit: str | None, variable: str | None) -> Read
         read = channel.topography() if sized else channel.topography(physical_sizes=channel.nb_grid_pts)
         if read.unit is not None and unit is not None:
             raise InputError("unit", unit, f"none, the file states {read.unit}", file)
-        scale = io.factor("heights", None, unit, file) if read.unit is None else 1.0
+        scale = io.unit_factor("heights", None, unit, file) if read.unit is None else 1.0
         read = read if read.unit is None else read.to_unit("nm")
-        heights = io.finite(read.heights().T, "heights", file, scale, 2)
+        heights = io.finite_numbers(read.heights().T, "heights", file, scale, 2)
         dx, dy = (float(step) * scale for step in read.pixel_size)
         return heights, (dy, dx) if sized else (None, None)
-
-
-DETREND: Kinds = {
-    "none": np.copy,
-    "mean": partial(io.less_fit, 0),
-    "plane": partial(io.less_fit, 1),
-    "quadratic": partial(io.less_fit, 2),
-}
-PERIODIC: Kinds = {"none": np.copy, "window": io.windowed, "mirror": io.mirrored}
-
-
-def prepare(topography: Topography, detrend: str = "plane", periodic: str = "mirror") -> Topography:
-    """Return the topography less its least-squares fit, then made periodic; InputError for other kinds.
-
-    detrend: none, mean, plane, or quadratic: all of 1, x, y, x^2, xy, y^2.
-    periodic: none: as it is, (ny, nx), a step at the seams stays. window: mean-free heights tapered by cosines to zero
-    over 10 % at each edge. mirror: followed by its mirror images in both directions, (2ny-2, 2nx-2), the edges once;
-    slopes along every line are kept. There is no tilt as for profiles: a plane closes no seam along which heights vary.
-    """
-    level = io.applied(DETREND, "detrend", detrend, topography.heights, topography.source, 2)
-    heights = io.applied(PERIODIC, "periodic", periodic, level, topography.source, 2)
-    return dataclasses.replace(topography, heights=heights)
