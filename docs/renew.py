@@ -20,7 +20,7 @@ def between(text: str, name: str, new: str) -> str:
 shutil.rmtree(DOCS / "gallery", ignore_errors=True)
 shutil.copytree(RESULTS / "gallery", DOCS / "gallery")
 for name in PICTURES:
-    gallery.small(RESULTS / f"figures/{name}.png", DOCS / f"{name}.png", width=1600)
+    gallery.write_thumbnail(RESULTS / f"figures/{name}.png", DOCS / f"{name}.png", width=1600)
 shutil.copyfile(RESULTS / "figures/trials.csv", DOCS / "trials.csv")
 readme = DOCS.parent / "README.md"
 text = readme.read_text(encoding="utf-8")

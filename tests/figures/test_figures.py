@@ -320,7 +320,7 @@ def test_the_elastic_body_is_coloured_and_the_rigid_one_grey(elastic_below):
     elastic, rigid = Body(Flat(8.0), HalfSpace(2.0)), Body(Sinusoid(8.0, 1.0))
     lower, upper = (elastic, rigid) if elastic_below else (rigid, elastic)
     axes = Figure().subplots()
-    sketch.sketch(Scene(lower, upper, (HardWall(),), pressures([1.0])), 64, axes)
+    sketch.plot_sketch(Scene(lower, upper, (HardWall(),), pressures([1.0])), 64, axes)
     middles = [fill.get_paths()[0].get_extents().get_points()[:, 1].mean() for fill in axes.collections]
     assert middles[0] < middles[1]
     for fill, body, text in zip(axes.collections, (lower, upper), axes.texts[:2], strict=True):

@@ -64,7 +64,7 @@ def plan(results):
 def made(plan, results, tmp_path_factory):
     """A bundle; tests leave it as it is."""
     target = tmp_path_factory.mktemp("made") / "bundle"
-    bundle.make(plan, results, target)
+    bundle.write_bundle(plan, results, target)
     return target
 
 
@@ -113,7 +113,7 @@ def test_two_bundles_of_the_same_results_are_the_same_byte_for_byte(made, plan, 
         moved[place] = tmp_path / "moved" / place
         moved[place].parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, moved[place])
-    bundle.make(plan, moved, tmp_path / "other")
+    bundle.write_bundle(plan, moved, tmp_path / "other")
     assert contents(tmp_path / "other") == contents(made)
 
 
@@ -189,7 +189,7 @@ def test_what_is_missing_or_damaged_is_named_and_leaves_no_half_bundle(plan, res
     older.mkdir()
     (older / "LICENSE").touch()
     with pytest.raises(InputError) as refused:
-        bundle.make(plan, results | {place: spoiled}, older)
+        bundle.write_bundle(plan, results | {place: spoiled}, older)
     assert refused.value.key == key
     assert Path(place).name in str(refused.value)
     assert [file.name for file in tmp_path.iterdir()] == ["spoiled"]
@@ -199,7 +199,7 @@ def test_a_bundle_takes_the_place_of_an_older_one_and_of_what_a_kill_left(made, 
     for name in ("bundle", ".bundle.tmp"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "stale.txt").touch()
-    bundle.make(plan, results, tmp_path / "bundle")
+    bundle.write_bundle(plan, results, tmp_path / "bundle")
     assert contents(tmp_path) == {f"bundle/{place}": content for place, content in contents(made).items()}
 
 

@@ -9,7 +9,7 @@ from PIL import Image
 from contactsim import dataset
 from contactsim.analysis.claims import NOT_REPRODUCED, REPRODUCED
 from contactsim.publish import gallery
-from contactsim.publish.gallery import VERDICTS, named_in
+from contactsim.publish.gallery import VERDICTS, figures_in_source
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.plan import Plan
 from contactsim.study.reading import keys_of
@@ -30,7 +30,7 @@ OTHERS = {"effects": "What effects cost"}
     ],
 )
 def test_a_statement_belongs_to_the_figures_that_its_source_names(source, names):
-    assert named_in(source) == names
+    assert figures_in_source(source) == names
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ def shown(made, plan, tmp_path_factory):
     """The gallery of the quick tier."""
     folder, target = made / plan.results, tmp_path_factory.mktemp("gallery")
     Image.new("RGB", (1000, 500)).save(folder / "figures/effects.png")
-    gallery.make(plan, folder, target, OTHERS)
+    gallery.write_gallery(plan, folder, target, OTHERS)
     return target
 
 
@@ -108,9 +108,9 @@ def test_the_verdicts_of_the_standard_tier_are_those_of_the_statements_in_the_co
     every = pd.read_csv(DOCS / "verdicts.csv")
     plan = Plan.read(ROOT / "config", "standard")
     assert list(every.claim) == [name for claims in plan.claims.values() for name in claims]
-    assert gallery.counts(every) in (ROOT / "README.md").read_text(encoding="utf-8")
+    assert gallery.counts_markdown(every) in (ROOT / "README.md").read_text(encoding="utf-8")
     page = (DOCS / "verdicts.md").read_text(encoding="utf-8")
-    assert page == gallery.verdict_page(every, "standard")
+    assert page == gallery.verdicts_markdown(every, "standard")
     assert page.index("## Not reproduced") < page.index("## Reproduced\n")
 
 

@@ -22,7 +22,7 @@ from contactsim.evaluation.robustness.cases import Case, layer_response
 from contactsim.evaluation.robustness.judge import judge
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.explanation import Explanation, explain_setup
-from contactsim.figures.sketch import sketch
+from contactsim.figures.sketch import plot_sketch
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
 from contactsim.solvers.base import check_solver, solve
@@ -336,7 +336,7 @@ def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
 @pytest.mark.parametrize(("thickness", "drawn"), [(2.5, 2.5), (0.01, 0.8), (1e6, 3.2)])
 def test_a_layer_is_drawn_to_scale_where_that_can_be_seen_and_says_so_where_not(thickness, drawn):
     figure, axes = plt.subplots()
-    sketch(scene(Layer(1.0, 0.3, thickness)), 256, axes)
+    plot_sketch(scene(Layer(1.0, 0.3, thickness)), 256, axes)
     words = [text.get_text() for text in axes.texts]
     assert any("not to scale" in text for text in words) == (drawn != thickness)
     assert any(f"{thickness:g} nm" in text for text in words)

@@ -65,7 +65,7 @@ class Pages:
         """Return what the gallery depends on beside its files."""
         from contactsim.publish import gallery
 
-        return canonical(gallery.settings(self.products.plan, self.products.evaluation_titles))
+        return canonical(gallery.gallery_settings(self.products.plan, self.products.evaluation_titles))
 
     def bundle_places(self) -> dict[str, Path]:
         """Return the files of the bundle by their places in it."""

@@ -9,4 +9,4 @@ from contactsim.publish import bundle
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-bundle.make(plan, dict(zip(plan["files"], snakemake.input, strict=True)), Path(snakemake.output[0]).parent)
+bundle.write_bundle(plan, dict(zip(plan["files"], snakemake.input, strict=True)), Path(snakemake.output[0]).parent)

@@ -1,37 +1,47 @@
-"""A scene drawn from itself: the bodies, what is rigid, what drives them (as thesis Figs 2.1, 4.1, 5.1)."""
+"""Sketch of a scene: its bodies, the base of a layer, and the load (as in thesis Figs 2.1, 4.1, 5.1)."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from os import PathLike
+
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contactsim.contact.scene import Body, Scene
+from contactsim.contact.scene import RIGID, Body, Scene
 from contactsim.figures import style
+from contactsim.grid import Array
 from contactsim.traits import Trait
 
-ELASTIC, RIGID = "#cfe3d4", "#d9d9d9"
+ELASTIC_COLOUR, RIGID_COLOUR = "#cfe3d4", "#d9d9d9"
+MAX_POINTS = 2000
+"""Points of a profile that are plotted."""
+MIN_DEPTH, MAX_DEPTH = 0.4, 1.6
+"""Depths between which a body is drawn, over the height of the profiles."""
+ARROW = {"arrowstyle": "-|>", "color": "k"}
 
 
-def save_sketch(scene: Scene, points: int, path: str) -> None:
-    """Draw a scene into a file."""
+@mpl.rc_context(style.RC_PARAMS)
+def save_sketch(scene: Scene, points: int, path: str | PathLike[str]) -> None:
+    """Write the sketch of a scene to a file; points: of the grid along x."""
     figure = Figure(figsize=(5.2, 3.2), layout="constrained")
-    sketch(scene, points, figure.subplots())
+    plot_sketch(scene, points, figure.subplots())
     figure.savefig(path)
 
 
-def sketch(scene: Scene, points: int, axes: Axes) -> None:
-    """Both bodies before they touch, heights enlarged to be seen; at most 2000 points of the profile are drawn."""
-    shown = np.linspace(0, points - 1, min(points, 2000)).astype(int)
-    x = shown / points * scene.length
-    lower, upper = (_section(body, points)[shown] for body in (scene.lower, scene.upper))
-    span = max(np.ptp(lower), np.ptp(upper)) or 1.0
-    gap = 0.35 * span
-    top = lower.max() + gap + upper.max()
-    below, above = _depth(scene.lower, span, 1.6), _depth(scene.upper, span, 0.8)
-    _body(axes, scene.lower, x, lower, lower.min() - below, "lower")
-    far = _body(axes, scene.upper, x, top - upper, top - upper.min() + above, "upper")
-    _drive(axes, scene, far, span)
+def plot_sketch(scene: Scene, points: int, axes: Axes) -> None:
+    """Plot both bodies before they touch, with enlarged heights; points: of the grid along x."""
+    nodes = np.linspace(0, points - 1, min(points, MAX_POINTS)).astype(int)
+    x = nodes / points * scene.length
+    lower, upper = (_section(body, points)[nodes] for body in (scene.lower, scene.upper))
+    span = float(max(np.ptp(lower), np.ptp(upper)) or 1.0)
+    top = lower.max() + 0.35 * span + upper.max()
+    _plot_body(axes, scene.lower, _Outline(x, lower, lower.min(), lower.min() - _depth(scene.lower, span, 1.6)))
+    far = top - upper.min() + _depth(scene.upper, span, 0.8)
+    end = _plot_body(axes, scene.upper, _Outline(x, top - upper, (top - upper).max(), far))
+    _plot_load(axes, scene, end, span)
     for edge in (0.0, scene.length):
         axes.axvline(edge, color=style.EXACT, lw=0.8, ls=(0, (4, 4)))
     axes.set(xlabel=r"$x$ (nm), periodic", ylabel=r"$z$ (nm)", xlim=(-0.02 * scene.length, 1.02 * scene.length))
@@ -39,45 +49,60 @@ def sketch(scene: Scene, points: int, axes: Axes) -> None:
     axes.set_title(f"heights enlarged about {ratio:.2g} times" if ratio > 1.5 else "", fontsize=7, loc="right")
 
 
+@dataclass(frozen=True)
+class _Outline:
+    """A body between its surface and a far side; near: its innermost point on the surface, nm."""
+
+    x: Array
+    surface: Array
+    near: float
+    far: float
+
+
 def _depth(body: Body, span: float, usual: float) -> float:
-    """How deep a body is drawn below its lowest point: a layer to scale where that can be seen."""
-    return float(np.clip(getattr(body.elasticity, "thickness", usual * span), 0.4 * span, 1.6 * span))
+    """Return the depth to which a body is drawn, nm: a layer to scale if that can be seen, else the usual one."""
+    thickness = np.inf if body.elasticity is RIGID else body.elasticity.base_depth
+    depth = thickness if np.isfinite(thickness) else usual * span
+    return float(np.clip(depth, MIN_DEPTH * span, MAX_DEPTH * span))
 
 
-def _section(body: Body, points: int) -> np.ndarray:
-    """Heights along x, shape (points,), of a surface through its middle."""
+def _section(body: Body, points: int) -> Array:
+    """Return heights along x, (points,), through the middle of a surface."""
     heights = body.surface.heights(points)
     return heights if heights.ndim == 1 else heights[len(heights) // 2]
 
 
-def _body(axes: Axes, body: Body, x: np.ndarray, surface: np.ndarray, far: float, side: str) -> float:
-    """Draw a body between its surface and a height, and the base of a layer behind; returns where it ends."""
-    rigid = body.elasticity is None
-    axes.fill_between(x, surface, far, color=RIGID if rigid else ELASTIC, lw=0)
-    axes.plot(x, surface, color=style.EXACT, lw=0.8)
-    kind = "rigid" if rigid else rf"{type(body.elasticity).__name__}, $E^*$ = {body.elasticity.contact_modulus:g} GPa"
-    place = 0.75 * far + 0.25 * (surface.min() if side == "lower" else surface.max())
-    thickness = getattr(body.elasticity, "thickness", None)
-    axes.text(x.mean(), place, f"{type(body.surface).__name__}, {kind}", ha="center", va="center", fontsize=8)
-    if thickness is None:
+def _plot_body(axes: Axes, body: Body, outline: _Outline) -> float:
+    """Plot a body, and the base of a layer behind it; return the height of its outer end."""
+    x, far, near, elasticity = outline.x, outline.far, outline.near, body.elasticity
+    axes.fill_between(x, outline.surface, far, color=RIGID_COLOUR if elasticity is RIGID else ELASTIC_COLOUR, lw=0)
+    axes.plot(x, outline.surface, color=style.EXACT, lw=0.8)
+    kind = "rigid"
+    if elasticity is not RIGID:
+        kind = rf"{type(elasticity).__name__}, $E^*$ = {elasticity.contact_modulus:g} GPa"
+    label = f"{type(body.surface).__name__}, {kind}"
+    axes.text(x.mean(), 0.75 * far + 0.25 * near, label, ha="center", va="center", fontsize=8)
+    if elasticity is RIGID or not np.isfinite(elasticity.base_depth):
         return far
-    near = surface.min() if side == "lower" else surface.max()
     end = far + 0.3 * (far - near)
-    axes.fill_between(x, far, end, facecolor=RIGID, edgecolor="0.5", hatch="////", lw=0)
-    axes.annotate("", (x[x.size // 12], near), (x[x.size // 12], far), arrowprops={"arrowstyle": "<->", "color": "k"})
-    exact = "" if np.isclose(abs(far - near), thickness) else ", not to scale"
-    axes.text(x[x.size // 10], 0.75 * near + 0.25 * far, rf"$h$ = {thickness:g} nm{exact}", fontsize=8, va="center")
+    axes.fill_between(x, far, end, facecolor=RIGID_COLOUR, edgecolor="0.5", hatch="////", lw=0)
+    place = x[x.size // 12]
+    axes.annotate("", (place, near), (place, far), arrowprops={"arrowstyle": "<->", "color": "k"})
+    scale = "" if np.isclose(abs(far - near), elasticity.base_depth) else ", not to scale"
+    thickness = rf"$h$ = {elasticity.base_depth:g} nm{scale}"
+    axes.text(x[x.size // 10], 0.75 * near + 0.25 * far, thickness, fontsize=8, va="center")
     return end
 
 
-def _drive(axes: Axes, scene: Scene, height: float, span: float) -> None:
+def _plot_load(axes: Axes, scene: Scene, height: float, span: float) -> None:
+    """Plot arrows of the load above the upper body, and of its sliding."""
     pressed = Trait.MEAN_PRESSURE in scene.traits
-    for place in np.linspace(0.1, 0.9, 5) * scene.length if pressed else (0.5 * scene.length,):
-        axes.annotate("", (place, height), (place, height + 0.6 * span), arrowprops={"arrowstyle": "-|>", "color": "k"})
+    for x in np.linspace(0.1, 0.9, 5) * scene.length if pressed else (0.5 * scene.length,):
+        axes.annotate("", (x, height), (x, height + 0.6 * span), arrowprops=ARROW)
     label = r"$p$" if pressed else r"$\delta$"
     axes.text(0.53 * scene.length, height + 0.4 * span, label, fontsize=9, va="center")
     if scene.sliding:
-        ends = [(part * scene.length, height + 0.3 * span) for part in (0.62, 0.8)]
-        axes.annotate("", *ends, arrowprops={"arrowstyle": "<|-", "color": "k"})
+        tail, head = ((part * scene.length, height + 0.3 * span) for part in (0.62, 0.8))
+        axes.annotate("", head, tail, arrowprops=ARROW)
         axes.text(0.82 * scene.length, height + 0.3 * span, "$U_x$", fontsize=9, va="center")
     axes.set_ylim(top=height + 0.75 * span)

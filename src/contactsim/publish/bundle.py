@@ -51,7 +51,7 @@ WITHOUT_VALUES = {
 
 @dataclass(frozen=True)
 class Held:
-    """What a dataset holds: title, digest of its settings, versions, sizes; of each variable dims, unit and meaning."""
+    """Contents of a dataset: title, digest of its settings, versions, sizes; dimensions, unit and meaning of variables."""
 
     title: str
     settings: str
@@ -70,7 +70,7 @@ class Held:
 
 
 def _words(item: xr.Variable) -> tuple[str, str]:
-    """Unit and meaning of a variable; of flags with what each stands for."""
+    """Return unit and meaning of a variable, with the meaning of each flag."""
     text = item.attrs["long_name"]
     flags = item.attrs.get("flag_values", item.attrs.get("flag_masks"))
     if flags is not None:
@@ -79,8 +79,8 @@ def _words(item: xr.Variable) -> tuple[str, str]:
     return item.attrs["units"], text
 
 
-def make(plan: Mapping, files: Mapping[str, str | Path], target: str | Path) -> None:
-    """Make the bundle `target`, in one move.
+def write_bundle(plan: Mapping, files: Mapping[str, str | Path], target: str | Path) -> None:
+    """Write the bundle `target`; it appears under its name when it is complete.
 
     plan: tier, titles by name of a dataset, figure or chapter, and digests of what made each dataset; files: by their
     place in the bundle, where they lie now.
@@ -131,7 +131,7 @@ def _sum(path: Path) -> str:
 
 
 def about_file(place: str, titles: Mapping[str, str]) -> str:
-    """What a file is: its kind, and the title of what it shows if it has one."""
+    """Return the description of a file: its title, if it has one, and its kind."""
     path = Path(place)
     title = titles.get(path.stem.removesuffix("_at_equal_error"))
     kind = KINDS[path.parts[0]]
@@ -139,7 +139,7 @@ def about_file(place: str, titles: Mapping[str, str]) -> str:
 
 
 def readme(plan: Mapping, citation: Mapping, held: Mapping[str, Held], about: Mapping[str, str]) -> str:
-    """The README.md of a bundle: how to check, cite and make it, and every dataset, dimension, variable and file."""
+    """Return the README.md of a bundle: how to check, cite and make it, and its datasets, variables and files."""
     tier, names = plan["tier"], ", ".join(map(author_name, citation["authors"]))
     made = sorted({f"{name} {version}" for one in held.values() for name, version in one.versions.items()})
     parts = [
@@ -173,7 +173,7 @@ def readme(plan: Mapping, citation: Mapping, held: Mapping[str, Held], about: Ma
 
 
 def _dataset(place: str, held: Held, made: str) -> str:
-    """A dataset's section: title, digests, sizes, and its variables by their dimensions."""
+    """Return the section of a dataset: title, digests, sizes, and variables by their dimensions."""
     by_dims: dict[tuple[str, ...], list[str]] = {}
     for name, dims in held.dims.items():
         by_dims.setdefault(dims, []).append(f"`{name}`")
@@ -184,14 +184,14 @@ def _dataset(place: str, held: Held, made: str) -> str:
 
 
 def _dimensions(held: Iterable[Held]) -> list[tuple[str, ...]]:
-    """Each dimension, its unit and its meaning."""
+    """Return each dimension with unit and meaning."""
     known = WITHOUT_VALUES | {"": ("1", "number")}
     found = {(name, *one.words.get(name, known.get(name, known[""]))) for one in held for name in one.sizes}
     return [(f"`{name}`", *words) for name, *words in sorted(found)]
 
 
 def _variables(held: Iterable[Held]) -> list[tuple[str, ...]]:
-    """Each variable, its unit and its meaning; in several rows where datasets differ in it."""
+    """Return each variable with unit and meaning; several rows if datasets differ in it."""
     found = {(name, *words) for one in held for name, words in one.words.items()}
     return [(f"`{name}`", *words) for name, *words in sorted(found)]
 

@@ -41,8 +41,8 @@ class Entry:
     data: str
 
 
-def entries(plan: Plan) -> dict[str, list[Entry]]:
-    """By chapter, the figures that show datasets or laws, in the order of the config."""
+def figure_entries(plan: Plan) -> dict[str, list[Entry]]:
+    """Return the figures of each chapter in the order of the config."""
     found: dict[str, list[Entry]] = {}
     for name, figure in plan.figures.items():
         data = plan.figure_settings(name)["data"]
@@ -51,44 +51,44 @@ def entries(plan: Plan) -> dict[str, list[Entry]]:
     return found
 
 
-def named_in(source: str) -> set[str]:
-    """Names of the figures and tables that the source of a statement names."""
+def figures_in_source(source: str) -> set[str]:
+    """Return the names of the figures and tables in the source of a claim."""
     found = [(kind, number) for kind, numbers in NAMED.findall(source) for number in re.findall(r"\d\.\d+", numbers)]
     return {f"{kind.lower()}_{number.replace('.', '_')}" for kind, number in found}
 
 
-def verdicts(folder: Path, chapters: Sequence[str]) -> pd.DataFrame:
-    """Every statement with its verdict, as `claims` wrote them, with its chapter as first column."""
+def read_verdicts(folder: Path, chapters: Sequence[str]) -> pd.DataFrame:
+    """Return all claims with their verdicts; the first column is the chapter."""
     tables = [pd.DataFrame(columns=["chapter", "source", "verdict"])]
     tables += [pd.read_csv(folder / "claims" / f"{chapter}.csv").assign(chapter=chapter) for chapter in chapters]
     every = pd.concat(tables[1:] or tables, ignore_index=True)
     return every[["chapter", *every.columns.drop("chapter")]]
 
 
-def of_figure(every: pd.DataFrame, name: str) -> pd.DataFrame:
-    """The statements whose source names a figure or table."""
-    return every[every["source"].map(lambda source: name in named_in(source)).astype(bool)]
+def claims_of_figure(every: pd.DataFrame, name: str) -> pd.DataFrame:
+    """Return the claims whose source names a figure or table."""
+    return every[every["source"].map(lambda source: name in figures_in_source(source)).astype(bool)]
 
 
-def counted(own: pd.DataFrame) -> dict[str, int]:
-    """How many of these statements came to which verdict."""
+def count_verdicts(own: pd.DataFrame) -> dict[str, int]:
+    """Return the number of claims with each verdict."""
     return {verdict: int((own.verdict == verdict).sum()) for verdict in VERDICTS}
 
 
-def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
-    """One row a figure: its place, how many statements came to which verdict, its data's errors, CPU seconds, digest.
+def gallery_table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
+    """Return one row a figure: chapter, title, numbers of verdicts, errors, CPU seconds and digest of its data.
 
-    Errors are those of its own study, the first. folder: of the tier's results; every: all statements, from `verdicts`;
+    Errors are those of its own study, the first. folder: of the tier's results; every: all statements, of `read_verdicts`;
     others: by name the titles of figures that belong to no chapter, of which nothing more is told.
     """
     rows = []
-    for chapter, own in entries(plan).items():
+    for chapter, own in figure_entries(plan).items():
         for entry in own:
             paths = [plan.dataset_name(study) for study in entry.studies]
             told = error_texts(dataset.load_dataset(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
             seconds = sum(pd.read_csv(folder / "costs" / f"{path}.csv").seconds.sum() for path in paths)
             place = {"chapter": chapter, "figure": entry.name, "title": entry.title}
-            found = counted(of_figure(every, entry.name))
+            found = count_verdicts(claims_of_figure(every, entry.name))
             rows.append(place | found | {"errors": "; ".join(told), "seconds": round(seconds, 1), "data": entry.data})
     rows += [{"chapter": "", "figure": name, "title": title} for name, title in others.items()]
     return pd.DataFrame(rows)
@@ -97,25 +97,25 @@ def table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, st
 def gallery_page(rows: pd.DataFrame) -> str:
     """Return the gallery as Markdown: pictures side by side, below each its verdicts, errors and run time.
 
-    rows: from `table`; the small pictures lie beside the page.
+    rows: of `gallery_table`; the small pictures lie beside the page.
     """
     cells = [_cell(row) for row in rows.to_dict("records")]
     lines = [cells[place : place + ACROSS] for place in range(0, len(cells), ACROSS)]
     return "\n".join(["<table>", *(f"<tr>{''.join(line)}</tr>" for line in lines), "</table>"]) + "\n"
 
 
-def counts(every: pd.DataFrame) -> str:
-    """How many statements of each chapter came to which verdict, as a table in Markdown; every: from `verdicts`."""
+def counts_markdown(every: pd.DataFrame) -> str:
+    """Return the numbers of verdicts by chapter as a Markdown table; every: of `read_verdicts`."""
     lines = [f"| chapter | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 1) + "|"]
     for chapter, own in [*every.groupby("chapter"), ("all", every)]:
-        cells = map(str, counted(own).values())
+        cells = map(str, count_verdicts(own).values())
         lines.append(f"| {str(chapter).removeprefix('ch')} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 
-def verdict_page(every: pd.DataFrame, tier: str) -> str:
-    """Every statement by verdict, those not reproduced first, as a page in Markdown; every: from `verdicts`."""
-    parts = [f"# Every statement, and what came of it at the {tier} tier\n", counts(every)]
+def verdicts_markdown(every: pd.DataFrame, tier: str) -> str:
+    """Return all claims by verdict as a Markdown page, those not reproduced first; every: of `read_verdicts`."""
+    parts = [f"# Every statement, and what came of it at the {tier} tier\n", counts_markdown(every)]
     parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
     for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED):
         parts += [
@@ -151,45 +151,45 @@ def _cell(row: Mapping) -> str:
     counted = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
     lines = ["; ".join(counted)] * bool(counted)
     lines += [row["errors"]] * (isinstance(row["errors"], str) and row["errors"] != "")
-    lines += [f"{duration(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
+    lines += [f"{duration_text(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
     picture = f'<a href="{name}.png"><img src="{name}.png" width="260" alt="{title}"></a>'
     width = f"{100 // ACROSS}%"
     return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(lines)}</sub></td>'
 
 
-def duration(seconds: float) -> str:
-    """Seconds as read in a text: to the second below two minutes, else to the minute."""
+def duration_text(seconds: float) -> str:
+    """Return a duration as text: in seconds below two minutes, else in minutes."""
     return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
 
 
-def settings(plan: Plan, others: Mapping[str, str]) -> dict:
-    """What the gallery depends on, beside the files it is made of; others: as `table` takes them."""
+def gallery_settings(plan: Plan, others: Mapping[str, str]) -> dict:
+    """Return what the gallery depends on beside its files; others: as in `gallery_table`."""
     data = [plan.figure_settings(name) for name in plan.figures]
     data += [plan.claims_settings(chapter) for chapter in plan.claims]
     source = source_digest("contactsim.publish.gallery")
     return {"tier": plan.tier, "others": dict(others), "source": source, "data": digest(data)}
 
 
-def make(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> None:
-    """Small pictures of all figures, their table, all verdicts, and pages of both in Markdown, into a folder.
+def write_gallery(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> None:
+    """Write small pictures of all figures, the tables of figures and verdicts, and their Markdown pages to a folder.
 
-    folder: of the tier's results; others: as `table` takes them.
+    folder: of the tier's results; others: as in `gallery_table`.
     """
     shutil.rmtree(target, ignore_errors=True)  # a figure that is gone leaves no picture
     target.mkdir(parents=True)
-    every = verdicts(folder, list(plan.claims))
-    rows = table(plan, folder, every, others)
+    every = read_verdicts(folder, list(plan.claims))
+    rows = gallery_table(plan, folder, every, others)
     for name in rows.figure:
-        small(folder / "figures" / f"{name}.png", target / f"{name}.png")
+        write_thumbnail(folder / "figures" / f"{name}.png", target / f"{name}.png")
     every.to_csv(target / "verdicts.csv", index=False)
-    (target / "verdicts.md").write_text(verdict_page(every, plan.tier), encoding="utf-8")
+    (target / "verdicts.md").write_text(verdicts_markdown(every, plan.tier), encoding="utf-8")
     (target / "gallery.md").write_text(gallery_page(rows), encoding="utf-8")
-    (target / "counts.md").write_text(counts(every), encoding="utf-8")
+    (target / "counts.md").write_text(counts_markdown(every), encoding="utf-8")
     rows.to_csv(target / "gallery.csv", index=False)  # last: with it the gallery is whole
 
 
-def small(source: Path, target: Path, width: int = WIDTH) -> None:
-    """A picture scaled to so many pixels across, in few colours."""
+def write_thumbnail(source: Path, target: Path, width: int = WIDTH) -> None:
+    """Write a picture scaled to a width in pixels, in few colours."""
     with Image.open(source) as picture:
         height = round(picture.height * width / picture.width)
         scaled = picture.convert("RGB").resize((width, height), Image.Resampling.LANCZOS)

@@ -16,6 +16,7 @@ from importlib import metadata
 from pathlib import Path
 
 import jinja2
+import matplotlib as mpl
 import pandas as pd
 import xarray as xr
 from markupsafe import Markup
@@ -24,10 +25,11 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.wording import dataset_summary, measure_text, printed, rounded_texts
-from contactsim.figures.sketch import sketch
+from contactsim.figures import style
+from contactsim.figures.sketch import plot_sketch
 from contactsim.provenance import digest, source_digest, versions
 from contactsim.publish import gallery
-from contactsim.publish.gallery import VERDICTS, Entry, duration, named_in
+from contactsim.publish.gallery import VERDICTS, Entry, duration_text, figures_in_source
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import build_setup
 
@@ -46,7 +48,7 @@ HIDDEN = ("name", "title", "tier", "seed")
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture as part of the page: its bytes as text, and its size on it."""
+    """A picture of the page: its bytes as a data URL, and its size on the page in pixels."""
 
     source: str
     width: int
@@ -55,7 +57,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Shown:
-    """A figure on the page: what it is, its picture, and how many statements about it came to which verdict."""
+    """A figure of the page: its entry, its picture, and the number of claims with each verdict."""
 
     entry: Entry
     picture: Picture
@@ -64,7 +66,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Solved:
-    """A study on the page: title, what its dataset tells of itself, cost, settings, and its scene drawn."""
+    """A study of the page: title, summary of its dataset (`told`), cost, settings, and a sketch of its scene."""
 
     title: str
     told: str
@@ -78,7 +80,7 @@ def report_settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]]) -> 
 
     others: settings of the figures that belong to no chapter, by group and name
     """
-    data = [gallery.settings(plan, {}), {study: plan.study_settings(study) for study in plan.studies}]
+    data = [gallery.gallery_settings(plan, {}), {study: plan.study_settings(study) for study in plan.studies}]
     shown = {group: {name: _titled(one) for name, one in figures.items()} for group, figures in others.items()}
     texts = [file.read_text(encoding="utf-8") for file in (TEMPLATE, STAGES)]
     source = digest(source_digest("contactsim.publish.report"), *texts)
@@ -100,7 +102,7 @@ def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
     settings : of `report_settings`
     folder : of the tier's results
     """
-    every = gallery.verdicts(folder, list(plan.claims))
+    every = gallery.read_verdicts(folder, list(plan.claims))
     return {
         "tier": plan.tier,
         "seed": plan.seed,
@@ -132,15 +134,15 @@ def _studies_of(plan: Plan, chapter: str) -> list[str]:
 
 
 def _counts(every: pd.DataFrame) -> dict[str, dict[str, int]]:
-    """By chapter, and over all, how many statements came to which verdict."""
+    """Return the number of claims with each verdict, by chapter and in all."""
     if every.empty:
         return {}
     parts = {_chapter(chapter): own for chapter, own in every.groupby("chapter")} | {"all": every}
-    return {name: gallery.counted(own) for name, own in parts.items()}
+    return {name: gallery.count_verdicts(own) for name, own in parts.items()}
 
 
 def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
-    """Each statement as its row is read: with numbers rounded, figures named, and what its data cost."""
+    """Return the rows of the claims, with rounded numbers, figures and studies."""
     rows = []
     for row in every.to_dict("records"):
         numbers = ("value", "ensemble_error", "grid_error")
@@ -149,7 +151,7 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
         texts["measure"] = measure_text(texts["measure"])
         if texts["condition"]:
             texts["there"] = " ± ".join(rounded_texts(*(row[f"condition_{name}"] for name in numbers)))
-        texts["figures"] = sorted(named_in(row["source"]) & set(plan.figures))
+        texts["figures"] = sorted(figures_in_source(row["source"]) & set(plan.figures))
         texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies
         texts["statement"] = printed(texts["statement"])
         rows.append(texts)
@@ -157,19 +159,19 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
 
 
 def _chapters(plan: Plan, folder: Path, every: pd.DataFrame) -> dict[str, list[Shown]]:
-    """By chapter, its figures."""
+    """Return the figures of each chapter."""
     found = {}
-    for chapter, entries in gallery.entries(plan).items():
+    for chapter, entries in gallery.figure_entries(plan).items():
         shown = []
         for entry in entries:
-            verdicts = gallery.counted(gallery.of_figure(every, entry.name))
+            verdicts = gallery.count_verdicts(gallery.claims_of_figure(every, entry.name))
             shown.append(Shown(entry, _picture(folder, entry.name), verdicts))
         found[_chapter(chapter)] = shown
     return found
 
 
 def _study(plan: Plan, folder: Path, name: str) -> Solved:
-    """What the page tells of a study."""
+    """Return what the page shows of a study."""
     data = dataset.load_dataset(folder / "datasets" / f"{plan.dataset_name(name)}.nc")
     costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(name)}.csv")
     drawn_scene = _sketch(plan.studies[name].runs()[0].settings)
@@ -178,12 +180,12 @@ def _study(plan: Plan, folder: Path, name: str) -> Solved:
 
 def _cost(costs: pd.DataFrame) -> str:
     runs, transforms, memory = costs.run.nunique(), costs.transforms.sum(), costs.memory_mib.max()
-    time = duration(costs.seconds.sum())
+    time = duration_text(costs.seconds.sum())
     return f"{runs} runs, {transforms:.3g} transforms, {time} of CPU time, at most {memory:.0f} MiB"
 
 
 def _settings(data: xr.Dataset) -> dict[str, str]:
-    """The settings of a dataset that say something, as text; of its loads no more than the ends."""
+    """Return the settings of a dataset as text, without empty ones; long lists of loads are shortened."""
     found = dataset.settings_of(data)
     if len(found["load"]["values"]) > 20:
         values = found["load"]["values"]
@@ -192,8 +194,9 @@ def _settings(data: xr.Dataset) -> dict[str, str]:
     return {key: json.dumps(value, ensure_ascii=False).replace('"', "") for key, value in sorted(kept.items())}
 
 
+@mpl.rc_context(style.RC_PARAMS)
 def _sketch(run: dict) -> Picture:
-    """The scene of a run, drawn."""
+    """Return the sketch of a run's scene."""
     size, dots = SKETCH
     figure, file = Figure(figsize=size, layout="constrained"), io.BytesIO()
     setup = build_setup(run)
@@ -201,7 +204,7 @@ def _sketch(run: dict) -> Picture:
     surface = scene.upper.surface
     enough = max(SECTION, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
     points = setup.points
-    sketch(scene, points if surface.points else min(points, enough), figure.subplots())
+    plot_sketch(scene, points if surface.points else min(points, enough), figure.subplots())
     figure.savefig(file, format="png", dpi=dots)
     return _embedded(file)
 
@@ -211,7 +214,7 @@ def _picture(folder: Path, name: str) -> Picture:
 
 
 def _embedded(source: Path | io.BytesIO) -> Picture:
-    """A picture as part of the page, in as many colours as a drawing needs."""
+    """Return a picture for the page, reduced to few colours."""
     file = io.BytesIO()
     with Image.open(source) as picture:
         few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
@@ -221,7 +224,7 @@ def _embedded(source: Path | io.BytesIO) -> Picture:
 
 
 def _others(settings: Mapping, folder: Path) -> dict[str, list[dict]]:
-    """By group, the figures that belong to no chapter."""
+    """Return the figures that belong to no chapter, by group."""
     groups = {group: settings["others"][group] for group in settings["order"]}
     return {
         group: [{"name": name, "picture": _picture(folder, name), **figures[name]} for name in sorted(figures)]

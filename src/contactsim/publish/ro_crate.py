@@ -37,7 +37,7 @@ FORMATS = {
 
 
 def read_citation(file: Path) -> dict:
-    """A CITATION.cff that says all that a crate needs; InputError where it is not there."""
+    """Return the content of a CITATION.cff; InputError if it lacks what a crate needs."""
     citation = load_yaml(file)
     for key in ("title", "authors", "license", "version", "date-released"):
         if not citation.get(key):
@@ -50,13 +50,13 @@ def read_citation(file: Path) -> dict:
 
 
 def author_name(author: Mapping) -> str:
-    """An author of a CITATION.cff, a person or not, in words."""
+    """Return the name of an author of a CITATION.cff."""
     parts = (author.get("given-names"), author.get("name-particle"), author.get("family-names"))
     return author.get("name") or " ".join(part for part in parts if part)
 
 
 def crate(citation: Mapping, part: str, identifier: str, files: Mapping[str, Mapping[str, object]]) -> ROCrate:
-    """The RO-Crate of a folder of results.
+    """Return the RO-Crate of a folder of results.
 
     citation: of `read_citation`; part: which of all results these are; files: properties of each by its place.
     """
