@@ -133,7 +133,7 @@ def test_the_readme_names_every_file_dimension_and_variable_with_its_unit_and_me
             row = next(line for line in section.splitlines() if f"`{name}`" in line)
             assert row.startswith(f"| {', '.join(map(str, item.dims)) or '–'} |")
             assert f"| `{name}` | {item.attrs['units']} | {item.attrs['long_name']}" in text
-    assert "| `status` | 1 | status of the solution: 0 converged, 1 budget," in text
+    assert "| `status` | 1 | status of the solution: 0 converged, 1 max_iterations," in text
     assert "| `figures/fig_3_2.png` | Area \\| pressure (figure; csv:" in text
 
 

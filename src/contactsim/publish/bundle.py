@@ -51,7 +51,7 @@ WITHOUT_VALUES = {
 
 @dataclass(frozen=True)
 class Held:
-    """Contents of a dataset: title, digest of its settings, versions, sizes; dimensions, unit and meaning of variables."""
+    """Contents of a dataset: title, digest of settings, versions, sizes; dimensions, unit and meaning of variables."""
 
     title: str
     settings: str

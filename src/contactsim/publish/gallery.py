@@ -78,8 +78,16 @@ def count_verdicts(own: pd.DataFrame) -> dict[str, int]:
 def gallery_table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
     """Return one row a figure: chapter, title, numbers of verdicts, errors, CPU seconds and digest of its data.
 
-    Errors are those of its own study, the first. folder: of the tier's results; every: all statements, of `read_verdicts`;
-    others: by name the titles of figures that belong to no chapter, of which nothing more is told.
+    Parameters
+    ----------
+    plan : of the tier
+    folder : of the tier's results
+    every : all claims, of `read_verdicts`
+    others : titles, by name, of the figures that belong to no chapter; they have no further columns
+
+    Notes
+    -----
+    Errors are those of the first study of a figure.
     """
     rows = []
     for chapter, own in figure_entries(plan).items():
