@@ -113,7 +113,11 @@ def _compare_attributes(old: dict, new: dict, renaming: Renaming, found: Differe
 def compare_tables(old: Path, new: Path, renaming: Renaming) -> Differences:
     """Compare two CSV files, in which rows and columns may come in another order."""
     before, after = (_columns(path) for path in (old, new))
-    before = {renaming.name(name): [renaming.value(cell) for cell in cells] for name, cells in before.items()}
+    # a word that one table renamed and another has always had keeps its name where the new table has it
+    renamed = {
+        name: name if name in after and renaming.name(name) not in after else renaming.name(name) for name in before
+    }
+    before = {renamed[name]: [renaming.value(cell) for cell in cells] for name, cells in before.items()}
     found = compare_names(before, after, renaming)
     names = sorted(before.keys() & after.keys())
     compared = [name for name in names if renaming.reason(name) is None]
