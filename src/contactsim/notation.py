@@ -95,6 +95,8 @@ OTHERS = {
     "slide_approach": "δ",
     "slide_mean_pressure": "p",
     "pairing_lattice_constant": "l",
+    "tangential_cutoff": "tangential cutoff",
+    "normal_cutoff": "normal cutoff",
     "surface_length": "w",
 }
 """What only sentences name: exact answers, fits, takes and keys of the config."""

@@ -45,7 +45,13 @@ def test_every_panel_of_a_figure_has_labels_and_finite_data_and_its_csv_holds_wh
     table = plot(*figure_data(made, name), panels if len(panels) > 1 else panels[0], **settings["reference"])
     for panel in panels:
         lines = [np.asarray(line.get_ydata(), float) for line in panel.lines]
-        assert any(np.isfinite(line).sum() > 1 for line in lines) or panel.images or panel.collections or panel.tables
+        assert (
+            any(np.isfinite(line).sum() > 1 for line in lines)
+            or panel.images
+            or panel.collections
+            or panel.tables
+            or panel.patches
+        )
         if panel.axison and not panel.images:
             assert panel.get_xlabel() or panel.get_xticklabels()[0].get_text()
             assert panel.get_ylabel() or panel.get_yticklabels()[0].get_text()

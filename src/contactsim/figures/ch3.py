@@ -190,10 +190,11 @@ def _plot_ratios(axes: Axes, lines: xr.Dataset, surface: xr.Dataset) -> pd.DataF
 
 def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Map contact, pressure and gap of one rough surface at one load."""
+    surface_fields = SurfaceFields.of_dataset(fields)
     places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
     labels = [f"{PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
     axes[0].text(1, -0.03, ", ".join(labels), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")
-    return plot_fields(SurfaceFields.of_dataset(fields), axes).assign(**places)
+    return plot_fields(surface_fields, axes).assign(**places)
 
 
 def fig_3_3(data: xr.Dataset, axes: Axes) -> pd.DataFrame:

@@ -7,6 +7,7 @@ of points: a pixel shows the fraction of its points in contact, and no load is l
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import matplotlib as mpl
 import numpy as np
@@ -22,8 +23,10 @@ from contactsim.errors import InputError, is_number
 from contactsim.figures import style
 from contactsim.grid import Array
 from contactsim.observables.contact import touching
-from contactsim.solvers.base import Result
 from contactsim.status import Status
+
+if TYPE_CHECKING:
+    from contactsim.solvers.base import Result
 
 PIXELS = 512
 """Largest number of pixels along a side: what three panels beside each other can show."""
