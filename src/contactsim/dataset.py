@@ -71,7 +71,7 @@ def described(data: xr.Dataset) -> xr.Dataset:
         base, kind = base_name(str(name))
         unit, text = (
             VARIABLES.get(base)
-            or SETTINGS.get(re.sub("^(surface|body|counter_body|solver|pairing|slide)_", "", base))
+            or SETTINGS.get(re.sub("^(surface|body|counter_body|solver|increments|pairing|slide)_", "", base))
             or ("1", f"option {base}")
         )
         data[name].attrs.update(units=unit, long_name=f"{text}{kind}")
@@ -91,7 +91,7 @@ def described(data: xr.Dataset) -> xr.Dataset:
 def dimension(key: str) -> str:
     """Name of the dimension along which a key of a study is varied: its last part, unless something else has it."""
     section, _, last = key.rpartition(".")
-    own = last in VARIABLES or last == "kind" or section == "counter_body"
+    own = last in VARIABLES or last == "kind" or section in ("counter_body", "increments")
     return f"{section}_{last}" if section and own else last
 
 

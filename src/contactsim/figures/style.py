@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from contactsim.variables import SUFFIXES
 
-RC_PARAMS = {
+RC_PARAMS: dict[Any, Any] = {
     "font.size": 9,
     "axes.labelsize": 9,
     "legend.fontsize": 7.5,
