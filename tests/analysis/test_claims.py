@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from contactsim import dataset
+from contactsim import dataset, reference
 from contactsim.analysis import aggregate, claims, reductions
 from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.uncertainty import Estimate, estimate
