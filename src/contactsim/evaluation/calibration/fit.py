@@ -167,5 +167,7 @@ def _round(value: float) -> float:
 
 def format_relations(table: pd.DataFrame) -> str:
     """Return the fitted relations as the text of their file."""
-    head = "# Relations between error and cost, measured by `snakemake fit_scaling`; see evaluation/calibration/fit.py\n"
+    head = (
+        "# Relations between error and cost, measured by `snakemake fit_scaling`; see evaluation/calibration/fit.py\n"
+    )
     return head + yaml.safe_dump(fit_relations(table), sort_keys=False, width=120, default_flow_style=None)

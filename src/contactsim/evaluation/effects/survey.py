@@ -211,5 +211,7 @@ def format_maps(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
             "axes": one["axes"],
             "change": [float(f"{value:.3g}") for value in data.change_without.values.ravel()],
         }
-    head = "# Change on neglecting effects, measured by `snakemake export_effect_maps`; see evaluation/effects/survey.py\n"
+    head = (
+        "# Change on neglecting effects, measured by `snakemake export_effect_maps`; see evaluation/effects/survey.py\n"
+    )
     return head + yaml.safe_dump(sections, sort_keys=False, width=120, default_flow_style=None)
