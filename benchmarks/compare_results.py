@@ -117,7 +117,13 @@ def compare_tables(old: Path, new: Path, renaming: Renaming) -> Differences:
     renamed = {
         name: name if name in after and renaming.name(name) not in after else renaming.name(name) for name in before
     }
-    before = {renamed[name]: [renaming.value(cell) for cell in cells] for name, cells in before.items()}
+    own = {cell for cells in after.values() for cell in cells}
+    before = {
+        renamed[name]: [
+            cell if cell in own and renaming.value(cell) not in own else renaming.value(cell) for cell in cells
+        ]
+        for name, cells in before.items()
+    }
     found = compare_names(before, after, renaming)
     names = sorted(before.keys() & after.keys())
     compared = [name for name in names if renaming.reason(name) is None]

@@ -32,7 +32,7 @@ AXIS_LABELS = {
     "stiffness": "E of the stiffer over the softer body",
     "thickness": "thickness over roll-off wavelength",
     "hurst_exponent": "Hurst exponent H",
-    "short_cutoff": "λs/λr",
+    "cutoff_ratio": "λs/λr",
 }
 
 
