@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import contactsim
-from contactsim import cli, dataset
+from contactsim import cli, commands, dataset
 from contactsim.contact import loading
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
@@ -219,7 +219,7 @@ def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(
         setups.append(setup)
         return follow_path(setup)
 
-    monkeypatch.setattr(cli, "follow_path", follow)
+    monkeypatch.setattr(commands, "follow_path", follow)
     cli.main(["run", str(scene_file)])
     (options,) = (setup.options for setup in setups)
     assert (type(options.solver).__name__, options.solver.batch) == ("PolonskyKeer", 5)

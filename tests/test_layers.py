@@ -38,6 +38,7 @@ FLOORS = (
     ("evaluation",),
     ("figures",),
     ("publish",),
+    ("commands",),
     ("cli",),
 )
 """Packages from the ground up: each may import itself and those before it; modules of one floor may share."""

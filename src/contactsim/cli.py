@@ -11,267 +11,40 @@ from __future__ import annotations
 import argparse
 import logging
 import sys
-import textwrap
-from collections.abc import Sequence
-from pathlib import Path
+from importlib import import_module
 
-import numpy as np
-import xarray as xr
-
-from contactsim import dataset
-from contactsim.analysis.tiers import difference_text, is_within
-from contactsim.error_control.control import solve_to_error
-from contactsim.error_control.effect_maps import neglect_effects
-from contactsim.error_control.forecast import Forecast, forecast_run
-from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
-from contactsim.evaluation import estimate
-from contactsim.explanation import explain_setup
-from contactsim.observables.derived import combine_runs
-from contactsim.observables.forms import form_of
-from contactsim.paths.driver import follow_path
-from contactsim.paths.options import Accuracy, Setup
-from contactsim.status import Status, is_solved
-from contactsim.study import tier_comparison
-from contactsim.study.execute import label_run
-from contactsim.study.keys import ERROR_RUNS
-from contactsim.study.plan import Plan
-from contactsim.study.reading import load_yaml, whole
-from contactsim.study.scenes import build_setup, updated_settings
-from contactsim.study.select_effects import select_effects
-from contactsim.study.study import Study
-
-DRAWN = (".png", ".pdf", ".svg")
-
-
-def read_scene(path: str, accuracy: float | None = None) -> Study:
-    """The one-run study in a scene file; accuracy: one that it is asked for where it says nothing of its grid."""
-    section = load_yaml(path)
-    if accuracy is not None and not {"accuracy", "tolerance"} & set(section):
-        section["accuracy"] = accuracy
-    for key in ("vary", "members", *ERROR_RUNS, "fit_limits", "same_surfaces_as", "snapshot_members"):
-        if key in section:
-            raise InputError(key, section[key], "left out: a scene file is one run, this belongs to studies", path)
-    seed = section.pop("seed", 0)
-    try:
-        whole(0)(seed)
-    except ValueError as error:
-        raise InputError("seed", seed, "a whole number, 0 or more", path) from error
-    name = Path(path).stem
-    try:
-        return Study.read(name, {"title": name} | section, path, seed)
-    except InputError as error:  # in a scene file the keys stand at the top
-        raise InputError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
-
-
-def named(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
-    """A study, from a scene file or by its name in ./config; accuracy: see `read_scene`."""
-    if accuracy is not None and not 0 < accuracy < 1:
-        raise InputError("--accuracy", accuracy, "a relative error, above 0 and below 1")
-    if Path(scene).suffix:
-        if tier is not None:
-            raise InputError("--tier", tier, "none with a scene file: tiers belong to studies")
-        return read_scene(scene, accuracy)
-    if not Path("config").is_dir():
-        raise InputError("scene", scene, "a scene file, or a study's name where there is a folder config")
-    studies = Plan.read("config", tier).studies
-    if scene not in studies:
-        raise InputError("scene", scene, f"a .yaml file or one of {', '.join(studies)}")
-    return studies[scene]
-
-
-SHOWN = (
-    *(
-        "mean_pressure",
-        "relative_contact_area",
-        "relative_contact_area_subgrid",
-        "kappa",
-        "kappa_r",
-        "mean_gap",
-        "max_contact_gap",
-    ),
-    *("approach", "sliding_distance", "line_load", "friction_force", "contact_length", "max_interpenetration", "slip"),
-    *("residual", "jump", "validity_flags", "transforms", "status"),
-)
-"""What is printed of a simulation, as far as its scene has it."""
-NARROW = 17
-"""Letters of a column's name, and spaces where it is broken, in one line."""
-
-
-def explain_scene(options: argparse.Namespace) -> None:
-    """Print what a scene does and costs; draw it if asked to."""
-    if options.draw and Path(options.draw).suffix not in DRAWN:
-        raise InputError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
-    study = named(options.scene, options.tier)
-    setup, runs = study.runs()[0].setup, len(study.runs())
-    sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
-    sys.stdout.write(explain_setup(setup, study.settings["neglect"]).text + "\n")
-    if options.draw:
-        from contactsim.figures.sketch import save_sketch
-
-        save_sketch(setup.scene, setup.points, options.draw)
-
-
-def run_scene(options: argparse.Namespace) -> None:
-    """Simulate a scene file and write its dataset beside it, or where asked; fail if a step did not converge."""
-    study = read_scene(options.scene)
-    target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
-    if Path(target).is_dir():
-        raise InputError("--output", target, "the name of a file; this is a folder")
-    data, settings = _simulated(study, options.threads)
-    data = _as_of_a_study(data, settings)
-    source = study.runs()[0].source
-    dataset.write(dataset.stamped(data, study.settings["title"], settings, source), target)
-    sys.stdout.write(f"{_table(data)}\n")
-    if "accuracy" in data:
-        sys.stdout.write(f"{_reached(data)}\n")
-    sys.stdout.write(f"written to {target}\n")
-    failed = int((~is_solved(data.status)).sum())
-    if failed:
-        sys.exit(f"Error: {failed} of {data.status.size} load steps did not converge")
-
-
-def _table(data: xr.Dataset) -> str:
-    """A line for each load; above it the names of variables, broken after underscores, and their units."""
-    names = {status.value[0]: status.name.lower() for status in Status}
-    rows = data[[name for name in SHOWN if name in data]].to_dataframe().reset_index()
-    rows["status"] = [names[status] for status in rows.status]
-    columns = []
-    for name, values in rows.items():
-        unit = data[name].attrs["units"]
-        head = [*textwrap.wrap(name.replace("_", "_ "), NARROW), "" if unit == "1" else unit]
-        columns.append([part.replace("_ ", "_") for part in head] + [_cell(value) for value in values])
-    tall, widths = max(map(len, columns)), [max(map(len, column)) for column in columns]
-    lines = zip(*([""] * (tall - len(column)) + column for column in columns), strict=True)
-    return "\n".join(estimate.align_right(line, widths).rstrip() for line in lines)
-
-
-def _cell(value: object) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
-
-
-def _reached(data: xr.Dataset) -> str:
-    """What came of an accuracy that was asked for: errors relative to what was found."""
-    ending = "_estimated_error"
-    names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
-    whole = form_of(data).derive(combine_runs([(data, {"member": 0})])) if form_of(data).is_path else data
-    errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
-    met, found = (
-        "reached" if data.accuracy_reached else "not reached",
-        ", ".join(f"{name} to {one:.2g}" for name, one in errors.items()),
-    )
-    return f"relative error {float(data.accuracy):g} {met} on {int(data.points)} points: {found}, as estimated"
-
-
-def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
-    """Return the simulation of a study's first run, and its settings with what was neglected and chosen."""
-    settings = study.runs()[0].settings
-    setup = build_setup(settings, threads)
-    if "auto" in settings:
-        decision = select_effects(settings)
-        sys.stdout.write(f"{decision.description}\n")
-        setup, settings = neglect_effects(setup, decision.neglected), settings | {"neglect": decision.neglected}
-    accuracy = setup.options.accuracy
-    if accuracy is None:
-        return follow_path(setup), settings
-    controlled = solve_to_error(setup, accuracy.error, accuracy.quantities)
-    return controlled.data, updated_settings(settings, controlled.last.setup)
-
-
-def estimate_cost(options: argparse.Namespace) -> None:
-    """Print what a scene, each run of a study or every figure is expected to cost, as it is or to an accuracy."""
-    if options.scene is None:
-        if options.accuracy is not None:
-            raise InputError("--accuracy", options.accuracy, "none without a scene or a study")
-        sys.stdout.write(estimate.cost_table("config", Plan.read("config", options.tier)))
-        return
-    study = named(options.scene, options.tier, options.accuracy)
-    runs = [run for run in study.runs() if not run.measures_error]
-    setups = [run.setup for run in runs]
-    try:
-        if options.accuracy is not None:
-            wanted = Accuracy(options.accuracy, tuple((study.settings["accuracy"] or {"quantities": ()})["quantities"]))
-            setups = [
-                choose_options(setup, wanted.error, wanted.quantities).with_options(accuracy=wanted) for setup in setups
-            ]
-        text = describe_forecasts(setups, [forecast_run(setup) for setup in setups])
-        note = "with all effects: what is negligible is found out by the run\n"
-        sys.stdout.write(text + note * ("auto" in runs[0].settings))
-    except InputError as error:
-        raise error.located(study.file) from error
-
-
-def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -> str:
-    """Return forecasts in words: grid and cost of the first run, and the cost of all together."""
-    first, setup = forecasts[0], setups[0]
-    grid = f"{first.points} points, tolerance {setup.options.tolerance:.2g}"
-    if setup.scene.path.increment is not None:
-        increments = type(setup.options.increments).__name__.lower()
-        grid += f", increments of {setup.scene.path.increment:g} {increments}"
-    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
-    before = ", a coarser run before included" * (setup.options.accuracy is not None)
-    lines = [
-        f"grid         {grid}",
-        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
-        f"transforms   {first.transforms:.3g} of that grid{before}",
-        f"seconds      {first.seconds:.2g} of CPU on one thread",
-        f"memory       {first.megabytes:.3g} MB of arrays",
-        f"error        {errors} (relative, as expected of such scenes)",
-    ]
-    if len(setups) > 1:
-        seconds = sum(forecast.seconds for forecast in forecasts)
-        transforms = sum(forecast.transforms for forecast in forecasts)
-        lines.append(f"all {len(setups):4d} runs {seconds:.3g} s, {transforms:.3g} transforms")
-    unsure = dict.fromkeys(name for forecast in forecasts for name in forecast.unsure)
-    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
-    return "\n".join(lines) + "\n"
-
-
-def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
-    """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
-    data = label_run(data, settings, [""] * data.step.size).drop_vars("point_digest")
-    form = form_of(data)
-    return data if form.is_path else dataset.described(form.derive(data))
-
-
-def compare_tiers(options: argparse.Namespace) -> None:
-    """Print how far the figures of two tiers differ; exit code 1 where one is beyond the limit."""
-    found = tier_comparison.compare_tiers(Plan.read("config", options.first), Plan.read("config", options.second))
-    sys.stdout.write(f"{options.first} beside {options.second}: differences relative to {options.second}\n")
-    sys.stdout.write(difference_text(found, options.within))
-    if not all(table is None or is_within(table, options.within) for table in found.values()):
-        sys.exit(1)
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """The command line."""
+    """Read the command line and call the command; what it needs is imported only then."""
     parser = argparse.ArgumentParser(prog="contactsim", description="One scene, or two tiers, from the shell.")
     commands = parser.add_subparsers(required=True)
     telling = commands.add_parser("explain", help="which effects are on, what exists, what it costs")
     telling.add_argument("scene", help="a scene file, or the name of a study in ./config")
     telling.add_argument("--tier", help="tier of the study")
     telling.add_argument("--draw", metavar="FILE", help="draw the scene into a .png, .pdf or .svg")
-    telling.set_defaults(call=explain_scene)
+    telling.set_defaults(command="explain_scene")
     running = commands.add_parser("run", help="simulate it")
     running.add_argument("scene", help="a scene file")
     running.add_argument("--output", metavar="FILE", help="dataset to write, default beside the scene file")
     threads = "of the transforms, default 1; results are the same bit for bit at one number of threads"
     running.add_argument("--threads", type=int, default=1, help=threads)
-    running.set_defaults(call=run_scene)
+    running.set_defaults(command="run_scene")
     costing = commands.add_parser("estimate", help="expected cost and error, before anything runs")
     costing.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; without it, all figures")
     costing.add_argument("--tier", help="tier of the study or figures")
     costing.add_argument("--accuracy", type=float, help="relative error for which grid and increments are chosen")
-    costing.set_defaults(call=estimate_cost)
+    costing.set_defaults(command="estimate_cost")
     comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
     comparing.add_argument("first", help="a tier, such as quick")
     comparing.add_argument("second", help="the tier that differences are relative to")
     comparing.add_argument("--within", type=float, default=0.1, help="largest relative difference, default 0.1")
-    comparing.set_defaults(call=compare_tiers)
+    comparing.set_defaults(command="compare_tiers")
     options = parser.parse_args(arguments)
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
     try:
-        options.call(options)
+        getattr(import_module("contactsim.commands"), options.command)(options)
     except InputError as error:
         sys.exit(f"Error: {error}")
     except OSError as error:
