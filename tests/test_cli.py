@@ -225,4 +225,4 @@ def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(
     assert (type(options.solver).__name__, options.solver.batch) == ("PolonskyKeer", 5)
     assert (options.tolerance, options.points) == (1e-4, 256)
     assert dataset.load_dataset(scene_file.with_suffix(".nc")).attrs["settings"]
-    assert cli.read_scene(str(scene_file)).seed == 7
+    assert commands.read_scene(str(scene_file)).seed == 7
