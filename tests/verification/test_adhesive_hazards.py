@@ -15,7 +15,7 @@ from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.judge import find_path_violation, judge
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.path_cases import PathCase, surface_compliance
-from contactsim.evaluation.robustness.registry import HAZARDS, describe_hazard
+from contactsim.evaluation.robustness.registry import HAZARDS
 from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.solvers.registry import make_solver
@@ -64,9 +64,8 @@ def test_a_solver_of_hard_walls_is_refused_and_one_of_smooth_laws_refuses_them(h
 
 
 @pytest.mark.parametrize("hazard", NAMES)
-def test_a_path_is_the_same_every_time_and_says_in_one_line_what_gets_harder(hazard):
+def test_a_path_is_the_same_every_time_and_symmetric_where_it_says_so(hazard):
     assert HAZARDS[hazard](37) == HAZARDS[hazard](37)
-    assert 20 < len(describe_hazard(hazard)) <= 117
     heights = HAZARDS[hazard](37).shape[0, 1:]
     assert np.array_equal(heights, heights[::-1]) == HAZARDS[hazard](37).even
 

@@ -1,4 +1,4 @@
-"""Observed orders of convergence at a hard wall, and solvers that agree."""
+"""Observed orders of convergence at a hard wall on lines and surfaces, half-spaces and layers; solvers that agree."""
 
 from __future__ import annotations
 
@@ -8,22 +8,58 @@ import pytest
 import contactsim
 from contactsim import reference
 from contactsim.observables.contact import relative_contact_area_subgrid
-from support.cases import ALL, FAST, press, rough, wave
+from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
+from support.cases import ALL, FAST, ON_SURFACES, press, rough, wave
 
 
 def orders(errors):
     return np.log2(np.divide(errors[:-1], errors[1:]))
 
 
-@pytest.mark.parametrize("name", FAST)
-def test_mean_gap_of_a_wave_converges_at_second_order(name):
-    # p/p_c = 1/2 puts the edges of the contact halfway between points on each of these grids
+def half_contact(points: int) -> float:
+    """Return p_c/2, which puts the edges of a wave's contact halfway between points on grids of powers of two."""
+    return 0.5 * reference.full_contact_pressure(1.0, points, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "rows"), [*((name, None) for name in ALL), *((name, 4) for name in ON_SURFACES)], ids=str
+)
+def test_mean_gap_of_a_wave_converges_at_second_order_on_lines_and_surfaces(name, rows):
     errors = []
-    for points in (64, 128, 256, 512, 1024):
-        mean = 0.5 * reference.full_contact_pressure(1.0, points, 1.0)
-        result = press(wave(points), mean, name, tolerance=1e-8)
+    for points in (64, 128, 256):
+        heights = wave(points) if rows is None else np.tile(wave(points), (rows, 1))
+        result = press(heights, half_contact(points), name, tolerance=1e-8)
         errors.append(abs(result.gap.mean() - reference.sinusoid_mean_gap(0.5, 1.0)))
-    assert orders(errors) == pytest.approx([2, 2, 2, 2], abs=0.1)
+    assert orders(errors) == pytest.approx([2, 2], abs=0.1)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_pressure_of_a_wave_converges_as_the_root_at_its_edges_lets_it(name):
+    errors = []
+    for points in (64, 128, 256):
+        mean = half_contact(points)
+        exact = reference.sinusoid_pressure(np.pi * np.arange(points) / points, 0.5, mean)
+        error = np.abs(press(wave(points), mean, name, tolerance=1e-8).pressure - exact) / mean
+        errors.append([error.mean(), np.sqrt(np.mean(error**2)), error.max()])
+    assert np.mean(orders(errors), axis=0) == pytest.approx([1.5, 1, 0.5], abs=0.02)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.5])
+@pytest.mark.parametrize("thickness", [0.02, 0.1, 0.5])
+def test_approach_and_area_on_a_layer_converge_at_second_order(thickness, ratio):
+    loads = np.linspace(0.2, 0.4, 8) * np.pi * (4 if thickness < 0.05 else 1)
+    body = {"contact_modulus": 1.0, "thickness": thickness, "poisson_ratio": ratio}
+
+    def numbers(points: int) -> np.ndarray:
+        results = [
+            contactsim.press(wave(points), spacing=1 / points, mean_pressure=load, tolerance=1e-8, **body)
+            for load in loads
+        ]
+        return np.array([[r.approach, relative_contact_area_subgrid(r.pressure, r.gap)] for r in results])
+
+    exact = numbers(4096)
+    coarse, fine = (np.sqrt(np.mean((numbers(points) - exact) ** 2, axis=0)) for points in (64, 512))
+    assert np.log2(coarse / fine) / 3 == pytest.approx([2, 2], abs=0.35)
 
 
 @pytest.mark.parametrize("ratio", [0.3, 0.5])
@@ -81,6 +117,21 @@ def test_cylinder_width_between_points_shows_the_neighbours_that_counting_hides(
         assert found == pytest.approx(half_width * (1 - neighbours), abs=0.015 * length / points)
 
 
+def test_gradient_in_the_contact_of_a_cylinder_converges_at_first_order():
+    errors, length = [], 64.0
+    for points in (2**10, 2**12, 2**14):
+        heights = -((np.arange(points) * length / points - length / 2) ** 2) / 2
+        found = []
+        for half_width in np.linspace(0.5, 0.9, 9):
+            load = reference.cylinder_load(half_width, 1.0, 1.0) / length
+            body = {"spacing": length / points, "contact_modulus": 1.0}
+            result = contactsim.press(heights, mean_pressure=load, **body)
+            gradient = rms_gradient(heights, length / points, result.contact)
+            found.append(gradient / reference.cylinder_rms_gradient(half_width, 1.0) - 1)
+        errors.append(np.sqrt(np.mean(np.square(found))))
+    assert orders(errors) / 2 == pytest.approx([1, 1], abs=0.15)
+
+
 def indented(
     points: int, contact_radius: float, centre: tuple[float, float] = (0.0, 0.0)
 ) -> tuple[float, float, float]:
@@ -112,6 +163,22 @@ def test_hertz_radius_between_points_converges_at_second_order_and_by_counting_a
     assert np.mean(orders(placed)) == pytest.approx(2, abs=0.4)
     assert counted[-1] > 4e-3
     assert np.mean(orders(counted)) == pytest.approx(1, abs=0.3)
+
+
+@pytest.mark.parametrize(("gradient", "order"), [(rms_gradient, 1.3), (rms_gradient_pairs, 1.0)])
+def test_gradient_in_the_contact_of_a_sphere_converges_at_first_order_or_faster(gradient, order):
+    errors, centres = [], np.random.default_rng(0).random((8, 2))
+    for points in (64, 128, 256):
+        found = []
+        for radius, centre in zip(np.linspace(0.09, 0.11, 8), centres, strict=True):
+            y, x = ((np.arange(points) - points // 2 - start) / points for start in centre)
+            heights, load = -(y[:, None] ** 2 + x**2) / 2, reference.sphere_load(radius, 1.0, 1.0)
+            body = {"spacing": 1 / points, "contact_modulus": 1.0}
+            result = contactsim.press(heights, mean_pressure=load, tolerance=1e-4, **body)
+            measured = gradient(heights, (1 / points, 1 / points), result.contact)
+            found.append(measured / reference.sphere_rms_gradient(radius, 1.0) - 1)
+        errors.append(np.sqrt(np.mean(np.square(found))))
+    assert np.mean(orders(errors)) == pytest.approx(order, abs=0.25)
 
 
 def test_hertz_radius_and_pressure_at_small_contact_are_right_to_a_thousandth():

@@ -9,7 +9,6 @@ import pytest
 
 from contactsim.evaluation.robustness.judge import find_path_violation, judge
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.registry import describe_hazard
 from contactsim.evaluation.robustness.sliding import LATTICE, SLIDING, large_increments, many_cells_slid, wide_window
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -34,9 +33,8 @@ def test_no_slide_is_answered_wrongly(hazard, severity):
 
 
 @pytest.mark.parametrize("hazard", SLIDING)
-def test_a_slide_is_the_same_every_time_and_says_in_one_line_what_gets_harder(hazard):
+def test_a_slide_is_the_same_every_time_and_not_symmetric(hazard):
     assert hazard(37) == hazard(37)
-    assert 20 < len(describe_hazard(hazard.__name__)) <= 117
     assert not hazard(37).even
 
 
