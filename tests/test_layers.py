@@ -22,7 +22,7 @@ FLOORS = (
         "dataset",
         "provenance",
         "reference",
-        "source",
+        "code_digest",
     ),
     ("surfaces",),
     ("elasticity",),

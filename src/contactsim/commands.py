@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.tiers import difference_text, is_within
+from contactsim.analysis.table_comparison import difference_text, is_within
 from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
@@ -20,8 +20,8 @@ from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
 from contactsim.evaluation import estimate
 from contactsim.explanation import explain_setup
+from contactsim.observables.dataset_forms import form_of
 from contactsim.observables.derived import combine_runs
-from contactsim.observables.forms import form_of
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Accuracy, Setup
 from contactsim.status import Status, is_solved

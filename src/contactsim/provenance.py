@@ -13,8 +13,8 @@ from functools import cache
 from importlib import metadata
 from pathlib import Path
 
+from contactsim.code_digest.normal_form import SourceCode, read_source
 from contactsim.errors import InputError
-from contactsim.source.normal_form import SourceCode, read_source
 
 PACKAGE = "contactsim"
 LIBRARIES = ("numpy", "scipy", "ducc0", "numba", "xarray", "netCDF4")
@@ -91,8 +91,8 @@ def modules_used(*names: str) -> tuple[str, ...]:
 def source_digest(*names: str) -> str:
     """Return the digest of what these modules compute and of all that they use: 16 hexadecimal digits.
 
-    An edit that cannot change a result changes no digest (`contactsim.source.normal_form`). Docstrings count where a
-    module reads them: its own, and those of the modules that it imports.
+    An edit that cannot change a result changes no digest (`contactsim.code_digest.normal_form`). Docstrings count where
+    a module reads them: its own, and those of the modules that it imports.
     """
     text = hashlib.sha256()
     for module in modules_used(*names):

@@ -13,7 +13,7 @@ from contactsim.analysis.ensemble import departure, relative_change, unconverged
 from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fits
 from contactsim.errors import InputError
 from contactsim.observables import derived
-from contactsim.observables.forms import AVERAGED, load_dimension
+from contactsim.observables.dataset_forms import AVERAGED, load_dimension
 from contactsim.status import Status
 
 PRESSURES = [0.01, 0.1, 0.3]

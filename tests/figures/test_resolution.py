@@ -14,7 +14,7 @@ from contactsim.analysis import aggregate, resolution
 from contactsim.errors import InputError
 from contactsim.figures import ch3, style
 from contactsim.figures.parts import resolution as resolution_curves
-from contactsim.observables.forms import AVERAGED
+from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.plan import Plan
 
 CONFIG = Path(__file__).parents[2] / "config"

@@ -16,8 +16,8 @@ from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fits
+from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
-from contactsim.observables.forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.variables import ERRORS
 
 EXACT_CONTACTS = {

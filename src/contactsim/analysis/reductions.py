@@ -16,7 +16,7 @@ from contactsim import reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fit_line_area
-from contactsim.observables.forms import AVERAGED, PATH_SUMMARIES, form_of
+from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, form_of
 
 
 def mean(values: xr.DataArray) -> float:

@@ -12,9 +12,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim import dataset, reference
-from contactsim.analysis import slides
+from contactsim.analysis import slide_tables
 from contactsim.analysis.scales import LawScales, varied_key
-from contactsim.analysis.slides import slide_table
+from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
 from contactsim.figures.parts import law_curves
 from contactsim.figures.parts import slide_curves as curves
@@ -82,7 +82,7 @@ def _plot_flat(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
     modulus = float(path.counter_body_youngs_modulus)
     work = float(path.work_ratio) * LawScales.of(data).work_of_separation
     table = slide_table(path)
-    table = table.assign(exact=slides.exact_flat_force(path, table.slide.values))
+    table = table.assign(exact=slide_tables.exact_flat_force(path, table.slide.values))
     label = rf"$\bar E={modulus:g}$, $\bar\varphi_t={work:g}$"
     axes.plot(table.slide, table.force, color=colour, lw=1.1, label=label)
     axes.plot(table.slide[::4], table.exact[::4], ".", color=style.EXACT, ms=1.6, zorder=3)
@@ -93,7 +93,7 @@ def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Plot the mean friction of flats against modulus over strength, for two thicknesses (thesis Fig. 6.5)."""
     tables = []
     for data, colour in zip((thin, thick), (style.CONTACT, style.WHOLE), strict=True):
-        table = slides.friction_against_modulus(data)
+        table = slide_tables.friction_against_modulus(data)
         thickness, critical = table.thickness.iloc[0], table.critical.iloc[0]
         for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):
             label = rf"$h={thickness:g}$ nm" if name == "mean_friction" else None
@@ -160,7 +160,7 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     left, right = axes
     tables = []
     for approach, colour in style.shades(data.slide_approach).items():
-        table = slides.contact_to_onset(data.sel(slide_approach=approach).isel(member=0))
+        table = slide_tables.contact_to_onset(data.sel(slide_approach=approach).isel(member=0))
         left.plot(table.force, table.area, ".", color=colour, ms=2.2, label=curves.approach_label(approach))
         left.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=0.8)
         left.plot(table.force.iloc[-1], table.area.iloc[-1], "o", color="black", ms=3.5)
@@ -181,7 +181,7 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
 
 def _plot_onsets(axes: Axes, data: xr.Dataset, colour: str, marker: str) -> pd.DataFrame:
     """Plot the force at the onset against the contact, with the straight line of Eq. 6.9."""
-    table = slides.onset_table(data)
+    table = slide_tables.onset_table(data)
     label = rf"$\bar\varphi_n={LawScales.of(data).work_of_separation:g}$, {curves.work_ratio_label(data)}"
     axes.plot(table.area, table.force, ls="none", label=label, **style.marker_look(colour, marker, fill="none"))
     ends = np.array([0.0, float(table.area.max())])
@@ -193,7 +193,7 @@ def peel_and_slip(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the gaps under the probe, and its force and contact up to the last snapshot (beyond the thesis)."""
     path = data.isel(member=0)
     table, state = slide_table(path), path.isel(snapshot=-1)
-    position, nodes = slides.node_positions(path)
+    position, nodes = slide_tables.node_positions(path)
     gap, slip = (state[f"{name}_gap"].values[nodes] for name in ("normal", "tangential"))
     curves.plot_gap(axes[0], position, gap, 1.0, alpha=0.6)
     axes[0].axhline(0.0, color=style.WHOLE, lw=0.6)

@@ -17,8 +17,9 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError, is_number
 from contactsim.paths.continuation import Continuation
+from contactsim.paths.jumps import Jump
 from contactsim.paths.segments import Segment
-from contactsim.paths.state import Jump, PathState
+from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -248,7 +249,7 @@ class Adaptive:
 
 def _flow_to(path: Continuation, step: LoadStep) -> tuple[Equilibrium, tuple[Jump, ...], int]:
     """Return the state that the flow reaches, the jumps and the iterations; over a lattice in divided steps."""
-    if path.has_lattice:
+    if path.jumps.has_lattice:
         return path.advance_to(step)
     state = path.flow_to(step)
     jump = path.accept(step, state, True) if state.is_stable else None

@@ -14,16 +14,12 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import History
-from contactsim.paths.state import Jump, PathState
+from contactsim.paths.jumps import Jump, JumpCriterion
+from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
-"""A flow is a jump if it moves the surface by more than this part of the laws' length and by more than this many steps.
-A step under load counts as the length that a step of that size moved the surface before."""
-SLIP_RATIO = 250.0
-"""Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
 BOND_LENGTH = 3.0
 """Gaps, in the laws' length, over which sites of a lattice hold each other."""
 MAX_HALVINGS = 8
@@ -53,7 +49,7 @@ class Continuation:
         self._failures = 0
         self._memory = solver.new_memory()
         self.current: tuple[LoadStep, Equilibrium] | None = None  # step and state accepted last
-        self._pace: float | None = None
+        self.jumps = JumpCriterion(problem)
 
     def parameter(self, target: LoadStep) -> float | None:
         """Return the load parameter of the current state, under the control of a target step; None at the beginning.
@@ -81,7 +77,8 @@ class Continuation:
         current = normal
         if target.control is Trait.SLIDE:
             current = LoadStep(Trait.SLIDE, step.sliding_distance, held=normal)
-        self.displacement, self._pace = displacement, None
+        self.displacement = displacement
+        self.jumps.forget_pace()
         self.current = current, replace(state, displacement=displacement)
         self.history = History()
         self.history.add(current.value, displacement)
@@ -124,7 +121,7 @@ class Continuation:
         """
         if not (state.is_stable and state.largest_change <= self.trust_radius):
             return False
-        if self.current is None or not self.has_lattice:
+        if self.current is None or not self.jumps.has_lattice:
             return True
         close = state.gap[0] <= BOND_LENGTH * self.problem.interaction_range
         slip = np.abs(state.gap[1, close] - self.current[1].gap[1, close]).max(initial=0.0)
@@ -142,28 +139,17 @@ class Continuation:
         """Make a state the current one; return the jump to it if it is one."""
         parameter = self.parameter(step)
         increment = np.inf if parameter is None else abs(step.value - parameter)
-        smooth = self._largest_smooth_motion(step, parameter, increment)
         jump = None
-        if flowed and self.current is not None and state.largest_change > smooth:
+        if flowed and self.current is not None and self.jumps.is_jump(step, increment, state.largest_change):
             jump = Jump(*self.current, step, state, state.largest_change)
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < increment < np.inf:
-            self._pace = largest_change(self.problem, state.displacement - self.displacement) / increment
+            self.jumps.learn_pace(largest_change(self.problem, state.displacement - self.displacement) / increment)
         if jump:
             self.history.restart(step.value, state.displacement)
         else:
             self.history.add(step.value, state.displacement)
         self.displacement, self.current = state.displacement, (step, state)
         return jump
-
-    def _largest_smooth_motion(self, step: LoadStep, parameter: float | None, increment: float) -> float:
-        """Return the distance (nm) beyond which a motion of the surface is a jump."""
-        if increment == np.inf:
-            smooth = np.inf
-        else:
-            smooth = max(JUMP_RATIO * self._length(step, increment), JUMP_LENGTH * self.problem.interaction_range)
-        if step.held is not None and parameter is not None:  # a slip of half a cell is a jump, however long the step
-            smooth = min(smooth, self.problem.lattice_constant / 2)
-        return smooth
 
     def advance(self, step: LoadStep) -> PathState:
         """Return the state at the next step of the path, found by continuation or else by flow."""
@@ -192,7 +178,7 @@ class Continuation:
             if flowed:
                 parameter = self.parameter(step)
                 divisible = divides and len(goals) <= MAX_HALVINGS
-                if parameter is not None and divisible and self._is_long(goal, abs(goals[-1] - parameter)):
+                if parameter is not None and divisible and self.jumps.may_hide_in(goal, abs(goals[-1] - parameter)):
                     goals.append((parameter + goals[-1]) / 2)
                     continue
                 state = self.flow_to(goal)
@@ -205,19 +191,3 @@ class Continuation:
             goals.pop()
             if not goals:
                 return state, tuple(jumps), iterations
-
-    @property
-    def has_lattice(self) -> bool:
-        """True if the surfaces slide over a lattice, where smooth motion may be fast."""
-        return bool(np.isfinite(self.problem.lattice_constant))
-
-    def _is_long(self, step: LoadStep, increment: float) -> bool:
-        """Return True if smooth motion during a step might be taken for a jump, so that the step is divided."""
-        ratio = SLIP_RATIO if self.has_lattice else JUMP_RATIO
-        return self._length(step, increment) > JUMP_LENGTH * self.problem.interaction_range / ratio
-
-    def _length(self, step: LoadStep, increment: float) -> float:
-        """Return the distance (nm) that a step moves the surface without a jump; infinite if unknown."""
-        if step.control is not Trait.MEAN_PRESSURE:
-            return increment
-        return np.inf if self._pace is None else self._pace * increment

@@ -17,7 +17,7 @@ from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
 from contactsim.observables.sliding import slide_observables, slips_of
 from contactsim.paths.increments import Increments
-from contactsim.paths.slips import slip_numbers
+from contactsim.paths.jumps import slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.surfaces.statistics import local_squares

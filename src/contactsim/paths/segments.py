@@ -8,7 +8,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.paths.extrapolation import POINTS, interpolate, lagrange_weights
-from contactsim.paths.state import Jump
+from contactsim.paths.jumps import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.status import Status
 

@@ -1,4 +1,4 @@
-"""States of a path, and jumps between them."""
+"""States of a path."""
 
 from __future__ import annotations
 
@@ -7,29 +7,9 @@ from dataclasses import dataclass, field
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
+from contactsim.paths.jumps import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.status import Status
-
-
-@dataclass(frozen=True)
-class Jump:
-    """A jump of the surface.
-
-    Attributes
-    ----------
-    step_before, before
-        Load step and state before the jump.
-    step, after
-        Load step and state after the jump.
-    distance
-        Largest displacement of the surface, nm.
-    """
-
-    step_before: LoadStep
-    before: Equilibrium = field(repr=False)
-    step: LoadStep
-    after: Equilibrium = field(repr=False)
-    distance: float
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from contactsim.analysis.grid_convergence import is_doubled
 from contactsim.analysis.reductions import FITTED, LIMIT, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
-from contactsim.observables.forms import AVERAGED
+from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, choice, mapping, number, positive, read, text

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from contactsim.analysis.tiers import FIT_DIMENSIONS, differences, join_rows
+from contactsim.analysis.table_comparison import FIT_DIMENSIONS, differences, join_rows
 from contactsim.errors import InputError
 from contactsim.study.plan import Plan
 

@@ -16,7 +16,7 @@ import xarray as xr
 
 from contactsim.evaluation.work_precision.cases import REFERENCE
 from contactsim.evaluation.work_precision.knobs import KNOBS, summarise_solutions
-from contactsim.observables.forms import load_dimension
+from contactsim.observables.dataset_forms import load_dimension
 from contactsim.status import is_solved
 
 ROUNDING = 1e-10

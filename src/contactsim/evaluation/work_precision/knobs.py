@@ -17,7 +17,7 @@ from contactsim.contact.scene import ProblemKind
 from contactsim.errors import InputError
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
-from contactsim.observables.forms import AVERAGED, form_of
+from contactsim.observables.dataset_forms import AVERAGED, form_of
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET

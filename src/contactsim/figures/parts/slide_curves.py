@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim.analysis.scales import LawScales
-from contactsim.analysis.slides import FIRST_APPROACH, slide_table, stages
+from contactsim.analysis.slide_tables import FIRST_APPROACH, slide_table, stages
 from contactsim.figures import style
 
 SLIDE = r"$\bar U_x=U_x/w$"

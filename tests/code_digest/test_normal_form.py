@@ -6,7 +6,7 @@ from textwrap import dedent
 
 import pytest
 
-from contactsim.source.normal_form import read_source
+from contactsim.code_digest.normal_form import read_source
 
 SAME = {
     "a comment": ("x = 1", "x = 1  # of all"),

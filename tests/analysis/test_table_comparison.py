@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from contactsim import cli, dataset
-from contactsim.analysis.tiers import FIT_DIMENSIONS, difference_text, differences, is_within, join_rows
+from contactsim.analysis.table_comparison import FIT_DIMENSIONS, difference_text, differences, is_within, join_rows
 from contactsim.errors import InputError
 from contactsim.study.plan import Plan
 from contactsim.study.tier_comparison import compare_tiers

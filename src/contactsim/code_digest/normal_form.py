@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from contactsim.source.names import (
+from contactsim.code_digest.name_uses import (
     COMPREHENSIONS,
     FIELDS,
     GLOBAL,

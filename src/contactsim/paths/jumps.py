@@ -1,0 +1,144 @@
+"""Jumps of the surface: tell them from smooth motion, and read the numbers of a slip.
+
+A jump is a motion that the load does not account for: the surface snaps into contact, pulls off, or slips.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.steps import LoadStep
+from contactsim.observables.adhesion import contact_length
+from contactsim.observables.sliding import TOUCHING, slide_observables
+from contactsim.solvers.cohesive.base import Equilibrium
+from contactsim.traits import Trait
+
+JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
+"""A flow is a jump if it moves the surface by more than this part of the laws' length and by more than this many steps.
+A step under load counts as the length that a step of that size moved the surface before."""
+SLIP_RATIO = 250.0
+"""Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
+
+
+@dataclass(frozen=True)
+class Jump:
+    """A jump of the surface.
+
+    Attributes
+    ----------
+    step_before, before
+        Load step and state before the jump.
+    step, after
+        Load step and state after the jump.
+    distance
+        Largest displacement of the surface, nm.
+    """
+
+    step_before: LoadStep
+    before: Equilibrium = field(repr=False)
+    step: LoadStep
+    after: Equilibrium = field(repr=False)
+    distance: float
+
+
+class JumpCriterion:
+    """Distance beyond which a motion of the surface is a jump.
+
+    Parameters
+    ----------
+    problem
+        The problem that the path solves.
+    """
+
+    def __init__(self, problem: CohesiveProblem) -> None:
+        self.problem = problem
+        self._pace: float | None = None  # distance that the surface moved per mean pressure, nm/GPa
+
+    def learn_pace(self, pace: float) -> None:
+        """Store the distance that the surface moved smoothly per mean pressure, nm/GPa."""
+        self._pace = pace
+
+    def forget_pace(self) -> None:
+        """Forget how fast the surface moved, because the control changes."""
+        self._pace = None
+
+    @property
+    def has_lattice(self) -> bool:
+        """True if the surfaces slide over a lattice, where smooth motion may be fast."""
+        return bool(np.isfinite(self.problem.lattice_constant))
+
+    def is_jump(self, step: LoadStep, increment: float, distance: float) -> bool:
+        """Return True if a motion is a jump.
+
+        Parameters
+        ----------
+        step
+            Load step at which the motion ends.
+        increment
+            Change of the load since the last state, nm or GPa; infinite at the first state, which is no jump.
+        distance
+            Largest displacement of the surface, nm.
+        """
+        if increment == np.inf:
+            return False
+        smooth = max(JUMP_RATIO * self._length(step, increment), JUMP_LENGTH * self.problem.interaction_range)
+        if step.held is not None:  # a slip of half a cell is a jump, however long the step
+            smooth = min(smooth, self.problem.lattice_constant / 2)
+        return distance > smooth
+
+    def may_hide_in(self, step: LoadStep, increment: float) -> bool:
+        """Return True if smooth motion during a step might be taken for a jump, so that the step is divided."""
+        ratio = SLIP_RATIO if self.has_lattice else JUMP_RATIO
+        return self._length(step, increment) > JUMP_LENGTH * self.problem.interaction_range / ratio
+
+    def _length(self, step: LoadStep, increment: float) -> float:
+        """Return the distance (nm) that a step moves the surface without a jump; infinite if unknown."""
+        if step.control is not Trait.MEAN_PRESSURE:
+            return increment
+        return np.inf if self._pace is None else self._pace * increment
+
+
+def slip_numbers(problem: CohesiveProblem, slip: Jump, step: int) -> dict[str, float]:
+    """Return the numbers of one slip (`EVENT`).
+
+    Parameters
+    ----------
+    problem
+        The problem that the path solves.
+    slip
+        The jump, with the states on both sides.
+    step
+        Number of the step of the path during which the slip came.
+
+    Notes
+    -----
+    `event_width` is the sliding distance between both sides, nm. `event_released_energy`, nJ/m, is the energy that the
+    bodies release; the interface keeps a part of it.
+    """
+    before, after = (
+        _side_numbers(problem, at, state) for at, state in ((slip.step_before, slip.before), (slip.step, slip.after))
+    )
+    return {
+        "event_step": step,
+        "event_sliding_distance": slip.step.sliding_distance,
+        "event_width": abs(slip.step.sliding_distance - slip.step_before.sliding_distance),
+        "event_force_before": before["force"],
+        "event_force_after": after["force"],
+        "event_length_before": before["length"],
+        "event_length_after": after["length"],
+        "event_released_energy": before["elastic_energy"] - after["elastic_energy"],
+        "event_slip": abs(after["contact_slip"] - before["contact_slip"]),
+    }
+
+
+def _side_numbers(problem: CohesiveProblem, step: LoadStep, state: Equilibrium) -> dict[str, float]:
+    """Return the numbers of the state on one side of a slip."""
+    numbers = slide_observables(problem.at(step), state.gap, state.displacement)
+    exerts_shear = len(state.traction) > 1
+    numbers["force"] = float(state.traction[1:].mean() * problem.grid.lengths[0]) if exerts_shear else 0.0
+    touches_all_over = abs(state.gap[0].mean()) <= TOUCHING
+    numbers["length"] = np.nan if touches_all_over else contact_length(state.gap[0], problem.grid.spacing[0])
+    return numbers
