@@ -117,3 +117,20 @@ def test_units_beyond_floating_point_are_refused(change):
     given = {"heights": [0.0, 1.0, 0.5], "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1} | change
     with pytest.raises(InputError, match="range of floating point"):
         contactsim.press(given.pop("heights"), **given)
+
+
+@pytest.mark.parametrize(
+    ("function", "options", "allowed"),
+    [
+        ("press", GOOD | {"presure": 0.1}, "spacing, contact_modulus, mean_pressure"),
+        ("simulate", {"scene": None, "tolerence": 1e-6}, "points, tolerance, accuracy"),
+        ("estimate_cost", {"scene": None, "solver": "newton"}, "points, tolerance, accuracy"),
+        ("neglect", {"scene": None, "accuracy": 0.1}, "within, quantities, points"),
+        ("explain", {"scene": None, "tolerance": 1e-6}, "points, solver, increments"),
+    ],
+)
+def test_an_unknown_option_is_named_with_those_that_there_are(function, options, allowed):
+    with pytest.raises(InputError) as caught:
+        getattr(contactsim, function)(**options)
+    assert (caught.value.key, caught.value.value) == list(options.items())[-1]
+    assert caught.value.allowed.startswith(f"no such option, but {allowed}")

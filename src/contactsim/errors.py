@@ -7,11 +7,17 @@ error: it is a `Status`, stored with the result.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import wraps
+from inspect import signature
 from numbers import Real
 from pathlib import PurePath
-from typing import TypeGuard
+from typing import ParamSpec, TypeGuard, TypeVar
 
 import numpy as np
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 MAX_VALUE_LENGTH = 80
 
@@ -47,6 +53,21 @@ class InputError(ValueError):
         """
         key = f"{section}.{self.key}" if section else self.key
         return InputError(key, self.value, self.allowed, self.file if self.file is not None else file)
+
+
+def check_option_names(function: Callable[P, R]) -> Callable[P, R]:
+    """Return a function that raises InputError for an option it does not have, with the names of those it has."""
+    parameters = signature(function).parameters
+    options = [name for name, parameter in parameters.items() if parameter.kind is parameter.KEYWORD_ONLY]
+
+    @wraps(function)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+        for name, value in kwargs.items():
+            if name not in parameters:
+                raise InputError(name, value, f"no such option, but {', '.join(options)}")
+        return function(*args, **kwargs)
+
+    return checked
 
 
 def is_number(value: object) -> TypeGuard[float]:

@@ -18,7 +18,7 @@ from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import Decision, decide_neglect
-from contactsim.errors import InputError
+from contactsim.errors import InputError, check_option_names
 from contactsim.explanation import Explanation, explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.driver import follow_path
@@ -33,6 +33,7 @@ from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
 
 
+@check_option_names
 def press(
     heights: ArrayLike,
     *,
@@ -96,6 +97,7 @@ def _elasticity(contact_modulus: float, thickness: float | None, poisson_ratio: 
     return HalfSpace(contact_modulus)
 
 
+@check_option_names
 def simulate(
     scene: Scene,
     *,
@@ -174,6 +176,7 @@ def simulate(
     return solve_to_error(setup, wanted.error, wanted.quantities).data
 
 
+@check_option_names
 def estimate_cost(
     scene: Scene,
     *,
@@ -195,6 +198,7 @@ def estimate_cost(
     return forecast_run(Setup(scene, options))
 
 
+@check_option_names
 def neglect(
     scene: Scene,
     *,
@@ -225,6 +229,7 @@ def neglect(
     return neglect_effects(setup, decision.neglected).scene, decision
 
 
+@check_option_names
 def explain(
     scene: Scene,
     *,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +13,7 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.error_control import effect_maps, neglect
+from contactsim.error_control.control import solve_setup
 from contactsim.error_control.effect_maps import change_without, expected_change, neglect_effects
 from contactsim.error_control.neglect import decide_neglect, expected_neglect, neglectable_effects
 from contactsim.evaluation.effects.survey import format_maps, measure_map, read_maps
@@ -183,14 +184,22 @@ def test_setups_have_the_same_fingerprint_where_their_scenes_are_the_same_withou
     assert uncoupled[0] != uncoupled[2]
 
 
-def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(monkeypatch):
-    values = iter([np.nan, 3.0, np.nan, np.nan, 2.0, 3.0])
-    solutions = (SimpleNamespace(values={"a": np.array([value])}, solved=True) for value in values)
-    monkeypatch.setattr(effect_maps, "solve_setup", lambda setup, quantities: next(solutions))
-    setup = setup_of()
-    assert change_without(setup, ["coupling"], ["a"]) == np.inf
-    assert change_without(setup, ["coupling"], ["a"]) == np.inf  # nothing can be said of what neither has
-    assert change_without(setup, ["coupling"], ["a"]) == 0.5
+@pytest.mark.parametrize(
+    ("with_it", "without_it", "change"), [(np.nan, 3.0, np.inf), (3.0, np.nan, np.inf), (2.0, 3.0, 0.5)]
+)
+def test_a_quantity_that_only_exists_with_an_effect_changes_altogether(with_it, without_it, change):
+    full, simple = setup_of(points=64), neglect_effects(setup_of(points=64), ["coupling"])
+    solution = solve_setup(full, PULL_OFF)
+    values = {full: with_it, simple: without_it}
+    solutions = {
+        setup.fingerprint: replace(solution, values={PULL_OFF[0]: np.array([value])}) for setup, value in values.items()
+    }
+    assert change_without(full, ["coupling"], PULL_OFF, solutions) == change
+
+
+def test_nothing_is_known_of_the_change_of_a_quantity_that_a_scene_has_neither_with_nor_without_an_effect():
+    pressed = setup_of(points=64, path={"approach": [0.0, 4.0], "increment": 0.5})  # never pulled off
+    assert change_without(pressed, ["coupling"], PULL_OFF) == np.inf
 
 
 def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_taken_over(tmp_path):

@@ -169,9 +169,10 @@ def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
     assert one.selection == {"hurst_exponent": [0.8]}
 
 
-@pytest.mark.parametrize("name", ["taken", "a-b", ""])
+@pytest.mark.parametrize("name", ["figure", "taken", "a-b", ""])
 def test_a_case_cannot_have_a_name_that_is_no_target_or_that_of_another(tmp_path, name):
-    plan = replace(PLAN, studies=PLAN.studies | {"accuracy_taken": PLAN.studies["smooth_line"]})
+    studies = PLAN.studies | {"accuracy_taken": PLAN.studies["smooth_line"]}
+    plan = replace(PLAN, studies=studies, reserved_names=(*PLAN.reserved_names, "accuracy_figure"))
     (tmp_path / "accuracy.yaml").write_text(yaml.safe_dump({"quick": {name: CASE}}))
     with pytest.raises(InputError, match="letters, digits and underscores; with accuracy_ before it no") as caught:
         case_config.read_cases(tmp_path, plan)
@@ -289,6 +290,13 @@ def test_a_peer_that_is_not_installed_is_left_out(tmp_path, monkeypatch):
     assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set"]
     monkeypatch.setattr(solver_registry, "find_spec", lambda name: object())
     assert case(tmp_path, solvers=solvers).jobs() == ["reference", "active_set", "tamaas"]
+
+
+def test_the_settings_of_a_peer_that_is_not_installed_are_checked_all_the_same(tmp_path, monkeypatch):
+    monkeypatch.setattr(solver_registry, "find_spec", lambda name: None)
+    with pytest.raises(InputError, match="more than 8190: two points per shortest wavelength") as caught:
+        case(tmp_path, **ROUGH_CASE | {"solvers": ROUGH_CASE["solvers"] | {"tamaas": {"points": [64]}}})
+    assert caught.value.key == "quick.case.solvers.tamaas.points"
 
 
 NO_INCREMENTS = "loads are solved on their own, without increments"

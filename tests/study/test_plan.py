@@ -508,3 +508,19 @@ def test_a_study_lists_each_run_with_its_files_and_digest(folder):
             "digest": run.digest,
         }
     assert {settings["settings"][key] for key in ("name", "tier", "seed")} == {"rough", "plain", 1}
+
+
+@pytest.mark.parametrize("name", ["fig_3_1", "a-b", "compute_all", "setup"])
+def test_a_study_cannot_have_the_name_of_a_figure_rule_or_target(folder, name):
+    written = folder({"ch3.yaml": {f"studies/{name}": SMOOTH}})
+    (written.parent / "Makefile").write_text("CORES := 2\nsetup: .venv\n")
+    (written.parent / "Snakefile").write_text("rule compute_all:\n    input: []\n")
+    error = refusal(written)
+    assert (error.key, error.value) == ("studies", name)
+    assert error.allowed == "letters, digits and underscores; no figure's name and none of compute_all, setup"
+
+
+def test_the_names_of_this_project_s_rules_and_targets_are_reserved(tiers):
+    names = set(tiers["standard"].reserved_names)
+    assert {"all", "overview", "simulate_member", "draw_work_precision", "setup", "test", "help"} <= names
+    assert not names & {"CORES", "PHONY", "Makefile"}

@@ -20,8 +20,6 @@ import pytest
 import xarray as xr
 import yaml
 
-from contactsim.study.plan import RESERVED_NAMES
-from support.places import ROOT
 from support.project import (
     CONFIG,
     REPORT,
@@ -89,12 +87,6 @@ def test_the_report_is_made_with_all_else_and_follows_every_edit(project: Projec
     project.change("ch9", "figures.fig_9_1.title", "Another title")
     assert f"{REPORT}results/standard/report.html" in project.snakemake("-n", "all").stdout
     assert REPORT not in project.snakemake("-n", "fig_9_1").stdout
-
-
-def test_no_study_can_have_the_name_of_a_rule() -> None:
-    files = [ROOT / "Snakefile", *ROOT.glob("workflow/rules/*.smk")]
-    rules = {name for file in files for name in re.findall(r"^ *rule (\w+):", file.read_text(), re.MULTILINE)}
-    assert rules | {"setup", "test", "help"} == set(RESERVED_NAMES)
 
 
 def test_a_study_is_one_job_for_each_variant_and_member(fresh: Project) -> None:

@@ -115,9 +115,11 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
     """
     scene, options = setup.scene, setup.options
     driver = DRIVERS[scene.kind]
-    for name in {name for other in DRIVERS.values() for name in other.options} - set(driver.options):
-        if getattr(options, name) is not None:
-            raise InputError(name, getattr(options, name), f"none with {driver.words}")
+    unused = {name for other in DRIVERS.values() for name in other.options} - set(driver.options)
+    for name, value in vars(options).items():
+        if name in unused and value is not None:
+            used = ", ".join(name for name in vars(options) if name not in unused)
+            raise InputError(name, value, f"none with {driver.words}, only {used}")
     solver = default_solver(scene) if options.solver is None else options.solver
     check_solver(solver, scene)
     # more threads of dense algebra would only wait for each other, and change the last digits of a result

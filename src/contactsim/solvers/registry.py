@@ -76,8 +76,14 @@ def package_version(kind: str) -> str:
     return metadata.version(REQUIRED_PACKAGES[kind]) if kind in REQUIRED_PACKAGES else ""
 
 
-def make_solver(kind: str, **options: object) -> Any:
-    """Return a solver with its options.
+def check_installed(kind: str) -> None:
+    """Raise InputError if the package that a solver needs is not installed."""
+    if not is_installed(kind):
+        raise InputError("solver", kind, f"one that is installed: pip install {REQUIRED_PACKAGES[kind]}")
+
+
+def configure_solver(kind: str, **options: object) -> Any:
+    """Return a solver with its options, whether or not the package that it needs is installed.
 
     Parameters
     ----------
@@ -94,9 +100,19 @@ def make_solver(kind: str, **options: object) -> Any:
     Raises
     ------
     InputError
-        If there is no such solver, an option has a value that is not allowed, or a package is missing.
+        If there is no such solver, or an option has a value that is not allowed.
     """
-    solver = solver_class(kind)(**options)
-    if not is_installed(kind):
-        raise InputError("solver", kind, f"one that is installed: pip install {REQUIRED_PACKAGES[kind]}")
+    return solver_class(kind)(**options)
+
+
+def make_solver(kind: str, **options: object) -> Any:
+    """Return a solver that can run; see `configure_solver`.
+
+    Raises
+    ------
+    InputError
+        As there, and if a package is missing.
+    """
+    solver = configure_solver(kind, **options)
+    check_installed(kind)
     return solver

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,9 +11,11 @@ from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.neglect import expected_neglect
 from contactsim.errors import InputError
 from contactsim.provenance import digest
-from contactsim.study.claim_plan import Claim, read_claim
-from contactsim.study.figure_plan import Figure, read_figure
-from contactsim.study.reading import Key, load_yaml, mapping, named, overlaid, read, text, whole
+from contactsim.study.chapter import Chapter, ChapterReader
+from contactsim.study.claim_plan import Claim
+from contactsim.study.figure_plan import Figure
+from contactsim.study.reading import Key, load_yaml, mapping, read, text, whole
+from contactsim.study.reserved_names import reserved_names
 from contactsim.study.select_effects import selection_digest
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Run, Study
@@ -24,13 +25,6 @@ CONFIG_KEYS = {
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
 }
-RESERVED_NAMES = """
-all claims accuracy overview effects effect_maps stability trials report gallery bundle targets unknown_target
-select_effects simulate_member aggregate_study assess_claims measure_work_precision draw_work_precision
-survey_hazard gather_hazards measure_effects measure_effect_map export_effect_maps solve_trial measure_scaling
-fit_scaling test setup help
-""".split()
-"""Names that the workflow's own rules and the Makefile's targets have."""
 
 
 def boolean(value: object) -> bool:
@@ -46,11 +40,6 @@ TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),
     "timed_alone": Key(boolean, "true or false", True),
 } | {name: Key(mapping, "a mapping of keys to override", {}) for name in OVERRIDES}
-CHAPTER_KEYS = {
-    "studies": Key(mapping, "a mapping from names to studies", {}),
-    "figures": Key(mapping, "a mapping from names to figures"),
-    "claims": Key(mapping, "a mapping from names to claims", {}),
-}
 
 
 @dataclass(frozen=True)
@@ -77,6 +66,8 @@ class Plan:
         Figures by name.
     claims : dict
         Claims by chapter and name.
+    reserved_names : tuple of str
+        Names of the workflow's rules and targets, which nothing else can have.
     """
 
     tier: str
@@ -88,6 +79,7 @@ class Plan:
     chapters: dict[str, str]
     figures: dict[str, Figure]
     claims: dict[str, dict[str, Claim]]
+    reserved_names: tuple[str, ...]
 
     @classmethod
     def read(cls, folder: str | Path, tier: str | None = None) -> Plan:
@@ -106,48 +98,29 @@ class Plan:
             chapters={},
             figures={},
             claims={},
+            reserved_names=reserved_names(folder.resolve().parent),
         )
+        reader = ChapterReader(tier, section["studies"], plan.seed, plan.reserved_names)
         for file in sorted(folder.glob("ch*.yaml")):
-            plan._read_chapter(file, section["studies"])
+            plan._add_chapter(reader.read(file), file)
         for name in set(section["studies"]) - set(plan.studies):
             allowed = f"one of {', '.join(plan.studies)}"
             raise InputError(f"{tier}.studies.{name}", "overrides", allowed, folder / "tiers.yaml")
         return plan
 
-    def _read_chapter(self, file: Path, overrides: Mapping[str, object]) -> None:
-        """Add the studies, figures and claims of a chapter; overrides: of its tier, by study."""
-        sections = read(load_yaml(file), CHAPTER_KEYS, file)
-        for name, section in sections["studies"].items():
-            self._check_study_name(name, sections["figures"], file)
-            self.studies[name] = self._read_study(name, section, overrides.get(name, {}), file)
-            self.chapters[name] = file.stem
-        own = {name: self.studies[name] for name in sections["studies"]}
-        _check_surfaces(own)
-        for name, section in sections["figures"].items():
+    def _add_chapter(self, chapter: Chapter, file: Path) -> None:
+        """Add the studies, figures and claims of a chapter; raise InputError for a name that another chapter has."""
+        for name in chapter.studies:
+            if name in self.studies:
+                raise InputError(f"studies.{name}", name, f"a name that {self.chapters[name]}.yaml has not taken", file)
+        for name in chapter.figures:
             if name in self.figures:
                 raise InputError(f"figures.{name}", name, "a name that no other chapter has taken", file)
-            self.figures[name] = read_figure(name, section, file, own)
-        if sections["claims"]:
-            claims = {name: read_claim(name, section, file, own) for name, section in sections["claims"].items()}
-            self.claims[file.stem] = claims
-
-    def _check_study_name(self, name: object, figures: Mapping[str, object], file: Path) -> None:
-        """Raise InputError for a name that no study can have, or that another has."""
-        if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or name in (*RESERVED_NAMES, *figures):
-            allowed = f"letters, digits and underscores; no figure's name and none of {', '.join(RESERVED_NAMES)}"
-            raise InputError("studies", name, allowed, file)
-        if name in self.studies:
-            raise InputError(f"studies.{name}", name, f"a name that {self.chapters[name]}.yaml has not taken", file)
-
-    def _read_study(self, name: str, section: object, override: object, file: Path) -> Study:
-        """Return a study with what the tier overrides; the study of the chapter must be right too."""
-        if not isinstance(override, dict):
-            tiers = file.with_name("tiers.yaml")
-            raise InputError(f"{self.tier}.studies.{name}", override, "a mapping of keys to override", tiers)
-        if override:
-            Study.read(name, section, file, self.seed)
-            section = overlaid(section, override)
-        return Study.read(name, section, named(file, override, self.tier), self.seed)
+        self.studies.update(chapter.studies)
+        self.chapters.update(dict.fromkeys(chapter.studies, file.stem))
+        self.figures.update(chapter.figures)
+        if chapter.claims:
+            self.claims[file.stem] = chapter.claims
 
     def run(self, study: str, variant: str, member: str) -> Run:
         """Return the run that a file name stands for."""
@@ -176,7 +149,8 @@ class Plan:
     @cached_property
     def _twins(self) -> dict[str, Run]:
         """First run of the same study and member whose scene is the same without what is negligible, by run."""
-        twins, first = {}, {}
+        twins: dict[str, Run] = {}
+        first: dict[tuple[object, ...], Run] = {}
         for study in self.studies.values():
             for run in study.runs() if study.settings["auto"] else ():
                 if "auto" in run.settings:
@@ -248,25 +222,3 @@ def _read_tier(file: Path, tier: str) -> dict:
     if tier not in tiers:
         raise InputError("tier", tier, f"one of {', '.join(tiers)}", file)
     return read(tiers[tier] or {}, TIER_KEYS, file, tier)
-
-
-RESCALED_KEYS = ("hurst_exponent", "rms_height", "rms_gradient", "short_cutoff")
-"""Keys that leave the random waves of a self-affine surface the same, but for their size and how many there are."""
-
-
-def _check_surfaces(studies: dict[str, Study]) -> None:
-    """Raise InputError for a study that shares another's surfaces but describes them otherwise."""
-    for study in studies.values():
-        name = study.settings["same_surfaces_as"]
-        if name is None:
-            continue
-        other, key = studies.get(name), f"studies.{study.name}.same_surfaces_as"
-        if other is None or other.settings["same_surfaces_as"] is not None:
-            names = ", ".join(name for name, own in studies.items() if own.settings["same_surfaces_as"] is None)
-            raise InputError(key, name, f"one of {names}", study.file)
-        first, second = (
-            {k: v for k, v in own.settings["surface"].items() if k not in RESCALED_KEYS} for own in (study, other)
-        )
-        if first != second or first["kind"] != "self_affine":
-            allowed = f"a study with the same `surface`, self_affine, but for {', '.join(RESCALED_KEYS)}"
-            raise InputError(key, name, allowed, study.file)

@@ -23,7 +23,7 @@ from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.provenance import canonical
-from contactsim.solvers.registry import make_solver
+from contactsim.solvers.registry import configure_solver
 from contactsim.study.keys import RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.base import Surface
@@ -48,7 +48,7 @@ def build_setup(settings: Mapping, threads: int = 1) -> Setup:
     options = RunOptions(
         points=settings["points"],
         tolerance=settings["tolerance"],
-        solver=make_solver(**settings["solver"]),
+        solver=configure_solver(**settings["solver"]),
         threads=threads,
         accuracy=None if accuracy is None else Accuracy(accuracy["error"], tuple(accuracy["quantities"])),
         **study_kind(settings).options(settings),

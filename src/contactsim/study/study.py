@@ -22,7 +22,7 @@ from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.base import check_solver
-from contactsim.solvers.registry import solver_module
+from contactsim.solvers.registry import check_installed, solver_module
 from contactsim.study.keys import BODIES, ERROR_RUNS, MODULI, RIGID, SECTION_KINDS, STUDY_KEYS
 from contactsim.study.kinds import STUDY_KINDS, study_kind
 from contactsim.study.reading import Key, choice, keys_of, read
@@ -304,6 +304,7 @@ class Study:
         """Build the run's scene, so that nothing impossible is found out by a job."""
         try:
             scene = run.setup.scene
+            check_installed(run.settings["solver"]["kind"])
             check_solver(run.setup.options.solver, scene)
             scene.upper.surface.check(run.setup.points)
             study_kind(run.settings).check(run.setup)

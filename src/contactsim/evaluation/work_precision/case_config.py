@@ -23,7 +23,7 @@ from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.claim_plan import quantities
 from contactsim.study.kinds import study_kind
-from contactsim.study.plan import RESERVED_NAMES, Plan
+from contactsim.study.plan import Plan
 from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study
@@ -85,7 +85,7 @@ def overview_figure_job(settings: dict, cases: dict[str, Case], tier: str) -> di
 
 def _read_case(name: str, section: object, plan: Plan, file: Path) -> Case:
     target = f"accuracy_{name}"
-    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*RESERVED_NAMES, *plan.studies, *plan.figures):
+    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*plan.reserved_names, *plan.studies, *plan.figures):
         allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
         raise InputError(plan.tier, name, allowed, file)
     prefix = f"{plan.tier}.{name}"
@@ -106,7 +106,7 @@ def _read_case(name: str, section: object, plan: Plan, file: Path) -> Case:
     if case.default not in settings["solvers"]:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
         raise InputError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
-    for job in case.jobs():
+    for job in (REFERENCE, *settings["solvers"]):  # those that are not installed too
         for setting in case.settings_of(job):
             _check_setting(case, job, setting, file, prefix)
     return case
