@@ -14,7 +14,7 @@ from contactsim.analysis import aggregate, claims, reductions
 from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.uncertainty import Estimate, estimate
 from contactsim.errors import InputError
-from contactsim.figures.diagnostics.claims import COLOURS, COLUMNS, claims_figure
+from contactsim.figures.diagnostics.claims import COLOURS, claims_figure
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
 from support.places import ROOT
@@ -93,14 +93,7 @@ def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
     found = estimate(claim(**area), [made_up(2.0, grid=0.2)])
     assert found.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
     data = made_up(2.0).assign(kappa_grid_error=made_up(grid=0.2).kappa_grid_error)
-    part = {
-        "quantity": "relative_contact_area",
-        "against": "kappa",
-        "reduce": "ratio",
-        "expect": 0.1,
-        "tolerance": 0.05,
-    }
-    assert estimate(claim(**part), [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
+    assert estimate(part, [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
 
 
 def on_grids(errors, members=3):
@@ -121,28 +114,28 @@ def on_grids(errors, members=3):
     return data.merge(aggregate.finer_grid_limits(data))
 
 
+def limit_claim(value):
+    """The settings of a claim on the limit of κ_r on finer grids."""
+    return claim(study="surface_resolution", quantity="kappa_r_limit", expect=value, tolerance=0.02)
+
+
 def test_a_limit_on_finer_grids_has_the_distance_from_that_of_first_order_as_its_error():
-    settings = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.88, tolerance=0.02)
+    settings = limit_claim(1.88)
     first = estimate(settings, [on_grids([0.4, 0.2, 0.1])])
     assert (first.value, first.grid_error) == pytest.approx((1.9, 0.0), abs=1e-12)
     assert first.ensemble_error == pytest.approx(0.001 / np.sqrt(3), rel=1e-6)
     second = estimate(settings, [on_grids([0.32, 0.08, 0.02])])  # first order would end at 1.86
     assert (second.value, second.grid_error) == pytest.approx((1.9, 0.04), rel=1e-9)
     assert claims.judge(settings, [on_grids([0.32, 0.08, 0.02])])["verdict"] == NOT_DECIDABLE
-    far = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.7, tolerance=0.02)
+    far = limit_claim(1.7)
     assert claims.judge(far, [on_grids([0.32, 0.08, 0.02])])["verdict"] == NOT_REPRODUCED
     assert claims.judge(far, [on_grids([0.32, 0.08, 0.02], members=1)])["verdict"] == NOT_DECIDABLE
 
 
 def test_where_one_mean_has_no_limit_the_claim_is_not_decidable():
-    settings = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.5, tolerance=0.02)
+    settings = limit_claim(1.5)
     turning = on_grids([[0.4, 0.4, 0.1], [0.2, 0.2, 0.2], [0.1, 0.1, 0.1]])  # at the largest load it turns round
     assert claims.judge(settings, [turning])["verdict"] == NOT_DECIDABLE
-
-
-def test_a_limit_needs_three_grids():
-    with pytest.raises(InputError, match="kappa_r_limit"):
-        claim(quantity="kappa_r_limit")
 
 
 def test_a_relation_has_one_edge():
@@ -412,7 +405,7 @@ LACKING = {
 
 
 @pytest.mark.parametrize(("chapter", "unanswered"), UNANSWERED.items())
-def test_every_claim_of_the_config_is_judged_and_drawn(made, chapter, unanswered):
+def test_every_claim_of_the_config_is_judged(made, chapter, unanswered):
     assert set(UNANSWERED) == set(PLAN.claims)
     folder = made / "results/quick/claims"
     rows = pd.read_csv(folder / f"{chapter}.csv", keep_default_na=False, na_values=["", "nan"])
@@ -424,8 +417,6 @@ def test_every_claim_of_the_config_is_judged_and_drawn(made, chapter, unanswered
     assert rows.claim[answered & ~known].tolist() == LACKING[chapter]
     assert (rows.verdict[answered & ~known] == NOT_DECIDABLE).all()
     assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
-    assert (folder / f"{chapter}.png").read_bytes().startswith(b"\x89PNG")
-    assert (folder / f"{chapter}.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
@@ -435,22 +426,15 @@ def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
     rows["condition"] = ["", "somewhere " * 9, "", ""]
     axes = claims_figure(rows, "Title", "footer " * 80).axes[0]
     shown = [text.get_text() for text in axes.texts]
-    assert len(shown) == 2 + len(COLUMNS) * (1 + len(rows))
+    assert set(rows.statement) <= {text.replace("\n", " ") for text in shown}
     assert any("somewhere" in text and "\n" in text for text in shown)
     assert len({tuple(band.get_facecolor()[0]) for band in axes.collections}) == len(COLOURS) + 1
 
 
 def test_verdicts_depend_on_claims_code_and_every_study_asked():
     settings = PLAN.claims_settings("ch3")
-    assert set(settings) == {"chapter", "claims", "source", "data"}
-    assert list(settings["data"]) == [
-        "rough_line",
-        "rough_line_coarse",
-        "rough_surface",
-        "smooth_line",
-        "smooth_surface",
-        "surface_resolution",
-    ]
+    studies = {entry[key] for _, entry in settings["claims"] for key in ("study", "relative_to")}
+    assert set(settings["data"]) == studies - {None}
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
     assert not any("verdict" in one for _, one in settings["claims"])
 
@@ -463,71 +447,44 @@ def test_a_chapter_without_claims_is_not_judged(tmp_path):
 
 # --- refusals -----------------------------------------------------------------------------------------------------
 
-BAD = {
-    "unknown key": ({"verdict": "reproduced"}, "verdict", "reproduced", "no such key"),
-    "no reason": ({"rationale": None}, "rationale", "nothing", "why that band"),
-    "unknown study": ({"study": "rough"}, "study", "rough", "smooth_line, rough_line"),
-    "unknown reduction": ({"reduce": "guess"}, "reduce", "guess", "mean, spread, fall"),
-    "no reduction": ({"reduce": None}, "reduce", None, "mean, spread, fall"),
-    "unknown quantity": ({"quantity": "kapa"}, "quantity", "kapa", "kappa, kappa_fit"),
-    "no quantity": ({"quantity": None}, "quantity", None, "kappa, kappa_fit"),
-    "quantity of another study": ({"quantity": "half_width"}, "quantity", "half_width", "kappa"),
-    "unknown dimension": ({"reduce": "spread", "along": "speed"}, "along", "speed", "hurst_exponent, reduced_pressure"),
-    "a dimension too few": ({"reduce": "spread"}, "along", None, "hurst_exponent, reduced_pressure"),
-    "a dimension too many": ({"along": "hurst_exponent"}, "along", "hurst_exponent", "mean does not use it"),
-    "unknown against": ({"reduce": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
-    "ratio to an unknown study": ({"relative_to": "rough"}, "relative_to", "rough", "rough_line_coarse, rough_surface"),
-    "ratio to itself": ({"relative_to": "rough_line"}, "relative_to", "rough_line", "rough_line_coarse, rough_surface"),
-    "ratio to a study loaded otherwise": (
-        {"relative_to": "smooth_line"},
-        "relative_to",
-        "smooth_line",
-        "rough_surface",
-    ),
-    "ratio of what both lack": (
-        {"relative_to": "rough_surface", "quantity": "half_width"},
-        "quantity",
-        "half_width",
-        "kappa, kappa_fit",
-    ),
-    "ratio of ratios": (
+BOTH = "hurst_exponent, reduced_pressure"
+BAD = [
+    # changes, key, value, words of what is allowed
+    ({"verdict": "reproduced"}, "verdict", "reproduced", "no such key"),
+    ({"rationale": None}, "rationale", "nothing", "why that band"),
+    ({"study": "rough"}, "study", "rough", "smooth_line, rough_line"),
+    ({"reduce": "guess"}, "reduce", "guess", "mean, spread, fall"),
+    ({"reduce": None}, "reduce", None, "mean, spread, fall"),
+    ({"quantity": "kapa"}, "quantity", "kapa", "kappa, kappa_fit"),
+    ({"quantity": None}, "quantity", None, "kappa, kappa_fit"),
+    ({"quantity": "half_width"}, "quantity", "half_width", "kappa"),
+    ({"quantity": "kappa_r_limit"}, "quantity", "kappa_r_limit", "kappa"),  # on one grid
+    ({"reduce": "spread", "along": "speed"}, "along", "speed", BOTH),
+    ({"reduce": "spread"}, "along", None, BOTH),
+    ({"along": "hurst_exponent"}, "along", "hurst_exponent", "mean does not use it"),
+    ({"reduce": "ratio", "against": "area"}, "against", "area", "relative_contact_area"),
+    ({"relative_to": "rough"}, "relative_to", "rough", "rough_line_coarse, rough_surface"),
+    ({"relative_to": "rough_line"}, "relative_to", "rough_line", "rough_line_coarse, rough_surface"),
+    ({"relative_to": "smooth_line"}, "relative_to", "smooth_line", "rough_surface"),
+    ({"relative_to": "rough_surface", "quantity": "half_width"}, "quantity", "half_width", "kappa, kappa_fit"),
+    (
         {"relative_to": "rough_surface", "reduce": "ratio", "against": "kappa_r"},
         "reduce",
         "ratio",
         "mean, spread, fall",
     ),
-    "select of another study": (
-        {"select": {"contact_ratio": [0.1, 0.2]}},
-        "select.contact_ratio",
-        [0.1, 0.2],
-        "hurst_exponent, reduced_pressure",
-    ),
-    "select backwards": (
-        {"select": {"hurst_exponent": [0.5, 0.1]}},
-        "select.hurst_exponent",
-        [0.5, 0.1],
-        "least and largest",
-    ),
-    "half a band": ({"tolerance": None}, None, ["expect"], "expect with tolerance"),
-    "two bands": ({"at_most": 3.0}, None, ["at_most", "expect", "tolerance"], "expect with tolerance"),
-    "no width": ({"tolerance": 0.0}, "tolerance", 0.0, "a positive number"),
-    "condition without description": (
-        {"condition": {"grid": "thesis"}},
-        "condition.description",
-        "nothing",
-        "in words",
-    ),
-    "condition on another grid": (
-        {"condition": {"description": "", "grid": "ours"}},
-        "condition.grid",
-        "ours",
-        "thesis",
-    ),
-    "expectation without a study": ({"study": None, "quantity": None, "reduce": None}, "expect", 2.0, "left out"),
-}
+    ({"select": {"contact_ratio": [0.1, 0.2]}}, "select.contact_ratio", [0.1, 0.2], BOTH),
+    ({"select": {"hurst_exponent": [0.5, 0.1]}}, "select.hurst_exponent", [0.5, 0.1], "least and largest"),
+    ({"tolerance": None}, None, ["expect"], "expect with tolerance"),
+    ({"at_most": 3.0}, None, ["at_most", "expect", "tolerance"], "expect with tolerance"),
+    ({"tolerance": 0.0}, "tolerance", 0.0, "a positive number"),
+    ({"condition": {"grid": "thesis"}}, "condition.description", "nothing", "in words"),
+    ({"condition": {"description": "", "grid": "ours"}}, "condition.grid", "ours", "thesis"),
+    ({"study": None, "quantity": None, "reduce": None}, "expect", 2.0, "left out"),  # no data, no expectation
+]
 
 
-@pytest.mark.parametrize(("changes", "key", "value", "allowed"), BAD.values(), ids=BAD)
+@pytest.mark.parametrize(("changes", "key", "value", "allowed"), BAD)
 def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes, key, value, allowed):
     with pytest.raises(InputError) as caught:
         claim(**changes)
