@@ -83,15 +83,9 @@ def test_the_two_errors_add_in_quadrature():
 
 
 def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
-    area = {
-        "quantity": "relative_contact_area",
-        "against": "kappa",
-        "reduce": "ratio",
-        "expect": 0.1,
-        "tolerance": 0.05,
-    }
-    found = estimate(claim(**area), [made_up(2.0, grid=0.2)])
-    assert found.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
+    part = claim(quantity="relative_contact_area", against="kappa", reduce="ratio", expect=0.1, tolerance=0.05)
+    result = estimate(part, [made_up(2.0, grid=0.2)])
+    assert result.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
     data = made_up(2.0).assign(kappa_grid_error=made_up(grid=0.2).kappa_grid_error)
     assert estimate(part, [data]).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ down
 
