@@ -16,7 +16,8 @@ import peers
 from measure import CAP, LONG, largest_residual, pose_case, run_in_child
 from scipy.fft import rfft2
 
-from contactsim.contact.hard_wall import HardWallProblem, Scale, pose_hard_wall
+from contactsim.contact.hard_wall import HardWallProblem, Scale
+from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.grid import Array
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver

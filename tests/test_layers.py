@@ -32,7 +32,7 @@ FLOORS = (
     ("observables",),
     ("paths",),
     ("error_control",),
-    ("simulation", "explanation"),
+    ("simulation", "single_load", "explanation"),
     ("analysis",),
     ("study",),
     ("evaluation",),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 
 PUBLIC = {
-    "press": "simulation",
+    "press": "single_load",
     "simulate": "simulation",
     "estimate_cost": "simulation",
     "neglect": "simulation",

@@ -1,100 +1,24 @@
-"""Press heights against an elastic body, or follow the load path of a scene."""
+"""Simulate a scene, forecast its cost, neglect effects, and explain what it does."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
-from contactsim.contact.hard_wall import pose_hard_wall
-from contactsim.contact.loading import approaches, pressures
-from contactsim.contact.scene import Body, Scene
-from contactsim.elasticity.base import Elasticity
-from contactsim.elasticity.half_space import HalfSpace
-from contactsim.elasticity.layer import Layer
+from contactsim.contact.scene import Scene
 from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import Decision, decide_neglect
 from contactsim.errors import InputError, check_option_names
 from contactsim.explanation import Explanation, explain_setup
-from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments
 from contactsim.paths.options import Accuracy, RunOptions, Setup
-from contactsim.solvers.base import HardWallSolver, Result, check_solver, solve
+from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.solvers.registry import default_solver, make_solver
-from contactsim.surfaces.measured import Sampled
-from contactsim.surfaces.profile import Profile
-from contactsim.surfaces.shapes import Flat
-from contactsim.surfaces.topography import Topography
-
-
-@check_option_names
-def press(
-    heights: ArrayLike,
-    *,
-    spacing: float,
-    contact_modulus: float,
-    mean_pressure: float | None = None,
-    approach: float | None = None,
-    thickness: float | None = None,
-    poisson_ratio: float | None = None,
-    tolerance: float = 1e-3,
-    solver: str | HardWallSolver | None = None,
-    threads: int = 1,
-) -> Result:
-    """Press a rigid periodic profile into an elastic half-space or layer, without adhesion or friction.
-
-    heights: (n,) along a line or (ny, nx) over a surface, 2 points or more each way, of the rigid counter-body: the
-    largest touches first. spacing: between points; of a surface one number, or those along y and along x.
-    contact_modulus: E* = E/(1-ν²). thickness: of a layer bonded to a rigid base, a half-space without it;
-    poisson_ratio: the layer's, above -1 and up to exactly 0.5; a half-space, of which E* says all, has none.
-
-    Exactly one of mean_pressure (≥ 0) and approach: how far the profile's height zero has moved past the undeformed
-    surface; first touch is at -max(heights). On a half-space, where the mean displacement is zero by convention, and
-    on a layer with poisson_ratio 0.5, which keeps its volume, full contact is at -mean(heights), and an approach must
-    stay below; any other layer yields on average too, so it takes any approach.
-
-    tolerance: of gap in contact and of overlap outside, in grid steps (the typical height difference of neighbouring
-    points); close to full contact, and on flat tops at a light load, choose it well below the mean gap, and below p*,
-    in such steps. solver: a name, or a solver with options of its own; the default one of the dimension without it.
-    Units are free but consistent: lengths in one, pressures in that of E*.
-
-    Returns pressure, never negative, gap and contact, each shaped as heights; relative_contact_area; approach; status;
-    record with transforms and the certificate. A `InputError` says what is wrong with the input.
-    """
-    if np.ma.is_masked(heights):
-        raise InputError("heights", heights, "finite numbers, none missing; these are masked in part")
-    try:
-        given = np.asarray(heights)
-        plane = given.ndim > 1
-        profile = Topography(given, spacing, None) if plane else Profile(given, spacing, None)
-    except InputError:
-        raise
-    except ValueError as error:
-        raise InputError("heights", heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
-    surface = Sampled(profile)
-    if (mean_pressure is None) == (approach is None):
-        given = {"mean_pressure": mean_pressure, "approach": approach}
-        raise InputError("load", given, "exactly one of mean_pressure and approach")
-    path = pressures([mean_pressure]) if approach is None else approaches([approach])
-    elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
-    scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), path)
-    method = _solver(solver) or default_solver(scene)
-    check_solver(method, scene)
-    return solve(method, *pose_hard_wall(scene, path.steps[0], profile.heights, tolerance, threads))
-
-
-def _elasticity(contact_modulus: float, thickness: float | None, poisson_ratio: float | None) -> Elasticity:
-    if thickness is not None:
-        return Layer(contact_modulus, poisson_ratio, thickness)
-    if poisson_ratio is not None:
-        raise InputError("poisson_ratio", poisson_ratio, "none without a thickness: a half-space has only its E*")
-    return HalfSpace(contact_modulus)
+from contactsim.solvers.registry import make_solver
 
 
 @check_option_names
@@ -157,7 +81,7 @@ def simulate(
     options = RunOptions(
         points=points,
         tolerance=1e-3 if tolerance is None else tolerance,
-        solver=_solver(solver),
+        solver=_find_solver(solver),
         threads=threads,
         keep=None if keep is None else tuple(keep),
         increments=increments,
@@ -251,9 +175,9 @@ def explain(
     Explanation
         Print it, or read its attributes.
     """
-    return explain_setup(Setup(scene, RunOptions(points=points, solver=_solver(solver), increments=increments)))
+    return explain_setup(Setup(scene, RunOptions(points=points, solver=_find_solver(solver), increments=increments)))
 
 
-def _solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:
-    """Return a solver by its name, or the one that is given."""
+def _find_solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:
+    """Return a solver by its name, or the solver itself."""
     return make_solver(solver) if isinstance(solver, str) else solver

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import approaches
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer

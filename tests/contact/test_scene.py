@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.contact.hard_wall import SAMPLE_SIZE, grid_step
+from contactsim.contact.grid_step import SAMPLE_SIZE, grid_step
 
 
 def texture(points, period, along_both):

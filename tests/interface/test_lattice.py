@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from contactsim import reference
-from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.layer import Layer

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from contactsim import reference
 from contactsim.contact import loading
-from contactsim.contact.cohesive import pose_cohesive
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

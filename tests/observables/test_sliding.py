@@ -10,8 +10,9 @@ import pytest
 import xarray as xr
 
 from contactsim import reference
-from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadPath, sweep
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.half_space import HalfSpace

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from contactsim.contact import loading
-from contactsim.contact.cohesive import pose_cohesive
 from contactsim.contact.loading import LoadPath
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.half_space import HalfSpace

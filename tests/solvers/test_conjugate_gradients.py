@@ -9,7 +9,7 @@ from scipy.optimize import nnls
 import contactsim
 from contactsim import reference
 from contactsim.contact import loading
-from contactsim.contact.hard_wall import pose_hard_wall
+from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.contact.cohesive import Tangent, pose_cohesive
+from contactsim.contact.cohesive import Tangent
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadPath, approaches
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.layer import Layer

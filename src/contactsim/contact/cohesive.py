@@ -26,19 +26,12 @@ from functools import cached_property
 import ducc0
 import numpy as np
 
-from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.base import relative_compliance
 from contactsim.elasticity.symbol import Symbol
-from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter
-from contactsim.interface.base import Law, is_law, potential
+from contactsim.interface.base import Law, potential
 from contactsim.interface.pairing import Pairing
-from contactsim.interface.superposition import superpose
 from contactsim.traits import Trait
-
-MAX_TOLERANCE = 0.1
-"""Largest tolerance: with a larger one, the undeformed state would soon be a solution."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +119,7 @@ class CohesiveProblem:
             return self.stiffness
         diagonal = self.stiffness.diagonal.copy()
         diagonal[0, 0] = diagonal[0, 1]
-        return replace(self.stiffness, diagonal=diagonal)
+        return self.stiffness.with_diagonal(diagonal)
 
     @cached_property
     def mode_weights(self) -> Array:
@@ -263,51 +256,3 @@ class CohesiveProblem:
         return ducc0.fft.c2r(
             coefficients, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads
         )
-
-
-def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
-    """Refuse a tolerance that is no positive number, or so large that the undeformed state would meet it."""
-    if not (is_number(tolerance) and 0 < tolerance <= MAX_TOLERANCE):
-        raise InputError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")
-
-
-def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:
-    """Return the problem of a scene of smooth laws at zero approach.
-
-    Parameters
-    ----------
-    scene
-        Scene on a line whose effects are all laws.
-    heights
-        Sum of both surfaces' heights (n,), nm.
-    tolerance
-        Largest residual at any point, over the strength of the laws.
-    threads
-        Threads of a transform.
-
-    Raises
-    ------
-    InputError
-        If the tolerance or the grid is not allowed.
-    """
-    check_tolerance(tolerance)
-    grid = Grid(heights.shape, scene.lengths, threads)
-    compliance = relative_compliance(scene.lower.elasticity, scene.upper.elasticity, grid, scene.components)
-    slip_factor = None
-    if len(scene.exerted) < len(scene.components):
-        slip_factor, compliance = compliance.slip(), compliance.without_shear()
-    shape = np.zeros((len(scene.components), grid.size))
-    shape[0] = -heights
-    laws = tuple(effect for effect in scene.acting if is_law(effect))
-    law = scene.pairing.join(superpose(laws), scene.lower.surface.heights(grid.size), scene.length)
-    return CohesiveProblem(
-        grid=grid,
-        shape=shape,
-        law=law,
-        pairing=scene.pairing,
-        stiffness=compliance.inverse(),
-        slip_factor=slip_factor,
-        tolerance=tolerance,
-        counter=TransformCounter(grid.size),
-        origin=scene.path.origin(heights),
-    )

@@ -181,11 +181,23 @@ def sliding(
     from_touch : bool
         True where approaches count from first touch instead of the mean planes.
     """
-    if (approach is None) == (mean_pressure is None):
-        values = {"approach": approach, "mean_pressure": mean_pressure}
-        raise InputError("held", values, "exactly one of approach and mean_pressure")
-    held = LoadStep(Trait.MEAN_PRESSURE, mean_pressure) if approach is None else LoadStep(Trait.APPROACH, approach)
-    return LoadPath((Slide(tuple(turning_points), increment, held),), from_touch)
+    return LoadPath((Slide(tuple(turning_points), increment, load_step(approach, mean_pressure, "held")),), from_touch)
+
+
+def load_step(approach: float | None, mean_pressure: float | None, key: str) -> LoadStep:
+    """Return the step of the one value that there is, an approach (nm) or a mean pressure (GPa).
+
+    Raises
+    ------
+    InputError
+        For both or neither; it names the key.
+    """
+    if approach is not None and mean_pressure is None:
+        return LoadStep(Trait.APPROACH, approach)
+    if mean_pressure is not None and approach is None:
+        return LoadStep(Trait.MEAN_PRESSURE, mean_pressure)
+    values = {"mean_pressure": mean_pressure, "approach": approach}
+    raise InputError(key, values, "exactly one of mean_pressure and approach")
 
 
 def sweep(control: Trait, turning_points: Sequence[float], increment: float, from_touch: bool = False) -> LoadPath:

@@ -18,7 +18,7 @@ from contactsim.contact.loading import LoadPath
 from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.interface.base import Effect, is_coupled
+from contactsim.interface.base import Effect, Law, is_coupled, is_law
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.surfaces.base import Surface
 from contactsim.surfaces.shapes import Flat
@@ -139,12 +139,12 @@ class Scene:
 
     @property
     def sliding(self) -> bool:
-        """Whether the bodies are moved along each other."""
+        """True where the bodies are moved along each other."""
         return self.path.slides
 
     @cached_property
     def slips(self) -> bool:
-        """Whether something moves the surfaces along each other: a slide, or normal tractions.
+        """True where something moves the surfaces along each other: a slide, or normal tractions.
 
         Those of like bodies do not, nor those of ν = 1/2.
         """
@@ -160,6 +160,16 @@ class Scene:
             return self.effects
         return tuple(effect.without_coupling() if is_coupled(effect) else effect for effect in self.effects)
 
+    @property
+    def laws(self) -> tuple[Law, ...]:
+        """Effects that are smooth functions of the gap."""
+        return tuple(effect for effect in self.effects if is_law(effect))
+
+    @property
+    def acting_laws(self) -> tuple[Law, ...]:
+        """The same of the effects as they act."""
+        return tuple(effect for effect in self.acting if is_law(effect))
+
     @cached_property
     def components(self) -> tuple[str, ...]:
         """Displacement components that exist: those that an effect reads or exerts."""
@@ -174,7 +184,7 @@ class Scene:
 
     @cached_property
     def traits(self) -> frozenset[Trait]:
-        """What a solver must accept: the union over effects, bodies, path and dimension."""
+        """Traits that a solver must accept: the union over effects, bodies, path and dimension."""
         parts = [effect.traits for effect in self.acting] + [body.traits for body in self.elasticities]
         dimension = {1: Trait.LINE, 2: Trait.SURFACE}[len(self.lengths)]
         return frozenset({dimension}).union(self.path.traits, *parts)
@@ -196,13 +206,17 @@ class Scene:
 
     @property
     def contact_modulus(self) -> float:
-        """Of the pair, 1/E* = Σ 1/E_i* (GPa)."""
+        """Contact modulus of the pair, 1/E* = Σ 1/E_i* (GPa)."""
         return 1.0 / sum(1.0 / body.contact_modulus for body in self.elasticities)
 
     def compliance(self, wavenumber: Array) -> Array:
-        """Sum of the bodies' compliances at each |q| (rad/nm), nm/GPa."""
-        return sum(body.compliance(wavenumber) for body in self.elasticities)
+        """Return the sum of the bodies' compliances at each |q| (rad/nm), nm/GPa."""
+        total: Array = np.zeros(np.shape(wavenumber))
+        return sum((body.compliance(wavenumber) for body in self.elasticities), start=total)
 
     def heights(self, points: int) -> Array:
-        """Sum of both surfaces' heights, each positive towards the other, `points` along x, (n,) or (ny, nx), nm."""
+        """Return the sum of both surfaces' heights (n,) or (ny, nx), nm, each positive towards the other.
+
+        `points` is the number of points along x.
+        """
         return self.upper.surface.heights(points) + self.lower.surface.heights(points)

@@ -31,9 +31,7 @@ def without_coupling(scene: Scene) -> Scene:
 
 def without_compressibility(scene: Scene) -> Scene:
     """Return a scene with a Poisson's ratio of 1/2 and the same contact moduli."""
-    return _replace_bodies(
-        scene, lambda solid: solid if solid.poisson_ratio is None else replace(solid, poisson_ratio=0.5)
-    )
+    return _replace_bodies(scene, lambda solid: solid.incompressible())
 
 
 def without_finite_height(scene: Scene) -> Scene:
@@ -54,9 +52,9 @@ def without_second_body(scene: Scene) -> Scene:
 def without_short_waves(scene: Scene) -> Scene:
     """Return a scene without the shortest octave of waves of a self-affine surface."""
     surface = scene.upper.surface
-    if (
-        not isinstance(surface, SelfAffine) or surface.low_pass_cutoff is not None
-    ):  # no other surface has a shortest wave
+    if not isinstance(surface, SelfAffine):  # no other surface has a shortest wave
+        return scene
+    if surface.low_pass_cutoff is not None:
         return scene
     low_pass_cutoff = SMOOTHING_RATIO * surface.short_cutoff
     if low_pass_cutoff >= surface.long_cutoff:

@@ -59,6 +59,10 @@ class Elasticity(Protocol):
         """Properties that a solver has to accept."""
         ...
 
+    def incompressible(self) -> Elasticity:
+        """Return the body with ν = 1/2 and the same contact modulus; itself where ν is unknown."""
+        ...
+
     def compliance(self, wavenumber: Array) -> Array:
         """Return the normal displacement per normal traction without shear, nm/GPa, at each |q| (rad/nm)."""
         ...
@@ -118,20 +122,32 @@ def relative_compliance(
     InputError
         If both bodies are rigid, or the components do not exist on the grid.
     """
-    bodies = [(lower, False), (upper, True)]
-    symbols = [_compliance_symbol(body, grid, components, turned) for body, turned in bodies if body is not None]
-    if not symbols:
-        raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
-    return reduce(operator.add, symbols)
+    if components == CoupledSymbol.components:
+        return relative_coupled_compliance(lower, upper, grid)
+    if components != NormalSymbol.components:
+        raise InputError("components", components, "('n',), or on a line ('n', 't')")
+    bodies = _elastic_bodies(lower, upper)
+    return reduce(operator.add, [NormalSymbol(body.compliance(grid.wavenumber)[None]) for body, _ in bodies])
 
 
-def _compliance_symbol(body: Elasticity, grid: Grid, components: tuple[str, ...], turned: bool) -> Symbol:
-    """Return the compliance of a body on a grid; `turned`: of the body upside down."""
-    if components == NormalSymbol.components:
-        return NormalSymbol(body.compliance(grid.wavenumber)[None])
-    if components != CoupledSymbol.components or len(grid.shape) != 1:
+def relative_coupled_compliance(lower: Elasticity | None, upper: Elasticity | None, grid: Grid) -> CoupledSymbol:
+    """Return the relative displacement per traction on a line, both normal and along x; see `relative_compliance`."""
+    if len(grid.shape) != 1:
         allowed = "('n',), or on a line ('n', 't'): displacements along x of surfaces are not modelled"
-        raise InputError("components", components, allowed)
+        raise InputError("components", CoupledSymbol.components, allowed)
+    return reduce(operator.add, [_coupled_symbol(body, grid, turned) for body, turned in _elastic_bodies(lower, upper)])
+
+
+def _elastic_bodies(lower: Elasticity | None, upper: Elasticity | None) -> list[tuple[Elasticity, bool]]:
+    """Return the bodies that give way, each with whether it is upside down."""
+    bodies = [(body, turned) for body, turned in ((lower, False), (upper, True)) if body is not None]
+    if not bodies:
+        raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
+    return bodies
+
+
+def _coupled_symbol(body: Elasticity, grid: Grid, turned: bool) -> CoupledSymbol:
+    """Return the compliance of a body on a line; `turned`: of the body upside down."""
     symbol = body.coupled_compliance(grid.wavenumber)
     if grid.shape[0] % 2 == 0:
         symbol.coupling[-1] = 0.0

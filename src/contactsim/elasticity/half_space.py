@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -53,6 +53,10 @@ class HalfSpace:
     def couples(self) -> bool:
         """True if a normal traction moves the surface along x: at every ν but 1/2."""
         return self.poisson_ratio != 0.5
+
+    def incompressible(self) -> HalfSpace:
+        """Return the body with ν = 1/2 and the same contact modulus; itself where ν is unknown."""
+        return self if self.poisson_ratio is None else replace(self, poisson_ratio=0.5)
 
     def compliance(self, wavenumber: Array) -> Array:
         """Return the normal compliance 2/(E*|q|), nm/GPa, 0 at q = 0."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -83,6 +83,10 @@ class Layer:
     def shear_modulus(self) -> float:
         """Shear modulus μ = C44, GPa."""
         return self.contact_modulus * (1 - self.poisson_ratio) / 2
+
+    def incompressible(self) -> Layer:
+        """Return the layer with ν = 1/2 and the same contact modulus."""
+        return replace(self, poisson_ratio=0.5)
 
     def compliance(self, wavenumber: Array) -> Array:
         """Return the normal compliance without surface shear (Eqs 2.11-2.13), nm/GPa, h/C11 at q = 0."""

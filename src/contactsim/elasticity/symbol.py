@@ -10,7 +10,7 @@ kept. Its entry is zero in a compliance and in every inverse, so that no infinit
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar, Protocol
 
@@ -40,6 +40,10 @@ class Symbol(Protocol):
 
     def inverse(self, shift: float | Array = 0.0) -> Symbol:
         """Return the inverse of the symbol plus `shift` ≥ 0, one number or one for each component; held modes stay."""
+        ...
+
+    def with_diagonal(self, diagonal: Array) -> Symbol:
+        """Return the same symbol with other entries of each component with itself."""
         ...
 
     def modes(self, selection: slice) -> Symbol:
@@ -77,6 +81,10 @@ class NormalSymbol:
         """Return one over the sum of the diagonal and `shift`; held modes stay zero."""
         moved = np.add(self.diagonal, np.reshape(shift, (-1,) + (1,) * (self.diagonal.ndim - 1)))
         return NormalSymbol(np.divide(1.0, moved, out=np.zeros_like(moved), where=~self.held))
+
+    def with_diagonal(self, diagonal: Array) -> NormalSymbol:
+        """Return the same symbol with other entries of each component with itself."""
+        return replace(self, diagonal=diagonal)
 
     def modes(self, selection: slice) -> NormalSymbol:
         """Return the symbol at some of the wavenumbers of a line."""
@@ -141,6 +149,10 @@ class CoupledSymbol:
         determinant = moved[0] * moved[1] - self.coupling**2
         diagonal = np.where(self.held, 0.0, moved[::-1] / determinant)
         return CoupledSymbol(diagonal, -self.coupling / determinant)
+
+    def with_diagonal(self, diagonal: Array) -> CoupledSymbol:
+        """Return the same symbol with other entries of each component with itself."""
+        return replace(self, diagonal=diagonal)
 
     def modes(self, selection: slice) -> CoupledSymbol:
         """Return the symbol at some of the wavenumbers."""

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, check_tolerance
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError
 from contactsim.grid import Array

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
 from contactsim.contact.scene import Scene
+from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError
 from contactsim.paths.increments import Increments
 from contactsim.provenance import digest
@@ -98,7 +100,7 @@ class Setup:
         """All points of the grid."""
         return math.prod(self.scene.upper.surface.shape(self.points))
 
-    def with_options(self, **changes: object) -> Setup:
+    def with_options(self, **changes: Any) -> Setup:
         """Return the same scene with some options changed."""
         return replace(self, options=replace(self.options, **changes))
 
@@ -115,9 +117,7 @@ class Setup:
         along the surface by their contact modulus alone.
         """
         scene, options = self.scene, self.options
-        bodies: list[object] = [scene.lower.elasticity, scene.upper.elasticity]
-        if scene.components == ("n",):
-            bodies = [body if body is None or body.base_depth < math.inf else body.contact_modulus for body in bodies]
+        bodies = [_acting_body(body, scene.components) for body in (scene.lower.elasticity, scene.upper.elasticity)]
         surfaces = scene.lower.surface, scene.upper.surface
         numbers = [
             digest(np.asarray(surface.heights(self.points)).tolist())
@@ -127,3 +127,10 @@ class Setup:
         parts = scene.acting, bodies, surfaces, scene.path, scene.pairing
         knobs = options.points, options.tolerance, options.solver, options.increments
         return digest([repr(part) for part in (*parts, *knobs)], numbers)
+
+
+def _acting_body(body: Elasticity | None, components: tuple[str, ...]) -> Elasticity | float | None:
+    """Return a body as it acts: a half-space in which nothing moves along the surface is its contact modulus."""
+    if body is None or components != ("n",) or body.base_depth < math.inf:
+        return body
+    return body.contact_modulus

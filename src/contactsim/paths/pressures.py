@@ -19,7 +19,8 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.contact.hard_wall import WarmStart, pose_hard_wall
+from contactsim.contact.hard_wall import WarmStart
+from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError

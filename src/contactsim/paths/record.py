@@ -11,7 +11,8 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset, status
-from contactsim.contact.cohesive import CohesiveProblem, pose_cohesive
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables

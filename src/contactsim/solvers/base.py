@@ -176,7 +176,7 @@ def solve(solver: HardWallSolver, problem: HardWallProblem, scale: Scale) -> Res
     solver
         The method.
     problem, scale
-        Problem without units, and its units; see `contactsim.contact.hard_wall.pose_hard_wall`.
+        Problem without units, and its units; see `contactsim.contact.pose_hard_wall.pose_hard_wall`.
 
     Returns
     -------

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from contactsim.contact.cohesive import check_tolerance
+from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS

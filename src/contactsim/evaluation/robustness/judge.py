@@ -21,7 +21,7 @@ from contactsim.grid import Array
 from contactsim.interface.cohesive_zone import MAX_OVERLAP
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.state import PathState
-from contactsim.simulation import press
+from contactsim.single_load import press
 from contactsim.solvers.base import HardWallSolver, Result, check_solver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver

@@ -15,8 +15,9 @@ from functools import cached_property
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from contactsim.contact.cohesive import MAX_TOLERANCE, CohesiveProblem, pose_cohesive
+from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadPath
+from contactsim.contact.pose_cohesive import MAX_TOLERANCE, pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.base import Elasticity

@@ -187,7 +187,7 @@ class NewtonKrylov:
         """Return whether a step of the flow is accepted, and the shift of the next step."""
         size = float(np.abs(problem.field(change)[: len(change)]).max())
         largest, stiffness = self.flow_step * problem.interaction_range, problem.law_stiffness
-        downhill = -np.vdot(change, residual).real > 0
+        downhill = float(np.vdot(change, residual).real) < 0
         if not (downhill and size <= 2 * largest):
             return False, max(3 * shift, MIN_REFUSED_SHIFT * stiffness)
         shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1

@@ -53,12 +53,12 @@ def contact_of(where: Array) -> Contact:
 class Rows:
     """Calls of kernels over all rows of a grid (ny, nx)."""
 
-    def __init__(self, shape: tuple[int, int], threads: int) -> None:
+    def __init__(self, shape: tuple[int, ...], threads: int) -> None:
         self.width = shape[1]
         self.bounds = [(low, min(low + BLOCK, shape[0])) for low in range(0, shape[0], BLOCK)]
         self._pool = ThreadPoolExecutor(threads) if threads > 1 and len(self.bounds) > 1 else None
 
-    def __call__(self, kernel: Callable, *arguments: object) -> Array:
+    def __call__(self, kernel: Callable[..., None], *arguments: object) -> Array:
         """Return the sums over all rows, then the largest values, shape (SUMS + MAXIMA,)."""
         sums = np.zeros((len(self.bounds), SUMS + MAXIMA))
 

@@ -1,0 +1,69 @@
+"""From a scene of smooth laws to the problem at zero approach."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.scene import Scene
+from contactsim.elasticity.base import relative_compliance, relative_coupled_compliance
+from contactsim.elasticity.symbol import Symbol
+from contactsim.errors import InputError, is_number
+from contactsim.grid import Array, Grid, TransformCounter
+from contactsim.interface.superposition import superpose
+
+MAX_TOLERANCE = 0.1
+"""Largest tolerance: with a larger one, the undeformed state would soon be a solution."""
+
+
+def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
+    """Refuse a tolerance that is no positive number, or so large that the undeformed state would meet it."""
+    if not (is_number(tolerance) and 0 < tolerance <= MAX_TOLERANCE):
+        raise InputError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")
+
+
+def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:
+    """Return the problem of a scene of smooth laws at zero approach.
+
+    Parameters
+    ----------
+    scene
+        Scene on a line whose effects are all laws.
+    heights
+        Sum of both surfaces' heights (n,), nm.
+    tolerance
+        Largest residual at any point, over the strength of the laws.
+    threads
+        Threads of a transform.
+
+    Raises
+    ------
+    InputError
+        If the tolerance or the grid is not allowed.
+    """
+    check_tolerance(tolerance)
+    grid = Grid(heights.shape, scene.lengths, threads)
+    stiffness, slip_factor = _stiffness(scene, grid)
+    shape = np.zeros((len(scene.components), grid.size))
+    shape[0] = -heights
+    law = scene.pairing.join(superpose(scene.acting_laws), scene.lower.surface.heights(grid.size), scene.length)
+    return CohesiveProblem(
+        grid=grid,
+        shape=shape,
+        law=law,
+        pairing=scene.pairing,
+        stiffness=stiffness,
+        slip_factor=slip_factor,
+        tolerance=tolerance,
+        counter=TransformCounter(grid.size),
+        origin=scene.path.origin(heights),
+    )
+
+
+def _stiffness(scene: Scene, grid: Grid) -> tuple[Symbol, Array | None]:
+    """Return K of the exerted components, and the slip factor where the tangential gap is only read."""
+    lower, upper = scene.lower.elasticity, scene.upper.elasticity
+    if len(scene.exerted) == len(scene.components):
+        return relative_compliance(lower, upper, grid, scene.components).inverse(), None
+    compliance = relative_coupled_compliance(lower, upper, grid)
+    return compliance.without_shear().inverse(), compliance.slip()
