@@ -196,23 +196,26 @@ def test_every_link_leads_somewhere():
             assert (folder / link).exists(), link
 
 
-@pytest.mark.parametrize(
-    "keys",
-    [
-        *(
-            CONFIG_KEYS,
-            TIER_KEYS,
-            STUDY_KEYS,
-            FIGURE_KEYS,
-            *(keys for _, _, keys in ERROR_RUNS.values()),
-            ROBUSTNESS_KEYS,
-            dict.fromkeys(LOADS),
-        ),
-        *(ACCURACY_KEYS, NEGLECT_KEYS, sampling.KEYS, sampling.DRAW_KEYS, *sampling.RANGES.values()),
-        *(survey.KEYS, survey.MAP_KEYS, survey.AXIS_KEYS, survey.PANEL_KEYS),
-        *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
-    ],
-)
+TABLES = [
+    *(
+        CONFIG_KEYS,
+        TIER_KEYS,
+        STUDY_KEYS,
+        FIGURE_KEYS,
+        ROBUSTNESS_KEYS,
+        ACCURACY_KEYS,
+        NEGLECT_KEYS,
+        dict.fromkeys(LOADS),
+    ),
+    *(sampling.KEYS, sampling.DRAW_KEYS, survey.KEYS, survey.MAP_KEYS, survey.AXIS_KEYS, survey.PANEL_KEYS),
+    *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
+    *(keys for _, _, keys in ERROR_RUNS.values()),
+    *sampling.RANGES.values(),
+]
+"""All tables of keys that a config may have."""
+
+
+@pytest.mark.parametrize("keys", TABLES)
 def test_every_key_is_explained(keys):
     for name in keys:
         assert f"`{name}`" in KEYS, name
@@ -250,23 +253,7 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
-    known = {"kind", *CONFIG_KEYS, *STUDY_KEYS, *FIGURE_KEYS, *ERROR_RUNS["coarse_grid"][2], *ROBUSTNESS_KEYS, *LOADS}
-    known |= {
-        *SLIDE_KEYS,
-        *CLAIM_KEYS,
-        *CONDITION_KEYS,
-        *REDUCTIONS,
-        *CASE_KEYS,
-        *SETTING_KEYS,
-        *PATH_KEYS,
-        *LAW_KEYS,
-        *EFFECTS,
-        *MODULI,
-        *ACCURACY_KEYS,
-        *NEGLECT_KEYS,
-        *sampling.KEYS,
-        *survey.KEYS,
-    }
+    known = {"kind", *REDUCTIONS, *EFFECTS, *MODULI, *(name for keys in TABLES for name in keys)}
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in SECTION_KINDS.values():
         for kind in classes:

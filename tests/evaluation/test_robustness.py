@@ -296,9 +296,7 @@ def test_a_survey_made_again_is_the_same_byte_for_byte(drawn, tmp_path):
     assert (tmp_path / "again.nc").read_bytes() == (drawn / "low_spike.nc").read_bytes()
 
 
-def test_the_map_is_drawn_and_gives_its_numbers(drawn):
-    assert (drawn / "stability.png").read_bytes().startswith(b"\x89PNG")
-    assert (drawn / "stability.pdf").read_bytes().startswith(b"%PDF")
+def test_the_table_of_the_map_has_a_row_for_each_cell(drawn):
     rows = pd.read_csv(drawn / "stability.csv")
     assert len(rows) == 63
     assert rows.outcome.value_counts()["refused"] == 45
@@ -348,8 +346,3 @@ def test_a_run_of_cells_refused_for_one_reason_is_told_once(drawn):
 def test_the_short_reason_of_a_trait_is_what_the_solver_does_not_take():
     verdict = judge(replace(CASE, mean_pressure=None, approach=0.0), "verlet")
     assert short_reason(verdict.reason) == "takes no approach"
-
-
-def test_every_outcome_has_a_colour_of_its_own():
-    assert list(COLOURS) == list(Outcome)
-    assert len(set(COLOURS.values())) == len(Outcome)

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from copy import deepcopy
 from dataclasses import dataclass, field
 
 import pytest
@@ -115,11 +116,6 @@ def test_text_that_looks_like_a_number_is_refused_with_the_spelling_that_is_one(
     assert spelling == float(word)
 
 
-def test_the_hint_for_one_millionth_is_one_point_nought():
-    assert "1.0e-6" in str(refusal({"length": "1e-6"}))
-    assert "4.0e+6" in str(refusal({"length": "4.0e6"}))
-
-
 @pytest.mark.parametrize("word", ["inf", "nan", "-inf"])
 def test_words_for_what_is_no_number_get_no_hint_how_to_spell_it(word):
     assert "exponent" not in str(refusal({"length": word}))
@@ -153,13 +149,8 @@ class Hill:
 def test_keys_of_a_dataclass_are_the_fields_that_a_config_can_give():
     keys = keys_of(Hill)
     assert list(keys) == ["height", "steps", "name", "slope", "path"]
-    assert read({"height": 1, "steps": 2}, keys, "f") == {
-        "height": 1.0,
-        "steps": 2,
-        "name": "hill",
-        "slope": None,
-        "path": None,
-    }
+    values = read({"height": 1, "steps": 2}, keys, "f")
+    assert values == {"height": 1.0, "steps": 2, "name": "hill", "slope": None, "path": None}
 
 
 @pytest.mark.parametrize("bad", [{"height": "1.0"}, {"steps": 2.0}, {"name": 1}, {"slope": None}, {"path": None}])
@@ -234,32 +225,21 @@ def test_what_yaml_fails_on_with_an_error_of_its_own_is_refused_with_the_file(wr
     assert file_refusal(path).file == path
 
 
-def test_overlaying_merges_mappings_and_replaces_all_else():
-    base = {"surface": {"kind": "hill", "length": 1.0, "deep": {"a": 1, "b": 2}}, "loads": [1, 2, 3], "points": 8}
-    over = {"surface": {"length": 2.0, "deep": {"b": 3, "c": 4}}, "loads": [9], "points": {"x": 1}, "new": {"y": 1}}
-    assert overlaid(base, over) == {
-        "surface": {"kind": "hill", "length": 2.0, "deep": {"a": 1, "b": 3, "c": 4}},
-        "loads": [9],
-        "points": {"x": 1},
-        "new": {"y": 1},
-    }
-
-
-def test_overlaying_a_mapping_with_something_else_replaces_it():
-    assert overlaid({"a": {"b": 1}}, {"a": [1]}) == {"a": [1]}
-
-
-def test_overlaying_changes_neither_of_its_arguments():
-    base, over = {"a": {"b": 1}}, {"a": {"c": 2}}
-    overlaid(base, over)
-    assert (base, over) == ({"a": {"b": 1}}, {"a": {"c": 2}})
-
-
-def test_null_takes_out_a_key_that_there_is():
-    assert overlaid({"a": 1, "b": {"c": 2, "d": 3}}, {"a": None, "b": {"c": None}, "e": None}) == {
-        "b": {"d": 3},
-        "e": None,
-    }
+@pytest.mark.parametrize(
+    ("base", "over", "result"),
+    [
+        ({"a": 1, "b": 2}, {"b": 3, "c": 4}, {"a": 1, "b": 3, "c": 4}),
+        ({"a": {"b": 1, "c": {"d": 2}}}, {"a": {"c": {"e": 3}}}, {"a": {"b": 1, "c": {"d": 2, "e": 3}}}),
+        ({"a": [1, 2, 3]}, {"a": [9]}, {"a": [9]}),
+        ({"a": 8}, {"a": {"b": 1}}, {"a": {"b": 1}}),
+        ({"a": {"b": 1}}, {"a": [1]}, {"a": [1]}),
+        ({"a": 1, "b": {"c": 2, "d": 3}}, {"a": None, "b": {"c": None}, "e": None}, {"b": {"d": 3}, "e": None}),
+    ],
+)
+def test_overlaying_merges_mappings_replaces_all_else_and_takes_out_what_is_null(base, over, result):
+    before = deepcopy((base, over))
+    assert overlaid(base, over) == result
+    assert (base, over) == before
 
 
 def test_an_error_stays_what_it_is_on_its_way_between_processes():
