@@ -1,4 +1,4 @@
-"""How a solution ended, and how far it is within what its model describes."""
+"""Status of a solution, and the limits within which its model describes reality."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import xarray as xr
 
 
 class Status(Enum):
-    """How a solution ended; the number is stored in datasets, the sentence explains it."""
+    """End of a solution; the number is stored in datasets, the sentence explains it."""
 
     CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
     MAX_ITERATIONS = (1, "not converged: the largest number of iterations is reached")
@@ -21,22 +21,22 @@ class Status(Enum):
 
     @property
     def sentence(self) -> str:
-        """What the status means."""
+        """Meaning of the status."""
         return self.value[1]
 
     @property
     def solved(self) -> bool:
-        """Whether there is a solution, or one interpolated between solutions."""
+        """True where there is a solution, or one interpolated between solutions."""
         return self in (Status.CONVERGED, Status.INTERPOLATED)
 
 
 def status_sentence(number: int) -> str:
-    """What the number of a status means."""
+    """Return the meaning of the number of a status."""
     return next(status.sentence for status in Status if status.value[0] == number)
 
 
 def is_solved(numbers: xr.DataArray) -> xr.DataArray:
-    """Whether numbers of a status stand for solutions, bool."""
+    """Return True where the number of a status stands for a solution, bool."""
     return numbers.isin([status.value[0] for status in Status if status.solved])
 
 
@@ -46,19 +46,29 @@ LIMITS = {
     "process_zone_step": (0.2, "grid spacing over the process zone"),
     "rms_gradient": (0.45, "rms slope"),
 }
-"""Largest value of each number, and what it is.
+"""Largest value of each number, and its name in words.
 
-Overlap: the laws' repulsion grows no faster than any; slip: beyond it shear kills the repulsion of a coupled law. At a
-fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %, at more it jumps from point to point. Slopes: half
-of the square, a tenth, is what small slopes leave out.
+Beyond that overlap the laws' repulsion grows too slowly; beyond that slip shear removes the repulsion of a coupled law.
+With steps of a fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %; with longer ones it jumps from point
+to point. Small slopes leave out half of their square, a tenth at this limit.
 """
 FLAGS = {name: 1 << place for place, name in enumerate(LIMITS)}
 """Bits of `validity_flags`, one for each limit."""
 
 
-def process_zone(contact_modulus: float, strength: float, reach: float) -> float:
-    """Length e²E*δn²/φn (nm) over which tractions fall, from E* (GPa), strength φn/(e δn) (GPa) and reach δn (nm)."""
-    return float(np.e * contact_modulus * reach / strength)
+def process_zone(contact_modulus: float, strength: float, interaction_range: float) -> float:
+    """Return the length (nm) over which tractions fall, e²E*δn²/φn.
+
+    Parameters
+    ----------
+    contact_modulus : float
+        E*, GPa.
+    strength : float
+        φn/(e δn), GPa.
+    interaction_range : float
+        δn, nm.
+    """
+    return float(np.e * contact_modulus * interaction_range / strength)
 
 
 def validity_flags(numbers: Mapping[str, float]) -> int:
@@ -66,13 +76,13 @@ def validity_flags(numbers: Mapping[str, float]) -> int:
     return sum(FLAGS[name] for name, (limit, _) in LIMITS.items() if numbers.get(name, 0.0) > limit)
 
 
-def told(data: xr.Dataset) -> list[str]:
-    """In words, what the states of a dataset are beyond, how far and how many of them; empty if nothing is."""
-    found = []
+def describe_excess(data: xr.Dataset) -> list[str]:
+    """Return in words which limits the states of a dataset exceed, by how much, and how many do."""
+    texts = []
     flags = data.validity_flags.fillna(0).astype(int)
     for name, (limit, words) in LIMITS.items():
         share = float(((flags & FLAGS[name]) > 0).mean())
         if share:
             part = "all" if share == 1 else f"{100 * share:.2g} %"
-            found.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {part}")
-    return found
+            texts.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {part}")
+    return texts

@@ -73,7 +73,7 @@ def test_slopes_that_are_not_small_are_flagged(amplitude):
 def test_what_is_beyond_is_told_in_words_even_where_states_are_missing():
     numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0], "validity_flags": [0, 1, np.nan, 1]}
     data = described(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
-    assert status.told(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]
+    assert status.describe_excess(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]
     assert list(data.validity_flags.flag_masks) == [1, 2, 4, 8]
     assert data.validity_flags.flag_meanings == "max_interpenetration slip process_zone_step rms_gradient"
-    assert not status.told(data.isel(step=[0]))
+    assert not status.describe_excess(data.isel(step=[0]))

@@ -110,7 +110,7 @@ def dataset_summary(data: xr.Dataset, costs: pd.DataFrame) -> str:
     """
     settings = dataset.settings_of(data)
     parts = [f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}", *sample_texts(data)]
-    if "validity_flags" in data and (excess := status.told(data)):
+    if "validity_flags" in data and (excess := status.describe_excess(data)):
         parts.append(f"beyond the model: {', '.join(excess)} of the states")
     return " · ".join([*parts, *error_texts(data), f"study solved in {costs.seconds.sum():.3g} CPU s"])
 

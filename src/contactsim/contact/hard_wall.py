@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from contactsim.errors import InputError
 from contactsim.grid import Array, FourierOperator, TransformCounter
 
 
@@ -91,6 +92,13 @@ class HardWallProblem:
     def is_separated(self) -> bool:
         """True where there is no contact to solve for: no load, or an approach before first touch."""
         return self.load == 0 if self.approach is None else self.approach <= 0
+
+    @property
+    def prescribed_load(self) -> float:
+        """Mean pressure, for methods that need one to be prescribed."""
+        if self.load is None:
+            raise InputError("load", None, "a mean pressure: the approach is prescribed")
+        return self.load
 
     def coarser(self, tolerance: float) -> HardWallProblem:
         """Return the problem on half of the points in each direction, in grid steps of its own; heights are sampled."""

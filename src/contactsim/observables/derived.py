@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 import xarray as xr
@@ -41,7 +42,9 @@ def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dat
         )
         for data, coordinates in runs
     ]
-    data = xr.combine_by_coords(expanded, combine_attrs="drop", join="outer", compat="no_conflicts")
+    data = cast(
+        xr.Dataset, xr.combine_by_coords(expanded, combine_attrs="drop", join="outer", compat="no_conflicts")
+    )  # never an array, as datasets are given
     data.attrs["problem"] = runs[0][0].attrs["problem"]
     for name in set(SHARED_SCALARS) & set(data):
         if (data[name] == data[name].values.flat[0]).all():

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import xarray as xr
 from threadpoolctl import threadpool_limits
@@ -39,16 +39,22 @@ class Reuse:
 class PathDriver(Protocol):
     """Way to follow the load path of one kind of problem.
 
-    words: its name in messages; options: run options that only it has; reuses_points: True where a load does not depend
-    on those before, so that it need not be solved again.
+    Attributes
+    ----------
+    words
+        Name of the kind in messages.
+    options
+        Run options that only it has.
+    reuses_points
+        True where a load does not depend on those before, so that it need not be solved again.
     """
 
     words: str
     options: tuple[str, ...]
     reuses_points: bool
 
-    def follow(self, setup: Setup, reuse: Reuse) -> xr.Dataset:
-        """Return a dataset with dimension `step`."""
+    def follow(self, setup: Setup, solver: Any, reuse: Reuse) -> xr.Dataset:
+        """Return a dataset with dimension `step`; the solver is of the kind of problem."""
         ...
 
 
@@ -56,21 +62,21 @@ class LoadDriver:
     """Loads on their own at a hard wall."""
 
     words = "a hard wall"
-    options = ("keep",)
+    options: tuple[str, ...] = ("keep",)
     reuses_points = True
 
-    def follow(self, setup: Setup, reuse: Reuse) -> xr.Dataset:
+    def follow(self, setup: Setup, solver: Any, reuse: Reuse) -> xr.Dataset:
         """Return one solution for each load."""
         options = setup.options
         return simulate_loads(
             setup.scene,
-            options.solver,
+            solver,
             points=setup.points,
             tolerance=options.tolerance,
             threads=options.threads,
             keep=KEPT[:-1] if options.keep is None else options.keep,
-            known=reuse.points,
-            begun=reuse.coarse,
+            solved_points=reuse.points,
+            coarse=reuse.coarse,
         )
 
 
@@ -78,15 +84,15 @@ class StateDriver:
     """States of cohesive laws, each from the one before."""
 
     words = "smooth laws"
-    options = ("increments", "snapshots", "keep_fields")
+    options: tuple[str, ...] = ("increments", "snapshots", "keep_fields")
     reuses_points = False
 
-    def follow(self, setup: Setup, reuse: Reuse) -> xr.Dataset:
+    def follow(self, setup: Setup, solver: Any, reuse: Reuse) -> xr.Dataset:
         """Return one state for each step; nothing can be reused, as each state depends on all before."""
         options = setup.options
         return simulate_path(
             setup.scene,
-            options.solver,
+            solver,
             points=setup.points,
             tolerance=options.tolerance,
             threads=options.threads,
@@ -124,4 +130,4 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
     check_solver(solver, scene)
     # more threads of dense algebra would only wait for each other, and change the last digits of a result
     with threadpool_limits(options.threads, "blas"):
-        return driver.follow(replace(setup, options=replace(options, solver=solver)), reuse or Reuse())
+        return driver.follow(setup, solver, reuse or Reuse())

@@ -1,10 +1,10 @@
-"""Loads on their own at a hard wall, as a dataset.
+"""Simulate loads on their own at a hard wall.
 
-A hard wall has one solution at each load whatever came before, so every step is solved from scratch and may be taken
+A hard wall has one solution at each load whatever came before, so every step is solved from scratch. It may be taken
 from an earlier dataset if the same code made it from the same settings: a list of loads that grew equals, byte for
-byte, the list solved at once. Beside the numbers a scene keeps what it is told to: the contact set, the pressure on
-it, the Fourier coefficients of the heights, from which any other quantity follows; or heights, pressure and gap as
-they are, to be drawn.
+byte, the list solved at once. Beside the numbers a run keeps what it is asked to: the contact set, the pressure on it,
+and the Fourier coefficients of the heights, from which any other quantity follows; or heights, pressure and gap as they
+are, to be drawn.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -35,9 +36,19 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Point:
-    """One solved load: numbers by name, arrays by name of what is kept, seconds it took."""
+    """One solved load.
 
-    numbers: dict[str, float | int]
+    Parameters
+    ----------
+    numbers : dict
+        Numbers by name.
+    arrays : dict
+        Arrays that are kept, by name.
+    seconds : float
+        CPU seconds of the solution.
+    """
+
+    numbers: dict[str, float]
     arrays: dict[str, Array]
     seconds: float
 
@@ -50,51 +61,75 @@ def simulate_loads(
     tolerance: float,
     threads: int = 1,
     keep: Sequence[str] = KEPT[:-1],
-    known: Mapping[int, Point] | None = None,
-    begun: xr.Dataset | None = None,
+    solved_points: Mapping[int, Point] | None = None,
+    coarse: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Press a scene at each of its loads and return one dataset with dimension `step`.
+    """Press a scene at each of its loads.
 
-    tolerance: in grid steps; keep: of `KEPT`; known: points that need not be solved again, by step; begun: the same
-    scene on a coarser grid with its `fields`, which a cascade of grids begins from.
+    Parameters
+    ----------
+    scene : Scene
+        Scene with a hard wall.
+    method : HardWallSolver
+        The solver.
+    points : int
+        Grid points along x.
+    tolerance : float
+        In grid steps.
+    threads : int
+        Threads of the transforms.
+    keep : sequence of str
+        Some of `KEPT`.
+    solved_points : mapping, optional
+        Points that need not be solved again, by step.
+    coarse : xarray.Dataset, optional
+        The same scene on a coarser grid with its `fields`, from which a cascade of grids begins.
+
+    Returns
+    -------
+    xarray.Dataset
+        One dataset with dimension `step`.
     """
     for name in keep:
         if name not in KEPT:
             raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
 
-    def solved(step: LoadStep) -> Point:
-        """One load on its own."""
+    def solve_step(step: LoadStep) -> Point:
+        """Return one load on its own."""
         problem, scale = pose_hard_wall(scene, step, heights, tolerance, threads)
-        if begun is not None:
-            coarse = begun.isel(step=scene.path.steps.index(step))
-            problem.warm_start = WarmStart(coarse.pressure.values / scale.pressure, coarse.gap.values / scale.step)
-        return _point(solve(method, problem, scale), heights, scene.lengths, keep)
+        if coarse is not None:
+            start = coarse.isel(step=scene.path.steps.index(step))
+            problem.warm_start = WarmStart(start.pressure.values / scale.pressure, start.gap.values / scale.step)
+        return _read_point(solve(method, problem, scale), heights, scene.lengths, keep)
 
-    return _collected(scene, heights, _loads(scene.path.steps, known or {}, solved), keep)
+    return _join_points(scene, heights, _solve_steps(scene.path.steps, solved_points or {}, solve_step), keep)
 
 
-def _loads(steps: Sequence[LoadStep], known: Mapping[int, Point], solved: Callable[[LoadStep], Point]) -> list[Point]:
-    """The points of all loads, in order: known ones taken over, the others solved; a line of the log for each."""
-    found, spent = [], []
+def _solve_steps(
+    steps: Sequence[LoadStep], solved_points: Mapping[int, Point], solve_step: Callable[[LoadStep], Point]
+) -> list[Point]:
+    """Return the points of all loads in their order, with a line of the log for each."""
+    points, seconds = [], []
     for count, step in enumerate(steps):
-        if count in known:
-            found.append(known[count])
+        if count in solved_points:
+            points.append(solved_points[count])
             logger.info("step %d/%d %s taken over", count + 1, len(steps), step.text)
             continue
-        point = solved(step)
-        found.append(point)
-        spent.append(point.seconds)
-        left = np.mean(spent) * sum(later not in known for later in range(count + 1, len(steps)))
+        point = solve_step(step)
+        points.append(point)
+        seconds.append(point.seconds)
+        remaining = np.mean(seconds) * sum(later not in solved_points for later in range(count + 1, len(steps)))
         logger.info(
             "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
             *(count + 1, len(steps), step.text, point.numbers["max_contact_gap"]),
-            *(point.numbers["transforms"], point.seconds, left, status_sentence(point.numbers["status"])),
+            *(point.numbers["transforms"], point.seconds, remaining, status_sentence(int(point.numbers["status"]))),
         )
-    return found
+    return points
 
 
-def _point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Sequence[str]) -> Point:
+def _read_point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Sequence[str]) -> Point:
+    """Return the numbers of a solution and the arrays that are kept of it."""
     certificate = result.record.certificate
     contact = result.contact
     spacing = Grid(heights.shape, lengths).spacing
@@ -119,21 +154,23 @@ def _point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Seq
     return Point(numbers, arrays, result.seconds)
 
 
-DIMS = {"contact_bits": ("step", "byte"), "contact_pressure": ("contact_point",)}
+ARRAY_DIMENSIONS = {"contact_bits": ("step", "byte"), "contact_pressure": ("contact_point",)}
+"""Dimensions of arrays that are no fields."""
 
 
-def _collected(scene: Scene, heights: Array, found: list[Point], keep: Sequence[str]) -> xr.Dataset:
+def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequence[str]) -> xr.Dataset:
+    """Return the dataset of all loads."""
     grid = Grid(heights.shape, scene.lengths)
     kinds = {"status": np.int8, "iterations": np.int32, "contact_points": np.int32}
-    variables = {
-        name: ("step", np.array([point.numbers[name] for point in found], kinds.get(name, float)))
-        for name in found[0].numbers
+    variables: dict[str, Any] = {
+        name: ("step", np.array([point.numbers[name] for point in points], kinds.get(name, float)))
+        for name in points[0].numbers
     }
     plane = ("y", "x")[-heights.ndim :]
-    for name in found[0].arrays:
-        arrays = [point.arrays[name] for point in found]
+    for name in points[0].arrays:
+        arrays = [point.arrays[name] for point in points]
         joined = np.concatenate(arrays) if name == "contact_pressure" else np.stack(arrays)
-        variables[name] = (DIMS.get(name, ("step", *plane)), joined)
+        variables[name] = (ARRAY_DIMENSIONS.get(name, ("step", *plane)), joined)
     if "fields" in keep:
         variables["heights"] = (plane, heights)
     if "profile" in keep:
@@ -142,7 +179,7 @@ def _collected(scene: Scene, heights: Array, found: list[Point], keep: Sequence[
         across = ("mode_y", "mode")[-heights.ndim :]
         variables |= {"profile_real": (across, half.real.copy()), "profile_imag": (across, half.imag.copy())}
     variables |= {
-        "seconds": ("step", [point.seconds for point in found]),
+        "seconds": ("step", [point.seconds for point in points]),
         "rms_height": rms_height(heights),
         "rms_gradient": rms_gradient(heights, grid.spacing),
         "rms_curvature": rms_curvature(heights, grid.spacing),
@@ -156,8 +193,8 @@ def _collected(scene: Scene, heights: Array, found: list[Point], keep: Sequence[
     return dataset.described(xr.Dataset(variables, attrs={"problem": scene.kind.value}))
 
 
-def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
-    """Points of an earlier dataset by the digest that made them; none if there is none or it cannot be read."""
+def read_points(target: str | Path, costs: str | Path) -> dict[str, Point]:
+    """Return the points of an earlier dataset by their digests; none where there is no dataset that can be read."""
     if not Path(target).exists():
         return {}
     try:
@@ -166,8 +203,10 @@ def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
         load = data.status.dims[0]
         seconds = json.loads(Path(costs).read_text())["seconds"] if Path(costs).exists() else {}
         apart = set(data.dims) - {"mean_pressure"} | {"point_digest"}
-        names = [name for name, item in data.variables.items() if item.dims == data.status.dims and name not in apart]
-        found = {}
+        names = [
+            str(name) for name, item in data.variables.items() if item.dims == data.status.dims and name not in apart
+        ]
+        points = {}
         for row, end in enumerate(ends):
             numbers = {name: data[name].values[row].item() for name in names}
             name = str(data.point_digest.values[row])
@@ -178,8 +217,8 @@ def earlier(target: str | Path, costs: str | Path) -> dict[str, Point]:
             }
             if "contact_pressure" in data:
                 arrays["contact_pressure"] = data.contact_pressure.values[end - data.contact_points.values[row] : end]
-            found[name] = Point(numbers, arrays, seconds.get(name, float("nan")))
-        return found
+            points[name] = Point(numbers, arrays, seconds.get(name, float("nan")))
+        return points
     except (InputError, AttributeError, KeyError, TypeError, ValueError) as error:
         logger.warning("%s cannot be reused and is computed anew: %s", target, error)
         return {}

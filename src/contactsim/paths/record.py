@@ -1,4 +1,4 @@
-"""A path through states of smooth laws, as a dataset: numbers at every step, fields at some."""
+"""Simulate a path through states of cohesive laws: numbers at every step, fields at some."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import logging
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -30,7 +31,7 @@ DISPLACEMENTS = ("normal_displacement", "tangential_displacement")
 TRACTIONS = ("normal_traction", "tangential_traction")
 BINS = {"normal_gap_share": ("normal_gap_bin", OPENINGS), "normal_traction_share": ("normal_traction_bin", PULLS)}
 """Dimension of each histogram, and the edges of its bins."""
-LINES = 40
+LOG_LINES = 40
 """About how many lines a path writes into its log."""
 
 
@@ -45,25 +46,47 @@ def simulate_path(
     snapshots: Sequence[float] | None = None,
     keep_fields: bool = True,
 ) -> xr.Dataset:
-    """Follow a scene's load path and return one dataset with dimension `step`.
+    """Follow a scene's load path.
 
-    tolerance: in parts of the laws' strength; increments: of `follow.INCREMENTS`, as requested where None; snapshots:
-    slides (nm) of a path that slides, else approaches (nm) or mean pressures (GPa), whose first steps near them keep
-    histograms and, unless told not to, fields; NaN where there is no solution.
+    Parameters
+    ----------
+    scene : Scene
+        Scene of cohesive laws.
+    method : CohesiveSolver
+        The solver.
+    points : int
+        Grid points along x.
+    tolerance : float
+        In parts of the laws' strength.
+    threads : int
+        Threads of the transforms.
+    increments : Increments
+        One of `contactsim.paths.increments.INCREMENTS`.
+    snapshots : sequence of float, optional
+        Sliding distances (nm) of a path that slides, else approaches (nm) or mean pressures (GPa). The first steps near
+        them keep histograms and fields.
+    keep_fields : bool
+        False to keep histograms alone.
+
+    Returns
+    -------
+    xarray.Dataset
+        One dataset with dimension `step`; NaN where there is no solution.
     """
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_cohesive(scene, heights, tolerance, threads)
-    kept = {scene.path.nearest(value) for value in snapshots or ()}
+    snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
-    rows, slips, fields, begin, total, marks = [], [], {}, time.process_time(), 0.0, [0.0]
+    fields: dict[int, dict[str, Array]] = {}
+    rows, slips, begin, total, marks = [], [], time.process_time(), 0.0, [0.0]
     for count, state in enumerate(increments.follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        rows.append(_numbers(scene, state, slopes))
+        rows.append(_state_numbers(scene, state, slopes))
         slips += [slip_numbers(problem, jump, count) for jump in state.jumps if jump.step.held]
-        if count in kept:
-            fields[count] = _fields(problem.at(state.step), state, keep_fields)
-        if count % max(len(steps) // LINES, 1) == 0 or state.jump or count == len(steps) - 1:
+        if count in snapshot_steps:
+            fields[count] = _state_fields(problem.at(state.step), state, keep_fields)
+        if count % max(len(steps) // LOG_LINES, 1) == 0 or state.jump or count == len(steps) - 1:
             spent = time.process_time() - begin
             logger.info(
                 "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s%s",
@@ -72,16 +95,16 @@ def simulate_path(
                 state.status.sentence,
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
-    data = _collected(scene, problem, rows, fields)
+    data = _join_states(scene, problem, rows, fields)
     if scene.sliding:
         data = dataset.described(data.merge(slips_of(slips)))
-    for words in status.told(data):
+    for words in status.describe_excess(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
 
 
-def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
-    """What a step says: its datum, observables, how it was found; slopes: squares by grid, kept for later steps."""
+def _state_numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
+    """Return the numbers of a state; slopes: local squares by grid, which are kept for later steps."""
     problem, (gap, traction) = state.problem, state.fields()
     zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
     if state.points not in slopes:
@@ -89,7 +112,7 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
     approach = problem.approach
     if approach is None:
         approach = problem.mean_displacement - float(state.displacement[0, 0].real)
-    numbers = {
+    numbers: dict[str, float] = {
         "approach": approach,
         **state_observables(problem, gap, traction),
         **gradients(slopes[state.points], problem, gap, traction),
@@ -109,32 +132,35 @@ def _numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[s
     }
 
 
-def _fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
-    """Histograms and, if kept, gap, traction and displacement by component, each (n,), read on the whole grid."""
+def _state_fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
+    """Return histograms and, if kept, gap, traction and displacement by component, each (n,), on the whole grid."""
     if state.points < problem.grid.size:
         state = replace(state, problem=problem, displacement=problem.prolong(state.displacement), solution=None)
     gap, traction = state.fields()
-    kept = histograms(problem, gap, traction)
+    fields = histograms(problem, gap, traction)
     if keep_fields:
-        moved = problem.field(state.displacement)
+        displacement = problem.field(state.displacement)
         if problem.load is not None:  # its uniform mode is the gap's, approach included
-            moved[0] += problem.mean_displacement - state.displacement[0, 0].real
-        parts = ((GAPS, gap), (DISPLACEMENTS, -moved), (TRACTIONS, traction))
-        kept |= {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
-    return kept if state.status.solved else {name: np.full_like(row, np.nan) for name, row in kept.items()}
+            displacement[0] += problem.mean_displacement - state.displacement[0, 0].real
+        parts = ((GAPS, gap), (DISPLACEMENTS, -displacement), (TRACTIONS, traction))
+        fields |= {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
+    return fields if state.status.solved else {name: np.full_like(row, np.nan) for name, row in fields.items()}
 
 
-def _collected(
-    scene: Scene, problem: CohesiveProblem, rows: list[dict], fields: dict[int, dict[str, Array]]
+def _join_states(
+    scene: Scene, problem: CohesiveProblem, rows: list[dict[str, float]], fields: dict[int, dict[str, Array]]
 ) -> xr.Dataset:
+    """Return the dataset of a path; fields: at snapshots, by step."""
     heights = -problem.shape[0]
     kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "solved_points": np.int32}
-    variables = {name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]}
+    variables: dict[str, Any] = {
+        name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]
+    }
     coordinates = {}
     if fields:
         for name in next(iter(fields.values())):
             across = BINS[name][0] if name in BINS else "x"
-            variables[name] = (("snapshot", across), np.stack([one[name] for one in fields.values()]))
+            variables[name] = (("snapshot", across), np.stack([snapshot[name] for snapshot in fields.values()]))
         coordinates = {"snapshot": np.array([scene.path.steps[count].value for count in fields])}
         coordinates |= {name: (edges[1:] + edges[:-1]) / 2 for name, edges in BINS.values()}
         if GAPS[0] in variables:
@@ -146,7 +172,7 @@ def _collected(
         "approach_first_touch": -float(heights.max()),
         "contact_modulus": scene.contact_modulus,
         "control": scene.path.steps[0].control.name.lower(),
-        "strength": sum(law.strength for law in scene.effects),
+        "strength": sum(law.strength for law in scene.laws),
     }
     if scene.sliding:
         lattice = problem.lattice_constant

@@ -67,7 +67,7 @@ class Tamaas:
             )
         import tamaas
 
-        class Counter(tamaas.Functional):  # zero; called once an iteration
+        class Counter(tamaas.Functional):  # type: ignore[misc]  # tamaas has no types; zero, called once an iteration
             def __init__(self) -> None:
                 super().__init__()
                 self.iterations = 0

@@ -75,15 +75,15 @@ class HardWallVerlet:
 
     def step(self, problem: HardWallProblem, state: VerletState) -> VerletState:
         """Return the state after a batch of time steps; its pressure is the reaction of the wall."""
-        stiffness = state.stiffness
+        stiffness, load = state.stiffness, problem.prescribed_load
         square = 4 * self.time_step**2 / stiffness.symbol.max()
         friction = min(2 * self.damping * np.sqrt(stiffness.symbol[1:].min() * square), 1.0)
         surface, previous = state.surface, state.previous
         for _ in range(self.batch):
-            force = -problem.load - stiffness(surface)
+            force = -load - stiffness(surface)
             moved = surface + (1 - friction) * (surface - previous) + square * force
             surface, previous = np.maximum(moved, problem.heights), surface
-        reaction = problem.load + stiffness(surface)
+        reaction = load + stiffness(surface)
         contact = surface <= problem.heights
         pressure = np.where(contact, reaction, 0.0)
         return VerletState(pressure, bool(contact.any()), surface, previous, stiffness)
