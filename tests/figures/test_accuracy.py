@@ -229,23 +229,6 @@ def test_errors_of_zero_and_infinity_stand_in_margins():
     assert "has no value, at ∞: 1" in text
 
 
-@pytest.mark.parametrize(("jobs", "members", "plan"), [(JOBS, 3, PLAN), (PATH_JOBS, 1, PATH_PLAN)])
-def test_names_of_rings_lie_below_the_curves_and_the_table_fits_below_its_text(jobs, members, plan):
-    axes, _ = drawn(jobs, members, plan)
-    for panel in axes[:, :-1].flat:
-        lines = [line for line in panel.lines if line.get_label() in style.SOLVER_NAMES.values()]
-        lowest = min(panel.transData.transform(line.get_xydata())[:, 1].min() for line in lines)
-        names = [text for text in panel.texts if text.get_rotation() == 90]
-        assert len(names) <= len(rings(panel))
-        assert all(name.get_window_extent().y1 < lowest for name in names)
-    (table,) = axes[1, -1].tables
-    for cell in table.get_celld().values():
-        inner, outer = cell.get_text().get_window_extent(), cell.get_window_extent()
-        assert outer.x0 - 1 <= inner.x0
-        assert inner.x1 <= outer.x1 + 1
-    assert all(text.get_window_extent().y0 > table.get_window_extent().y1 for text in axes[1, -1].texts)
-
-
 def test_on_a_surface_its_own_solver_is_the_measure_and_points_are_those_of_a_side():
     jobs = {name: data.assign(points_y=data.points) for name, data in JOBS.items()}
     jobs["conjugate_gradients"] = jobs.pop("active_set")
@@ -284,15 +267,6 @@ def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers
     ):
         assert part in text
     assert "adapt" not in footer_text(drawn()[1], PLAN)
-
-
-def test_entries_are_put_on_as_many_lines_as_they_need():
-    long = [f"pull-off on unloading {count}.00" for count in range(4)]
-    lines = accuracy.wrapped_list("Observed order in grid points: ", long).split("\n")
-    assert [line.count("pull") for line in lines] == [1, 2, 1]
-    assert max(map(len, lines)) <= accuracy.LINE_LETTERS
-    symbols = [rf"$\kappa_{{{name}}}$ 1.00" for name in ("rough", "whole", "pairs", "other")]
-    assert "\n" not in accuracy.wrapped_list("Orders: ", symbols)
 
 
 @pytest.mark.parametrize(

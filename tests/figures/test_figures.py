@@ -186,14 +186,6 @@ def test_the_fits_are_given_as_the_curves_that_they_draw(made):
     assert len(shown) == data.fit_b1.size * data.reduced_pressure.size
     drawn = shown.query("fit_limit == 0.1 and weighting == 'area' and fitted != 'all'")
     assert np.allclose(drawn.kappa_fit, mean_quantity(data, "kappa_fit").values.ravel(), rtol=1e-12)  # fitted anew
-    looks = {
-        (line.get_color(), line.get_linestyle(), line.get_linewidth()) for line in axes.lines[: data.fitted.size * 2]
-    }
-    assert len(looks) == data.fitted.size * 2
-    broad = [width for color, _, width in looks if color == style.PAIRS]
-    assert min(broad) > max(width for color, _, width in looks if color == style.WHOLE)  # seen where they meet
-    keys = {(line.get_color(), line.get_linewidth()) for line in axes.get_legend().get_lines()}
-    assert {(color, width) for color, _, width in looks} <= keys
 
 
 def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
@@ -202,9 +194,6 @@ def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
     shown = ch5.fig_5_2(data, axes, kappa_r=1.75)
     variants = data.hurst_exponent.size * data.poisson_ratio.size * data.thickness.size
     assert len(axes[0].containers) == variants
-    assert len(axes[1].containers) == variants * 3 // 2  # over pairs of the half-space alone
-    assert len(axes[2].containers) == 2 * variants // 2  # area and κ_r, of the layer alone
-    assert len(axes[3].lines) == 2 * variants
     assert any(np.allclose(line.get_ydata(), 1.75) for line in axes[1].lines)
     assert len(shown) == variants * data.reduced_pressure.size
     thick = shown.thickness == data.thickness.values.max()
@@ -213,8 +202,6 @@ def test_compressible_bodies_are_drawn_with_what_the_layer_changes(made):
     ]
     assert (shown[thick][names] == 0).all(axis=None)
     assert (shown[~thick]["relative_contact_area_change"] != 0).all()
-    look = {(line.get_color(), line.get_marker(), line.get_linestyle()) for line in axes[3].lines}
-    assert len(look) == variants
 
 
 def test_on_a_half_space_poissons_ratio_changes_no_contact(made):
@@ -234,14 +221,6 @@ def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
 def test_a_measured_surface_has_points_and_no_wavelength():
     settings = {"surface": {"kind": "measured"}, "thesis_points": None}
     assert wording.grid_text(settings, 100) == "100 points"
-
-
-def test_captions_and_footers_are_wrapped_below_the_panels():
-    settings = {"size": [4.0, 3.0], "panels": 2, "title": "T", "caption": "word " * 60}
-    figure, panels = layout.empty_figure(settings, "made " * 40)
-    assert len(panels) == 2
-    assert figure.get_size_inches()[1] > 3.0
-    assert all("\n" in text.get_text() for text in figure.texts if "word" in text.get_text())
 
 
 @pytest.mark.parametrize(
@@ -310,7 +289,6 @@ def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
     texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
     assert not [text for text in texts if "_" in text]
     assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts
-    assert any("± ensemble error ± grid error" in text for text in texts[: len(claims.COLUMNS) + 1])
     rows.loc[0, ["condition", "condition_value", "condition_ensemble_error", "condition_grid_error"]] = [
         *("c/R up to 1", 0.995312, 0.0, 0.00471)
     ]

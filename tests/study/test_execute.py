@@ -19,18 +19,11 @@ from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.scenes import build_setup
 from contactsim.study.study import Study
-from support import smooth
+from support import rough_study, smooth
 
 LOADS = [0.02, 0.1, 0.4]
 SURFACES = {
-    "self_affine": {
-        "kind": "self_affine",
-        "hurst_exponent": 0.8,
-        "length": 64.0,
-        "long_cutoff": 32.0,
-        "short_cutoff": 1.0,
-        "rms_gradient": 0.01,
-    },
+    "self_affine": rough_study.ROUGH["surface"] | {"short_cutoff": 1.0},
     "sinusoid": {"kind": "sinusoid", "length": 50.0, "amplitude": 0.2, "periods": 2},
     "cylinder": {"kind": "cylinder", "length": 40.0, "radius": 50.0},
 }

@@ -14,8 +14,10 @@ from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
+from support import rough_study
+from support.places import ROOT
 
-CONFIG = Path(__file__).parents[2] / "config"
+CONFIG = ROOT / "config"
 SMOOTH = {
     "title": "Cylinder",
     "surface": {"kind": "cylinder", "radius": 10.0, "length": 40.0},
@@ -28,14 +30,7 @@ SMOOTH = {
 }
 ROUGH = SMOOTH | {
     "title": "Rough",
-    "surface": {
-        "kind": "self_affine",
-        "hurst_exponent": 0.8,
-        "length": 64.0,
-        "long_cutoff": 32.0,
-        "short_cutoff": 4.0,
-        "rms_gradient": 0.01,
-    },
+    "surface": rough_study.ROUGH["surface"],
     "load": {"reduced_pressure": [0.01, 0.1]},
     "vary": {"surface.hurst_exponent": [0.2, 0.8]},
     "solver": {"kind": "polonsky_keer"},
