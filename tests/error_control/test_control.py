@@ -12,7 +12,7 @@ import yaml
 
 from contactsim import cli, dataset
 from contactsim.error_control import control, options
-from contactsim.error_control.control import Controlled, estimate_errors, solve_setup, solve_to_error
+from contactsim.error_control.control import Controlled, estimate_errors, solve_to_error
 from contactsim.error_control.forecast import forecast_run, forecast_setup, forecast_to_error
 from contactsim.error_control.options import (
     GRID_FACTORS,
@@ -22,6 +22,7 @@ from contactsim.error_control.options import (
     expect_error,
     round_grid,
 )
+from contactsim.error_control.relations import Relation, scaling_relations
 from contactsim.error_control.scaling import (
     FAMILIES,
     LINE,
@@ -30,11 +31,10 @@ from contactsim.error_control.scaling import (
     ROUGH_PATH,
     SLIDE,
     SURFACE,
-    Relation,
     features,
-    scaling_relations,
     scene_family,
 )
+from contactsim.error_control.solution import solve_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw_scene, read_trials
 from contactsim.evaluation.resources import summarise_jobs

@@ -13,9 +13,9 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.error_control import effect_maps, neglect
-from contactsim.error_control.control import solve_setup
 from contactsim.error_control.effect_maps import change_without, expected_change, neglect_effects
 from contactsim.error_control.neglect import decide_neglect, expected_neglect, neglectable_effects
+from contactsim.error_control.solution import solve_setup
 from contactsim.evaluation.effects.survey import format_maps, measure_map, read_maps
 from contactsim.paths.options import Setup
 from contactsim.study import execute_neglecting

@@ -9,7 +9,8 @@ import pandas as pd
 import pytest
 
 from contactsim import dataset
-from contactsim.error_control.scaling import LINE, PATH, build_relations
+from contactsim.error_control.relations import build_relations
+from contactsim.error_control.scaling import LINE, PATH
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
 from contactsim.evaluation.calibration.sampling import read_trials
 from contactsim.evaluation.effects import effect_cost, survey

@@ -19,136 +19,26 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.scene import ProblemKind
-from contactsim.error_control.options import (
-    SAFETY,
-    choose_options,
-    coarsen,
-    expect_error,
-    grid_features,
-    scale_increment,
-    set_grid,
-)
-from contactsim.error_control.scaling import (
-    DEFAULT_GRID_ORDER,
-    GRID_ORDERS,
-    QUANTITIES,
-    Family,
-    scaling_relations,
-    scene_family,
-)
+from contactsim.error_control.knobs import grid_features
+from contactsim.error_control.options import SAFETY, choose_options, coarsen, expect_error, scale_increment, set_grid
+from contactsim.error_control.relations import Family, scaling_relations
+from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
+from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.grid import Array
-from contactsim.observables.derived import combine_runs, summarise_paths
-from contactsim.paths.driver import Reuse, follow_path
 from contactsim.paths.options import Setup
-from contactsim.status import is_solved
 
 logger = logging.getLogger(__name__)
 
 MAX_REFINEMENT = {1: 8.0, 2: 4.0}
-"""How many times finer a run may be than its companion, or a refined one than the first, by dimension."""
+"""Largest ratio of a run's grid to its companion's, and of a refined grid to the first, by dimension."""
 DIFFERENCE_WEIGHT = 0.7
 """Part of a difference that counts: the coarser run is often too coarse to be of any order, and makes it large."""
 MIN_EDGE_SHARE = 1e-9
 """Least part of a contact that counts as its edge."""
 BLIND_REFINEMENT = 2.0
-"""How much finer a grid is made where nothing is known of the error."""
+"""Ratio of a refined grid to the first where nothing is known of the error."""
 MIN_REFINEMENT = 1.25
-"""How much finer a refined grid is at least."""
-
-
-@dataclass(frozen=True)
-class Solution:
-    """One solution of a setup.
-
-    Parameters
-    ----------
-    setup : Setup
-        Scene and options that were solved.
-    data : xarray.Dataset
-        The dataset of the path, with dimension `step`.
-    values : dict from str to Array
-        Quantities, one value for each load or for the path as a whole.
-    resolved : Array
-        Pairs of neighbours at an edge of contact over points in contact, for each load; empty for cohesive laws.
-    """
-
-    setup: Setup
-    data: xr.Dataset
-    values: dict[str, Array]
-    resolved: Array
-
-    @property
-    def points(self) -> int:
-        """Grid points along x."""
-        return self.setup.points
-
-    @property
-    def solved(self) -> bool:
-        """True where every state has converged."""
-        return bool(is_solved(self.data.status).all())
-
-    @property
-    def transforms(self) -> float:
-        """Transforms of all steps, in those of its own grid."""
-        return float(self.data.transforms.sum())
-
-    @property
-    def seconds(self) -> float:
-        """CPU seconds of all steps."""
-        return float(self.data.seconds.sum())
-
-    @property
-    def size(self) -> int:
-        """All points of the grid."""
-        return self.points * int(self.data.get("points_y", 1))
-
-
-def _read_loads(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
-    """Return quantities of each load at a hard wall, and how well its contacts are resolved."""
-    values = {name: data[name].values.astype(float) for name in names}
-    return values, data.contact_edges.values / np.maximum(data.contact_points.values, 1)
-
-
-def _read_path(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
-    """Return quantities of a whole path of cohesive laws."""
-    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
-    return {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}, np.empty(0)
-
-
-Reader = Callable[[xr.Dataset, Sequence[str]], tuple[dict[str, Array], Array]]
-READERS: dict[ProblemKind, Reader] = {ProblemKind.HARD_WALL: _read_loads, ProblemKind.COHESIVE: _read_path}
-
-
-def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = None) -> Solution:
-    """Simulate a setup as it is and read quantities off it.
-
-    Parameters
-    ----------
-    setup : Setup
-        Scene and options.
-    names : sequence of str
-        Quantities to read.
-    coarse : Solution, optional
-        The same at a hard wall on a coarser grid with its fields, from which the solver's cascade begins.
-    """
-    reuse = Reuse(coarse=coarse.data) if coarse is not None and "pressure" in coarse.data else None
-    data = follow_path(setup.with_options(accuracy=None), reuse)
-    return Solution(setup, data, *READERS[setup.scene.kind](data, names))
-
-
-def relative_difference(first: Solution, second: Solution, name: str) -> Array:
-    """Return the size of the change of a quantity from one solution to another, over the first's value.
-
-    One value for each load, or one for the path. It is zero where both are equal or neither has the quantity, as a
-    path without a pull-off; infinite where one alone has it, where only the first is zero, and everywhere if a state of
-    either has not converged.
-    """
-    if not (first.solved and second.solved):
-        return np.full(first.values[name].shape, np.inf)
-    before, after = first.values[name], second.values[name]
-    change, missing = np.full(before.shape, np.inf), np.isnan(before) | np.isnan(after)
-    np.divide(np.abs(after - before), np.abs(before), out=change, where=~missing & (before != 0))
-    return np.where((np.isnan(before) & np.isnan(after)) | (before == after), 0.0, change)
+"""Smallest ratio of a refined grid to the first."""
 
 
 @dataclass(frozen=True)
@@ -217,12 +107,8 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
 
     Parameters
     ----------
-    setup : Setup
-        Scene and options; its grid, tolerance and increments do not matter.
-    error : float
-        Relative error, above 0 and below 1.
-    quantities : sequence of str, optional
-        Quantities whose error counts; those usual for the scene where empty.
+    setup, error, quantities
+        As in `contactsim.error_control.options.choose_options`.
 
     Returns
     -------
@@ -249,7 +135,7 @@ COMPANIONS: dict[ProblemKind, Callable[[Setup], Setup]] = {
     ProblemKind.HARD_WALL: lambda setup: setup.with_options(keep=("fields",)),
     ProblemKind.COHESIVE: lambda setup: setup,
 }
-"""What a companion is solved with: at a hard wall its fields are kept, from which the run begins."""
+"""Options of a companion: at a hard wall its fields are kept, from which the run begins."""
 
 
 def estimate_errors(fine: Solution, coarse: Solution, family: Family, names: Sequence[str]) -> dict[str, Array]:
@@ -308,7 +194,7 @@ def _refine(run: Solution, errors: dict[str, Array], error: float) -> Setup:
 
 
 def _max_refinement(run: Solution) -> float:
-    """Return how many times finer the next grid may be."""
+    """Return the largest ratio of the next grid's points to those of a run, along x."""
     return MAX_REFINEMENT[len(run.setup.scene.lengths)]
 
 

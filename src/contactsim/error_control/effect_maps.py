@@ -13,14 +13,16 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from contactsim.contact.scene import Scene
 from contactsim.contact.simplification import simplify
+from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.registry import ELASTICITIES
-from contactsim.error_control.control import Solution, relative_difference, solve_setup
-from contactsim.error_control.scaling import read_data_file
+from contactsim.error_control.relations import read_data_file
+from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.grid import Array
 from contactsim.interface.pairing import ALIGNED
 from contactsim.interface.registry import EFFECTS
@@ -75,7 +77,7 @@ def _solve_once(setup: Setup, quantities: Sequence[str], solutions: dict[str, So
 
 
 @cache
-def effect_maps() -> dict[str, dict]:
+def effect_maps() -> dict[str, dict[str, Any]]:
     """Return the maps of the package."""
     return read_data_file(FILE)
 
@@ -87,7 +89,7 @@ def expected_change(scene: Scene, effect: str) -> float | None:
     return max((change for change in changes if change is not None), default=None)
 
 
-def _applies(scene: Scene, section: Mapping) -> bool:
+def _applies(scene: Scene, section: Mapping[str, Any]) -> bool:
     """Return True where a map is about such scenes: that surface, bodies and effects, pressed by approach, not slid."""
     by_pressure = scene.path.increment is not None and Trait.MEAN_PRESSURE in scene.traits
     if scene.pairing != ALIGNED or scene.sliding or by_pressure:
@@ -100,7 +102,7 @@ def _applies(scene: Scene, section: Mapping) -> bool:
     return described == (section["surface"], section["effects"], section["bodies"])
 
 
-def _bodies(scene: Scene) -> list:
+def _bodies(scene: Scene) -> list[Elasticity | None]:
     """Return the elasticity of the lower body, and of the upper one if it gives way."""
     lower, upper = scene.lower.elasticity, scene.upper.elasticity
     return [lower] if upper is None else [lower, upper]
@@ -111,15 +113,16 @@ def _kind_name(registry: Mapping[str, type], item: object) -> str | None:
     return next((name for name, kind in registry.items() if type(item) is kind), None)
 
 
-def _read_map(scene: Scene, section: Mapping) -> float | None:
+def _read_map(scene: Scene, section: Mapping[str, Any]) -> float | None:
     """Return the largest change at the corners of a map around a scene; None beyond it."""
     table = np.reshape(section["change"], [len(axis["values"]) for axis in section["axes"].values()])
     corners = []
     for axis in section["axes"].values():
-        value, units = _scene_value(scene, axis["key"]), [_scene_value(scene, key) for key in axis["per"]]
-        if value is None or None in units:
+        value, *units = (_scene_value(scene, key) for key in (axis["key"], *axis["per"]))
+        divisors = [unit for unit in units if unit is not None]
+        if value is None or len(divisors) < len(units):
             return None
-        corner = _around(np.array(axis["values"]), value / math.prod(units))
+        corner = _around(np.array(axis["values"]), value / math.prod(divisors))
         if corner is None:
             return None
         corners.append(corner)
@@ -129,7 +132,11 @@ def _read_map(scene: Scene, section: Mapping) -> float | None:
 def _scene_value(scene: Scene, key: str) -> float | None:
     """Return the value of a dotted key, such as `body.poisson_ratio`, of a scene; None where it has none."""
     part, _, name = key.partition(".")
-    owners = {"surface": scene.upper.surface, "body": scene.lower.elasticity, "counter_body": scene.upper.elasticity}
+    owners: dict[str | None, object] = {
+        "surface": scene.upper.surface,
+        "body": scene.lower.elasticity,
+        "counter_body": scene.upper.elasticity,
+    }
     owners |= {_kind_name(EFFECTS, effect): effect for effect in scene.effects}
     return getattr(owners.get(part), name, None)
 

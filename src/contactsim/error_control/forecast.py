@@ -14,8 +14,10 @@ from functools import cache
 
 import numpy as np
 
-from contactsim.error_control.options import PATH_TOLERANCE, choose_options, coarsen, expect_error, grid_features
-from contactsim.error_control.scaling import QUANTITIES, scaling_relations, scene_family
+from contactsim.error_control.knobs import PATH_TOLERANCE, grid_features
+from contactsim.error_control.options import choose_options, coarsen, expect_error
+from contactsim.error_control.relations import scaling_relations
+from contactsim.error_control.scaling import QUANTITIES, scene_family
 from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.paths.increments import Requested

@@ -17,10 +17,10 @@ import numpy as np
 
 from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.error_control.control import Solution
 from contactsim.error_control.effect_maps import FILE, change_without, expected_change
 from contactsim.error_control.options import coarsen
 from contactsim.error_control.scaling import shortest_range, total_strength
+from contactsim.error_control.solution import Solution
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 from contactsim.provenance import computing_digest, digest
@@ -29,11 +29,11 @@ from contactsim.status import LIMITS, process_zone
 logger = logging.getLogger(__name__)
 
 NEAR_FACTOR = 10.0
-"""Up to how many times the tolerance an effect is checked."""
+"""Multiple of the tolerance up to which an effect is checked."""
 LOOSE_TOLERANCE = 1e-5
 """Tolerance of a check along a path, in parts of the strength, if that of the run is not looser."""
 COARSE_FACTOR = 4
-"""How many times coarser the grid of the check is, where it resolves all waves."""
+"""Ratio of the grid to that of the check, where it resolves all waves."""
 
 
 @dataclass
@@ -121,8 +121,9 @@ def decide_neglect(samples: Sequence[Setup], tolerance: float, quantities: Seque
         """Return the largest change on the sample."""
         return max(change_without(setup, effects, quantities, solutions) for setup, solutions in checks)
 
-    near = [name for name, value in decision.expected.items() if value is not None and value <= NEAR_FACTOR * tolerance]
-    decision.neglected = [name for name in near if decision.expected[name] <= tolerance]
+    changes = {name: value for name, value in decision.expected.items() if value is not None}
+    near = {name: value for name, value in changes.items() if value <= NEAR_FACTOR * tolerance}
+    decision.neglected = [name for name, value in near.items() if value <= tolerance]
     decision.together = measure(decision.neglected) if decision.neglected else 0.0
     if decision.together > tolerance or len(decision.neglected) < len(near):  # each on its own
         decision.measured = {name: measure([name]) for name in near}
@@ -171,7 +172,7 @@ COARSE_CHECKS: dict[ProblemKind, Callable[[Setup], Setup]] = {
 
 
 def _coarse_factor(setup: Setup, max_spacing: float) -> int:
-    """Return how many times coarser the grid may be; 1 for a measured surface, which has its own grid."""
+    """Return the factor by which the grid may be coarser; 1 for a measured surface, which has its own grid."""
     surface = setup.scene.upper.surface
     if surface.points is not None:
         return 1

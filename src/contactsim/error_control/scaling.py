@@ -1,22 +1,15 @@
-"""Relations between error, cost and a scene, measured once and read from a file.
+"""Families of scenes with measured relations, and the features in which these relations are power laws.
 
 At a hard wall the error of the grid follows the size of the contacts that it has to show; with cohesive laws it follows
 the process zone and the contact. The error of a path follows its increments. Work and time follow the grid, the steps
-and what acts. Each relation is a power law in a few numbers that describe the scene, its `features`, with its scatter
-over the scenes that it was fitted to. `contactsim.evaluation.calibration.fit` fits them; none of the scenes that judge
-them took part.
+and what acts. `contactsim.error_control.relations` has the relations.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
 
 import numpy as np
-import yaml
 
 from contactsim import reference
 from contactsim.contact.scene import ProblemKind, Scene
@@ -26,7 +19,6 @@ from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Sphere
 from contactsim.traits import Trait
 
-FILE = Path(__file__).with_name("scaling.yaml")
 LINE, SURFACE, PATH, ROUGH_PATH, SLIDE = FAMILIES = ("line", "surface", "path", "rough_path", "slide")
 """Families of scenes with relations: lines and surfaces under loads at a hard wall; asperities, and rough lines, along
 a path of cohesive laws; asperities that slide."""
@@ -46,102 +38,6 @@ TYPICAL_KAPPA = 1.75
 """Contact area over reduced pressure of a lightly loaded rough surface, about that of Persson and of Bush."""
 
 
-@dataclass(frozen=True)
-class Relation:
-    """A power law in the features of a scene.
-
-    Parameters
-    ----------
-    coefficients : mapping from str to float
-        Factor of each feature; their sum is the logarithm of the value.
-    spread : float
-        Standard deviation of the logarithm over the scenes that were fitted.
-    """
-
-    coefficients: Mapping[str, float]
-    spread: float
-
-    def __call__(self, features: Mapping[str, float], deviations: float = 0.0) -> float:
-        """Return the expected value, or one that lies some standard deviations above it."""
-        total = sum(factor * features[name] for name, factor in self.coefficients.items())
-        return float(np.exp(total + deviations * self.spread))
-
-
-@dataclass(frozen=True)
-class Family:
-    """Relations for one family of scenes.
-
-    Parameters
-    ----------
-    errors : mapping
-        Relative error by knob ("points", "tolerance", "increment") and quantity.
-    resolved : mapping
-        Relative error by quantity from how well a solution resolves its contacts; for hard walls alone.
-    transforms : Relation
-        Transforms of a load or of a path.
-    warm_start : float
-        Part of the transforms that is left where a coarse companion was solved before.
-    seconds : mapping
-        CPU seconds of a load or step, of a transform, and of a transform's points times their binary logarithm.
-    ranges : mapping
-        Least and largest value of each feature that was measured.
-    """
-
-    errors: Mapping[str, Mapping[str, Relation]]
-    resolved: Mapping[str, Relation]
-    transforms: Relation
-    warm_start: float
-    seconds: Mapping[str, float]
-    ranges: Mapping[str, tuple[float, float]]
-
-    def outside(self, features: Mapping[str, float]) -> list[str]:
-        """Return the features beyond all that was measured."""
-        return [name for name, (low, high) in self.ranges.items() if not low <= features[name] <= high]
-
-
-@dataclass(frozen=True)
-class ScalingRelations:
-    """All families, and the seconds of a transform (the unit of time) on the machine that measured them."""
-
-    unit: float
-    families: Mapping[str, Family]
-
-
-@cache
-def scaling_relations() -> ScalingRelations:
-    """Return the relations of the package."""
-    return build_relations(read_data_file(FILE))
-
-
-def read_data_file(file: Path) -> dict:
-    """Return the mapping in a YAML file of the package."""
-    return yaml.load(file.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-
-
-def build_relations(numbers: Mapping) -> ScalingRelations:
-    """Return relations from the numbers of their file."""
-
-    def relation(section: Mapping) -> Relation:
-        """Return one relation."""
-        return Relation(section["coefficients"], section["spread"])
-
-    families = {
-        name: Family(
-            errors={
-                knob: {quantity: relation(law) for quantity, law in laws.items()}
-                for knob, laws in section["errors"].items()
-            },
-            resolved={quantity: relation(law) for quantity, law in section["resolved"].items()},
-            transforms=relation(section["transforms"]),
-            warm_start=section["warm_start"],
-            seconds=section["seconds"],
-            ranges={feature: tuple(ends) for feature, ends in section["ranges"].items()},
-        )
-        for name, section in numbers["families"].items()
-    }
-    return ScalingRelations(numbers["unit"], families)
-
-
 def scene_family(scene: Scene) -> str:
     """Return the family of a scene.
 
@@ -150,12 +46,38 @@ def scene_family(scene: Scene) -> str:
     InputError
         For a scene whose errors and costs were not measured.
     """
+    return FAMILY_READERS[scene.kind](scene, _rough_surface(scene) is not None)
+
+
+def _rough_surface(scene: Scene) -> SelfAffine | None:
+    """Return the surface of a rough scene; None for a round one.
+
+    Raises
+    ------
+    InputError
+        For surfaces that were not measured.
+    """
     surface = scene.upper.surface
-    rough = isinstance(surface, SelfAffine)
-    if not (rough or isinstance(surface, Cylinder | Sphere)):
+    if isinstance(surface, SelfAffine):
+        return surface
+    if not isinstance(surface, Cylinder | Sphere):
         allowed = "a cylinder, sphere or self-affine surface: others were not measured"
         raise InputError("surface", type(surface).__name__, allowed)
-    return FAMILY_READERS[scene.kind](scene, rough)
+    return None
+
+
+def _radius(scene: Scene) -> float:
+    """Return the radius (nm) of a round surface."""
+    surface = scene.upper.surface
+    if not isinstance(surface, Cylinder | Sphere):
+        raise InputError("surface", type(surface).__name__, "a cylinder or sphere")
+    return surface.radius
+
+
+def shortest_wavelength(scene: Scene) -> float:
+    """Return the shortest wavelength (nm) of the surface; infinite for a round one."""
+    surface = _rough_surface(scene)
+    return np.inf if surface is None else surface.effective_short_cutoff
 
 
 def _load_family(scene: Scene, rough: bool) -> str:
@@ -182,21 +104,21 @@ FAMILY_READERS = {ProblemKind.HARD_WALL: _load_family, ProblemKind.COHESIVE: _pa
 
 def shortest_range(scene: Scene) -> float:
     """Return the shortest length (nm) over which the cohesive laws of a scene change."""
-    return min(law.interaction_range for law in scene.effects)
+    return min(law.interaction_range for law in scene.laws)
 
 
 def total_strength(scene: Scene) -> float:
     """Return the strength (GPa) of all cohesive laws of a scene together."""
-    return sum(law.strength for law in scene.effects)
+    return sum(law.strength for law in scene.laws)
 
 
 def features(scene: Scene) -> list[dict[str, float]]:
     """Return numbers without units that describe a scene, whatever its grid: for each load, or for its path."""
-    family, surface = scene_family(scene), scene.upper.surface
+    family, surface = scene_family(scene), _rough_surface(scene)
     bodies = scene.elasticities
     numbers = {"one": 1.0, "rough": 0.0, "hurst_exponent": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
     numbers["layers"] = float(sum(Trait.HALF_SPACE not in body.traits for body in bodies))
-    if isinstance(surface, SelfAffine):
+    if surface is not None:
         bandwidth = np.log(surface.long_cutoff / surface.effective_short_cutoff)
         numbers |= {"rough": 1.0, "hurst_exponent": surface.hurst_exponent, "bandwidth": float(bandwidth)}
     if family in (LINE, SURFACE):
@@ -224,13 +146,13 @@ def _path_features(scene: Scene) -> dict[str, float]:
 
 def _load_features(scene: Scene, pressure: float) -> dict[str, float]:
     """Return the features of a load: logarithms of the reduced pressure and of the expected contact area."""
-    surface = scene.upper.surface
-    if isinstance(surface, SelfAffine):
+    surface = _rough_surface(scene)
+    if surface is not None:
         reduced = pressure / (scene.contact_modulus * surface.profile_rms_gradient)
         area = min(TYPICAL_KAPPA * reduced, 1.0)
     else:
         size = contact_scale(scene, pressure)
-        area = min(2 * size, surface.length) / surface.length
+        area = min(2 * size, scene.length) / scene.length
         area = area if len(scene.lengths) == 1 else np.pi / 4 * area**2
         reduced = area
     return {"pressure": float(np.log(reduced)), "area": float(np.log(area))}
@@ -242,24 +164,24 @@ def contact_scale(scene: Scene, pressure: float = 0.0) -> float:
     It is the shortest wavelength of a rough surface, and the half-width or radius of the contact of a round one:
     by Hertz at a mean pressure (GPa) on a hard wall, at the deepest approach along a path.
     """
-    surface = scene.upper.surface
-    if isinstance(surface, SelfAffine):
+    surface = _rough_surface(scene)
+    if surface is not None:
         return surface.effective_short_cutoff
     return ROUND_SCALES[scene.kind](scene, pressure)
 
 
 def _hertz_scale(scene: Scene, pressure: float) -> float:
     """Return the half-width or radius of the contact of a round surface at a mean pressure (GPa) on a hard wall."""
-    surface = scene.upper.surface
+    radius = _radius(scene)
     load = pressure * float(np.prod(scene.lengths))
     if len(scene.lengths) == 1:
-        return float(np.sqrt(load / reference.cylinder_load(1.0, surface.radius, scene.contact_modulus)))
-    return float(np.cbrt(load / reference.sphere_load(1.0, surface.radius, scene.contact_modulus)))
+        return float(np.sqrt(load / reference.cylinder_load(1.0, radius, scene.contact_modulus)))
+    return float(np.cbrt(load / reference.sphere_load(1.0, radius, scene.contact_modulus)))
 
 
 def _indentation_scale(scene: Scene, pressure: float) -> float:
     """Return the half-width of a round surface at the deepest approach of a path."""
-    return float(np.sqrt(scene.upper.surface.radius * max(_deepest_approach(scene), shortest_range(scene))))
+    return float(np.sqrt(_radius(scene) * max(_deepest_approach(scene), shortest_range(scene))))
 
 
 ROUND_SCALES = {ProblemKind.HARD_WALL: _hertz_scale, ProblemKind.COHESIVE: _indentation_scale}

@@ -46,7 +46,7 @@ class Nested:
         If a ratio is not a power of two, or the intermediate grid is coarser than the coarse one.
     """
 
-    full_grid_at: list[float]
+    full_grid_at: Sequence[float]
     coarse_ratio: int = 16
     intermediate_ratio: int = 4
     coarse_tolerance: float = 1e-3

@@ -11,7 +11,7 @@ import dataclasses
 import functools
 import sys
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -210,7 +210,7 @@ _TYPES = {
     str: (text, "text"),
     float | None: (number, "a number, or leave the key out"),
     float | list[float] | None: (each_way, "a positive number or a list of two, for y and x, or leave the key out"),
-    list[float]: (listed(number), "a list of numbers, none twice"),
+    Sequence[float]: (listed(number), "a list of numbers, none twice"),
     str | None: (text, "text, or leave the key out"),
 }
 

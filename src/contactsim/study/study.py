@@ -16,7 +16,7 @@ from pathlib import Path
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
-from contactsim.error_control.scaling import FILE
+from contactsim.error_control.relations import FILE
 from contactsim.errors import InputError
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup

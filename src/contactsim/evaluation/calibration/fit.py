@@ -12,16 +12,8 @@ import pandas as pd
 import yaml
 from scipy.optimize import least_squares
 
-from contactsim.error_control.scaling import (
-    DEFAULT_GRID_ORDER,
-    GRID_ORDERS,
-    LINE,
-    PATH,
-    ROUGH_PATH,
-    SLIDE,
-    SURFACE,
-    Relation,
-)
+from contactsim.error_control.relations import Relation
+from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.evaluation.calibration.measurement import MEASURED_QUANTITIES
 
 ROUGH = ("hurst_exponent", "bandwidth", "rough")

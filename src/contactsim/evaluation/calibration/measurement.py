@@ -13,9 +13,10 @@ import numpy as np
 import pandas as pd
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.error_control.control import COMPANIONS, Solution, relative_difference, solve_setup
+from contactsim.error_control.control import COMPANIONS
 from contactsim.error_control.forecast import step_features, transform_seconds
-from contactsim.error_control.options import choose_options, coarsen, grid_features, set_grid
+from contactsim.error_control.knobs import grid_features
+from contactsim.error_control.options import choose_options, coarsen, set_grid
 from contactsim.error_control.scaling import (
     COUNTED_AREA,
     LINE,
@@ -27,6 +28,7 @@ from contactsim.error_control.scaling import (
     contact_scale,
     scene_family,
 )
+from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.evaluation.calibration.sampling import draw_scene
 from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from contactsim.error_control.options import MIN_PRESSING_INCREMENT
+from contactsim.error_control.knobs import MIN_PRESSING_INCREMENT
 from contactsim.error_control.scaling import FAMILIES, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.errors import InputError
 from contactsim.study.reading import Key, listed, mapping, pair, positive, read, size, text, tiered, whole

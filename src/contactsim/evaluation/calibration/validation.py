@@ -14,16 +14,12 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.scene import ProblemKind
-from contactsim.error_control.control import (
-    Controlled,
-    Solution,
-    relative_difference,
-    solve_setup,
-    solve_to_error,
-)
+from contactsim.error_control.control import Controlled, solve_to_error
 from contactsim.error_control.forecast import forecast_to_error
 from contactsim.error_control.options import choose_options, coarsen, scale_increment, set_grid
-from contactsim.error_control.scaling import FAMILIES, FILE, LINE, QUANTITIES, SURFACE
+from contactsim.error_control.relations import FILE
+from contactsim.error_control.scaling import FAMILIES, LINE, QUANTITIES, SURFACE
+from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw_scene
 from contactsim.paths.options import Setup

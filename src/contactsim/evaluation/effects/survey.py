@@ -17,7 +17,7 @@ import yaml
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.effect_maps import change_without
-from contactsim.error_control.scaling import FILE as RELATIONS
+from contactsim.error_control.relations import FILE as RELATIONS
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.registry import EFFECTS

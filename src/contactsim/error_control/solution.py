@@ -1,0 +1,111 @@
+"""Solve a setup as it is, read quantities off it, and compare two solutions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from contactsim.contact.scene import ProblemKind
+from contactsim.grid import Array
+from contactsim.observables.derived import combine_runs, summarise_paths
+from contactsim.paths.driver import Reuse, follow_path
+from contactsim.paths.options import Setup
+from contactsim.status import is_solved
+
+
+@dataclass(frozen=True)
+class Solution:
+    """One solution of a setup.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options that were solved.
+    data : xarray.Dataset
+        The dataset of the path, with dimension `step`.
+    values : dict from str to Array
+        Quantities, one value for each load or for the path as a whole.
+    resolved : Array
+        Pairs of neighbours at an edge of contact over points in contact, for each load; empty for cohesive laws.
+    """
+
+    setup: Setup
+    data: xr.Dataset
+    values: dict[str, Array]
+    resolved: Array
+
+    @property
+    def points(self) -> int:
+        """Grid points along x."""
+        return self.setup.points
+
+    @property
+    def solved(self) -> bool:
+        """True where every state has converged."""
+        return bool(is_solved(self.data.status).all())
+
+    @property
+    def transforms(self) -> float:
+        """Transforms of all steps, in those of its own grid."""
+        return float(self.data.transforms.sum())
+
+    @property
+    def seconds(self) -> float:
+        """CPU seconds of all steps."""
+        return float(self.data.seconds.sum())
+
+    @property
+    def size(self) -> int:
+        """All points of the grid."""
+        return self.points * int(self.data.get("points_y", 1))
+
+
+def _read_loads(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
+    """Return quantities of each load at a hard wall, and how well its contacts are resolved."""
+    values = {name: data[name].values.astype(float) for name in names}
+    return values, data.contact_edges.values / np.maximum(data.contact_points.values, 1)
+
+
+def _read_path(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
+    """Return quantities of a whole path of cohesive laws."""
+    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
+    return {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}, np.empty(0)
+
+
+Reader = Callable[[xr.Dataset, Sequence[str]], tuple[dict[str, Array], Array]]
+READERS: dict[ProblemKind, Reader] = {ProblemKind.HARD_WALL: _read_loads, ProblemKind.COHESIVE: _read_path}
+
+
+def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = None) -> Solution:
+    """Simulate a setup as it is and read quantities off it.
+
+    Parameters
+    ----------
+    setup : Setup
+        Scene and options.
+    names : sequence of str
+        Quantities to read.
+    coarse : Solution, optional
+        The same at a hard wall on a coarser grid with its fields, from which the solver's cascade begins.
+    """
+    reuse = Reuse(coarse=coarse.data) if coarse is not None and "pressure" in coarse.data else None
+    data = follow_path(setup.with_options(accuracy=None), reuse)
+    return Solution(setup, data, *READERS[setup.scene.kind](data, names))
+
+
+def relative_difference(first: Solution, second: Solution, name: str) -> Array:
+    """Return the size of the change of a quantity from one solution to another, over the first's value.
+
+    One value for each load, or one for the path. It is zero where both are equal or neither has the quantity, as a
+    path without a pull-off; infinite where one alone has it, where only the first is zero, and everywhere if a state of
+    either has not converged.
+    """
+    if not (first.solved and second.solved):
+        return np.full(first.values[name].shape, np.inf)
+    before, after = first.values[name], second.values[name]
+    change, missing = np.full(before.shape, np.inf), np.isnan(before) | np.isnan(after)
+    np.divide(np.abs(after - before), np.abs(before), out=change, where=~missing & (before != 0))
+    return np.where((np.isnan(before) & np.isnan(after)) | (before == after), 0.0, change)
