@@ -12,6 +12,7 @@ import pickle
 import socket
 import subprocess
 import sys
+import threading
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -94,6 +95,7 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
         """Wait for all jobs, then end the server."""
         super().shutdown()
         self._stop_server()
+        cancel_timers()
 
     def cancel(self) -> None:
         """End all jobs and the server."""
@@ -101,6 +103,7 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
             link.shutdown(socket.SHUT_RDWR)
         super().cancel()
         self._stop_server()
+        cancel_timers()
 
     def _stop_server(self) -> None:
         """End the server where there is one."""
@@ -108,6 +111,13 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
             self.control.close()
             self.server.wait()
             self.control = self.server = None
+
+
+def cancel_timers() -> None:
+    """Cancel the timers of this process; Snakemake's would keep it alive although there is nothing left to schedule."""
+    for thread in threading.enumerate():
+        if isinstance(thread, threading.Timer):
+            thread.cancel()
 
 
 def _script_path(rule: Any) -> Path | None:
