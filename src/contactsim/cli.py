@@ -1,9 +1,9 @@
-"""`contactsim explain | run | estimate | compare`: one scene from the shell; two tiers side by side.
+"""The command line: `contactsim explain | run | estimate | compare`.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
 `full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a
-study in ./config; without either, `estimate` is for every figure there. `compare` reads the CSV files of the figures in
-./config, as they lie in its results folder.
+study in ./config; without either, `estimate` predicts every figure there. `compare` reads the CSV files of the figures
+in the results folder of ./config.
 """
 
 from __future__ import annotations
@@ -18,29 +18,37 @@ from contactsim.errors import InputError
 
 def main(arguments: list[str] | None = None) -> None:
     """Read the command line and call the command; what it needs is imported only then."""
-    parser = argparse.ArgumentParser(prog="contactsim", description="One scene, or two tiers, from the shell.")
+    parser = argparse.ArgumentParser(
+        prog="contactsim", description="Explain or simulate a scene, estimate its cost, or compare two tiers."
+    )
     commands = parser.add_subparsers(required=True)
-    telling = commands.add_parser("explain", help="which effects are on, what exists, what it costs")
-    telling.add_argument("scene", help="a scene file, or the name of a study in ./config")
-    telling.add_argument("--tier", help="tier of the study")
-    telling.add_argument("--draw", metavar="FILE", help="draw the scene into a .png, .pdf or .svg")
-    telling.set_defaults(command="explain_scene")
-    running = commands.add_parser("run", help="simulate it")
-    running.add_argument("scene", help="a scene file")
-    running.add_argument("--output", metavar="FILE", help="dataset to write, default beside the scene file")
-    threads = "of the transforms, default 1; results are the same bit for bit at one number of threads"
-    running.add_argument("--threads", type=int, default=1, help=threads)
-    running.set_defaults(command="run_scene")
-    costing = commands.add_parser("estimate", help="expected cost and error, before anything runs")
-    costing.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; without it, all figures")
-    costing.add_argument("--tier", help="tier of the study or figures")
-    costing.add_argument("--accuracy", type=float, help="relative error for which grid and increments are chosen")
-    costing.set_defaults(command="estimate_cost")
-    comparing = commands.add_parser("compare", help="how far the figures of two tiers differ")
-    comparing.add_argument("first", help="a tier, such as quick")
-    comparing.add_argument("second", help="the tier that differences are relative to")
-    comparing.add_argument("--within", type=float, default=0.1, help="largest relative difference, default 0.1")
-    comparing.set_defaults(command="compare_tiers")
+    explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
+    explain.add_argument("scene", help="a scene file, or a study in ./config")
+    explain.add_argument("--tier", help="tier of the study, default that of ./config")
+    explain.add_argument("--draw", metavar="FILE", help="draw the scene into this .png, .pdf or .svg file")
+    explain.set_defaults(command="explain_scene")
+    run = commands.add_parser("run", help="simulate a scene file")
+    run.add_argument("scene", help="a scene file")
+    run.add_argument("--output", metavar="FILE", help="dataset to write, default the scene file with the ending .nc")
+    threads = (
+        "threads of the Fourier transforms, default 1; results are reproducible bit for bit with one number of threads"
+    )
+    run.add_argument("--threads", type=int, default=1, help=threads)
+    run.set_defaults(command="run_scene")
+    estimate = commands.add_parser("estimate", help="predict cost and error without simulating")
+    estimate.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; default all figures")
+    estimate.add_argument("--tier", help="tier of the study or figures, default that of ./config")
+    estimate.add_argument(
+        "--accuracy", type=float, help="relative error from which grid, tolerance and increments follow"
+    )
+    estimate.set_defaults(command="estimate_cost")
+    compare = commands.add_parser("compare", help="compare the figures of two tiers")
+    compare.add_argument("first", help="a tier, such as quick")
+    compare.add_argument("second", help="the tier to which differences are relative")
+    compare.add_argument(
+        "--within", type=float, default=0.1, help="largest relative difference that passes, default 0.1"
+    )
+    compare.set_defaults(command="compare_tiers")
     options = parser.parse_args(arguments)
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
     try:
