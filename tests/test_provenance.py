@@ -42,7 +42,7 @@ def write(package, **texts):
     forget()
 
 
-def test_marching_uses_what_it_imports_directly_or_not_and_no_figure_and_no_solver():
+def test_running_a_study_uses_its_direct_and_indirect_imports_but_no_figure_and_no_solver():
     used = modules_used("contactsim.study.execute")
     assert {
         "contactsim.study.execute",
@@ -56,7 +56,7 @@ def test_marching_uses_what_it_imports_directly_or_not_and_no_figure_and_no_solv
     assert list(used) == sorted(used)
 
 
-def test_marching_with_a_solver_uses_that_one_only():
+def test_running_with_a_solver_uses_that_solver_only():
     solvers = set(map(solver_module, SOLVERS))
     for module in solvers:
         assert solvers & set(modules_used("contactsim.study.execute", module)) == {module}

@@ -240,7 +240,7 @@ def test_a_member_unconverged_on_either_grid_is_left_out_of_the_grid_error(runs)
     assert unconverged(data) == (1, 24)  # of the study's own solutions
 
 
-def test_without_a_companion_there_is_no_grid_error(runs):
+def test_without_coarse_runs_there_is_no_grid_error(runs):
     assert not [name for name in made(runs()).variables if str(name).endswith("_grid_error")]
 
 

@@ -82,7 +82,7 @@ def test_the_two_errors_add_in_quadrature():
     assert claims.verdict(settings, Estimate(2.05, 0.03, 0.041)) == NOT_DECIDABLE
 
 
-def test_of_two_quantities_that_move_apart_or_down_the_worst_counts():
+def test_the_grid_error_of_a_ratio_is_the_worst_of_moving_apart_and_moving_down():
     part = claim(quantity="relative_contact_area", against="kappa", reduce="ratio", expect=0.1, tolerance=0.05)
     result = estimate(part, [made_up(2.0, grid=0.2)])
     assert result.grid_error == pytest.approx(0.1 * (1.1 / 0.9 - 1))  # the area up, κ down
@@ -177,7 +177,7 @@ def test_a_statement_about_the_grid_of_the_thesis_is_open_on_another():
     assert claims.judge(settings, [made_up(grid=0.1, points=1024)])["verdict"] == NOT_DECIDABLE
 
 
-def test_what_nothing_answers_is_not_decidable():
+def test_a_claim_without_data_is_not_decidable():
     bare = read_claim("test", {key: VALUE[key] for key in ("source", "statement", "rationale")}, "ch3.yaml", STUDIES)
     assert claims.judge(bare.settings, [])["verdict"] == NOT_DECIDABLE
     assert (claims.band_text(bare.settings), claims.comparison_text(bare.settings)) == ("", "")
@@ -201,7 +201,7 @@ def test_one_member_of_a_random_surface_has_no_known_error_and_a_cylinder_needs_
     assert claims.judge(claim(), [alone])["verdict"] == REPRODUCED
 
 
-def test_without_a_companion_the_grid_error_is_unknown():
+def test_without_a_coarse_run_the_grid_error_is_unknown():
     assert claims.judge(claim(), [made_up().drop_vars("kappa_grid_error")])["verdict"] == NOT_DECIDABLE
 
 
@@ -310,7 +310,7 @@ FOUND = {
 @pytest.mark.parametrize(
     ("reduction", "uses", "value"), [(name, *expected) for name, expected in FOUND.items()], ids=FOUND
 )
-def test_a_path_is_reduced_by_hand(reduction, uses, value):
+def test_each_reduction_of_paths_equals_a_calculation_by_hand(reduction, uses, value):
     assert estimate(path_claim(reduce=reduction, **uses), [GRID]).value == pytest.approx(value)
 
 
@@ -319,7 +319,7 @@ def test_a_spread_of_negative_numbers_is_positive():
     assert estimate(path_claim(**along), [GRID.assign(pull_off_load_loading=-GRID.pull_off_load_loading)]).value > 0
 
 
-def test_what_one_of_two_studies_varies_is_held_against_the_other_at_each_value():
+def test_a_ratio_of_two_studies_is_taken_at_each_value_that_one_of_them_varies():
     uncoupled = paths([[5.0, 4.0], [10.0, 8.0]], poisson_ratio=[0.1, 0.3], work_of_separation=[2.0, 3.0])
     over = {"relative_to": "indentation_uncoupled", "reduce": "largest"}
     assert estimate(path_claim(**over), [GRID, uncoupled]).value == pytest.approx(30 / 5)
@@ -341,7 +341,7 @@ def array(values, **places):
     return xr.DataArray(values, places, dims=tuple(places))
 
 
-def test_each_reduction_gives_what_a_hand_would():
+def test_each_reduction_equals_a_calculation_by_hand():
     load = array([1.0, 10.0, 100.0], load=[1, 2, 3])
     both = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst_exponent=[0.2, 0.8], load=[1, 2, 3])
     assert reductions.mean(both) == 2.0

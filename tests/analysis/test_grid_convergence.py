@@ -26,7 +26,7 @@ def test_a_sequence_of_known_order_gives_its_limit(order, size):
     assert float(found.spread) == pytest.approx(-size - last, abs=1e-12)  # what is left, against one more change
 
 
-def test_of_first_order_the_limit_lies_one_change_further_and_nothing_is_spread():
+def test_at_first_order_the_limit_lies_one_change_further_and_has_no_error():
     found = extrapolated(on_grids(9.0, 5.0, 3.0))
     assert (float(found.limit), float(found.order), float(found.spread)) == (1.0, 1.0, 0.0)
 

@@ -157,7 +157,7 @@ def test_one_changed_value_turns_the_verdict_and_the_exit_code(tiers, capsys):
     assert "fig_3_2: within 21 %" in capsys.readouterr().out
 
 
-def test_only_shared_loads_are_compare_tiers(tiers, capsys):
+def test_only_shared_loads_are_compared(tiers, capsys):
     tiers(lambda table: table[table.reduced_pressure < 0.05])
     assert exit_code() == 0
     assert "  kappa_mean                      9 " in capsys.readouterr().out
@@ -186,7 +186,7 @@ def test_a_missing_column_is_refused_in_one_line_that_names_the_file(tiers, colu
     assert all(word in said for word in words)
 
 
-def test_a_figure_that_lists_nothing_is_not_compared_and_needs_no_file(tiers, tmp_path, capsys):
+def test_a_figure_without_columns_to_compare_needs_no_file(tiers, tmp_path, capsys):
     config = tmp_path / "config/ch3.yaml"
     text = config.read_text(encoding="utf-8")
     config.write_text(text.replace("    compare: [kappa_fit]\n", ""), encoding="utf-8")
@@ -195,7 +195,7 @@ def test_a_figure_that_lists_nothing_is_not_compared_and_needs_no_file(tiers, tm
     assert "fig_3_3: not compared" in capsys.readouterr().out
 
 
-def test_what_tells_rows_apart_cannot_be_compare_tiers(tiers, tmp_path):
+def test_columns_that_identify_rows_cannot_be_compared(tiers, tmp_path):
     config = tmp_path / "config/ch3.yaml"
     text = config.read_text(encoding="utf-8")
     config.write_text(text.replace("compare: [kappa_fit]", "compare: [fit_limit]"), encoding="utf-8")

@@ -158,7 +158,7 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
     assert table.kappa_r["polonsky_keer"] == pytest.approx(table.kappa_r["conjugate_gradients"], rel=1e-3)
 
 
-def test_a_part_of_a_study_s_variants_is_priced_on_the_same_surfaces(tmp_path):
+def test_a_part_of_a_study_s_variants_is_measured_on_the_same_surfaces(tmp_path):
     one = case(tmp_path, **ROUGH_CASE)
     (run,) = one.study_at(one.settings_of("active_set")[0], "active_set").runs()
     whole = next(run for run in PLAN.studies["rough_line"].runs() if run.coordinates == {"hurst_exponent": 0.8})

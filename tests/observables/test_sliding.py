@@ -167,7 +167,7 @@ def test_a_probe_sticks_slips_by_one_lattice_constant_and_peels():
         ({"points": 512}, 1e-4),
     ],
 )
-def test_what_is_numerical_does_not_move_the_onset(other, error):
+def test_grid_increment_and_cutoffs_do_not_move_the_onset(other, error):
     forces, slips = zip(
         *((force.max(), places(states)[0]) for _, states, _, force in (small_probe(), small_probe(**other))),
         strict=True,
@@ -220,7 +220,7 @@ def test_a_half_space_slides_by_its_mean():
     assert force[-1] > 0
 
 
-def test_without_tangential_work_nothing_resists():
+def test_without_tangential_work_there_is_no_shear_traction():
     _, states, _, _ = walked_frictionless()
     assert {len(state.fields()[1]) for state in states} == {1}
 
@@ -356,7 +356,7 @@ def test_a_force_is_averaged_over_whole_lattice_constants():
     assert friction.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
 
 
-def test_a_slide_that_never_reaches_its_onset_says_nothing_of_it():
+def test_a_slide_without_an_onset_has_no_static_friction():
     data = friction.summarise_slides(dataset_without_slips())
     assert float(data.slip_count) == 0
     assert np.isnan(data.event_sliding_distance).all()
@@ -425,7 +425,7 @@ def test_a_large_step_back_does_not_land_a_cell_further_on(turn, increments):
     assert forces[1] == pytest.approx(forces[0], rel=2e-3)
 
 
-def test_a_slide_is_priced_whole_with_its_slips():
+def test_the_cost_of_a_slide_includes_all_its_slips():
     found = summarise_solutions(combine_runs([(dataset(), {"member": 0})]))
     assert found.transforms.item() == dataset().transforms.sum().item()
     assert found.static_friction.item() == friction.summarise_slides(dataset()).static_friction.item()

@@ -119,7 +119,7 @@ def test_on_a_branch_without_a_jump_there_is_no_hysteresis():
     assert np.allclose(found.load, found.load[::-1], rtol=1e-5, atol=1e-6)
 
 
-def test_increments_longer_than_newton_is_trusted_need_no_flow_once_there_is_a_history():
+def test_increments_longer_than_the_trust_radius_need_no_damped_flow_after_the_first_states():
     found = walk(scene_of(LAWS["uncoupled"], along(-10, 10, 0.25)))
     flowed = [state for state in found.states if state.iterations > NewtonKrylov.newton_budget]
     assert len(flowed) <= 6  # the first states and those around the jump
@@ -130,7 +130,7 @@ def test_increments_longer_than_newton_is_trusted_need_no_flow_once_there_is_a_h
 
 @pytest.mark.parametrize("body", [LAYER, HalfSpace(77.0, 0.3), Layer(93.0, 0.5, 5000.0)], ids=repr)
 @pytest.mark.parametrize("name", LAWS)
-def test_the_load_of_an_approach_gives_that_approach(name, body):
+def test_prescribing_the_load_of_an_approach_gives_that_approach(name, body):
     moved = walk(scene_of(LAWS[name], along(-10, 7, 0.2), body))
     kept = [count for count, state in enumerate(moved.states) if state.step.value >= 1]
     loads = pressures((moved.load[kept] / LENGTH).tolist())
@@ -146,7 +146,7 @@ def test_the_load_of_an_approach_gives_that_approach(name, body):
 
 
 @pytest.mark.parametrize("kind", PATH[:1] + PATH[2:])
-def test_a_load_beyond_pull_off_is_told_and_the_path_breaks_off(kind):
+def test_a_load_beyond_pull_off_is_reported_and_the_path_ends(kind):
     loads = [LoadStep(Trait.MEAN_PRESSURE, value / LENGTH) for value in (200.0, -1000.0, 200.0)]
     found = walk(scene_of(LAWS["uncoupled"], LoadPath(tuple(loads))), method=kind)
     assert [state.status for state in found.states] == [Status.CONVERGED, Status.NO_EQUILIBRIUM, Status.SKIPPED]
@@ -179,7 +179,7 @@ HARD = dict(hard_scenes())
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "work ratio 100")) for name in HARD]
 )
-def test_hard_scenes_are_solved(name):
+def test_scenes_of_extreme_stiffness_thickness_and_work_are_solved(name):
     found = walk(HARD[name], points=128)
     assert found.statuses == {"CONVERGED"}
     assert np.isfinite(found.load).all()
@@ -204,7 +204,7 @@ def test_a_process_zone_below_the_grid_ends_honestly():
 
 
 @pytest.mark.parametrize("kind", PATH)
-def test_a_spent_budget_is_told_and_the_path_breaks_off(kind):
+def test_a_solver_out_of_iterations_says_so_and_the_path_ends(kind):
     short = {"newton": {"newton_budget": 1, "flow_budget": 1}}.get(kind, {"budget": 1})
     found = walk(scene_of(LAWS["uncoupled"], along(-5.5, -4.5, 0.25)), method=make_solver(kind, **short))
     assert [state.status for state in found.states] == [Status.MAX_ITERATIONS] * 3 + [Status.SKIPPED] * 2
@@ -235,7 +235,7 @@ def test_a_path_goes_on_from_the_last_stable_state_where_a_step_has_no_solution(
     assert np.abs(found.load - whole.load)[~np.array(lost)].max() <= 1e-5 * np.abs(whole.load).max()
 
 
-def test_dynamics_that_diverge_are_told():
+def test_dynamics_that_diverge_are_reported():
     # far beyond touch the law is stiffer than its stiffness says, and than the time step can follow
     found = walk(scene_of(NormalCohesiveZone(2.0), approaches([60.0])), method="damped_verlet")
     assert found.states[0].status is Status.NON_FINITE

@@ -130,7 +130,7 @@ def test_complete_contact_is_exact(name):
 
 @pytest.mark.parametrize("pressure", [1e-3, 1e-2, 0.1, 1.0])
 @pytest.mark.parametrize("points", [256, 1001])
-def test_an_approach_and_the_pressure_it_takes_are_the_same_solution(pressure, points):
+def test_an_approach_and_the_pressure_that_it_needs_have_the_same_solution(pressure, points):
     heights = rough(points)
     loaded = press(heights, pressure, tolerance=1e-8)
     moved = contactsim.press(heights, spacing=1.0, contact_modulus=1.0, approach=loaded.approach, tolerance=1e-8)

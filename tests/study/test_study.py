@@ -92,7 +92,7 @@ def test_a_measured_surface_refuses_another_number_of_points(scan):
     assert "38" in error.allowed
 
 
-def test_a_measured_surface_has_no_companion(scan):
+def test_a_measured_surface_has_no_coarse_run(scan):
     error = refusal(measured_section(scan) | {"coarse_grid": {"points": 19, "members": 1}})
     assert error.key == "studies.rough.coarse_grid.points"
 
@@ -100,7 +100,7 @@ def test_a_measured_surface_has_no_companion(scan):
 # --- runs ---------------------------------------------------------------------------------------------------------
 
 
-def test_there_is_one_run_per_variant_and_member_and_companions_come_last():
+def test_there_is_one_run_per_variant_and_member_and_coarse_runs_come_last():
     runs = study().runs()
     assert [run.measures_error for run in runs] == [False] * 12 + [True] * 6
     places = [(run.coordinates["hurst_exponent"], run.coordinates["long_cutoff"], run.member) for run in runs]
@@ -231,7 +231,7 @@ def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
         assert not np.isclose(one, other, rtol=0, atol=1e-6).any()  # 15 pairs each: chance 3e-7 a pair to be so near
 
 
-def test_a_companion_samples_the_same_surface():
+def test_a_coarse_run_samples_the_same_surface():
     runs = by_place(study().runs())
     for (*place, member, companion), run in runs.items():
         if companion:
@@ -315,7 +315,7 @@ def test_tight_runs_come_after_all_others_and_differ_in_the_tolerance_alone():
         ({"tolerance": 1e-9, "members": 1, "points": 8}, "points", "no such key"),
     ],
 )
-def test_a_bad_tight_companion_is_refused(tight, key, allowed):
+def test_a_bad_run_of_tight_tolerance_is_refused(tight, key, allowed):
     error = refusal({"tight_tolerance": tight})
     assert error.key == f"studies.rough.tight_tolerance.{key}"
     assert allowed in error.allowed

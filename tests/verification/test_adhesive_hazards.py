@@ -82,7 +82,7 @@ def test_a_path_is_the_same_every_time_and_symmetric_where_it_says_so(hazard):
     ],
     ids=repr,
 )
-def test_bodies_written_out_once_more_give_way_as_ours_do(body, lost):
+def test_an_independent_boundary_value_solution_gives_the_same_compliance(body, lost):
     q = 2 * np.pi * np.fft.rfftfreq(64, LENGTH / 64)
     ours, theirs = body.coupled_compliance(q), surface_compliance(body, q)
     assert np.allclose(theirs[:, 0, 0], ours.diagonal[0], rtol=lost, atol=0)
@@ -117,7 +117,7 @@ def test_a_state_of_another_branch_is_found():
 
 
 @pytest.mark.parametrize("name", ["newton", "mass_weighted_verlet"])
-def test_one_step_of_4_nm_onto_a_rough_line_leads_where_sixteen_lead(name):
+def test_one_step_of_4_nm_onto_a_rough_line_ends_where_sixteen_small_steps_end(name):
     case = HAZARDS["one_large_step"](100)
     assert len(case.steps) == 1
     assert case.branch is not None
@@ -126,7 +126,7 @@ def test_one_step_of_4_nm_onto_a_rough_line_leads_where_sixteen_lead(name):
     assert load == pytest.approx(case.branch[0, 0], rel=1e-4)
 
 
-def test_a_rough_line_is_the_one_that_its_rms_height_and_hurst_exponent_make():
+def test_a_rough_line_has_its_rms_height_and_hurst_exponent():
     for hurst_exponent, height in ((0.8, 2.5), (0.2, 30.0)):
         heights = rough.Ridges(height, hurst_exponent).heights(rough.POINTS)
         waves = np.abs(np.fft.rfft(heights)) * 2 / rough.POINTS
@@ -137,7 +137,7 @@ def test_a_rough_line_is_the_one_that_its_rms_height_and_hurst_exponent_make():
         assert waves[64:].max() < 1e-12 * height
 
 
-def test_an_end_that_is_not_the_true_one_is_wrong():
+def test_a_path_that_ends_otherwise_than_expected_is_wrong():
     pulled = PathCase(scene_of(NormalCohesiveZone(2.0), pressures([0.02, -1.0])), ends=Status.NO_EQUILIBRIUM)
     assert judge(pulled, "newton").outcome is Outcome.EXACT
     assert "not converged, no_equilibrium" in judge(replace(pulled, ends=Status.CONVERGED), "newton").reason
@@ -145,14 +145,14 @@ def test_an_end_that_is_not_the_true_one_is_wrong():
     assert judge(held, "newton").outcome is Outcome.WRONG
 
 
-def test_a_spent_budget_and_a_divergence_are_told():
+def test_running_out_of_iterations_and_divergence_are_reported():
     short = judge(CASE, make_solver("newton", newton_budget=1, flow_budget=1))
     assert (short.outcome, "number of iterations" in short.reason) == (Outcome.FAILED, True)
     deep = judge(HAZARDS["deep_step"](100), "damped_verlet")
     assert deep.outcome in (Outcome.NON_FINITE, Outcome.REFUSED)
 
 
-def test_insertion_finds_the_answer_where_bodies_are_stiff_and_says_so_where_it_does_not():
+def test_fixed_point_iteration_finds_the_exact_answer_for_stiff_bodies_and_gives_none_otherwise():
     weak, strong = HAZARDS["vanishing_adhesion"](75), HAZARDS["vanishing_adhesion"](0)
     rigid = [-float(weak.traction(weak.gap(step, np.zeros((1, 65))))[0].mean()) * 5000.0 for step in weak.steps]
     assert np.allclose(weak.exact[:, 0], rigid, rtol=1e-6)

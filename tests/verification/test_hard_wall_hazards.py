@@ -149,7 +149,7 @@ def test_a_made_surface_has_its_answer_by_a_sum_over_waves(spacing):
     assert np.allclose(gap, np.maximum(-field, 0), atol=1e-13)
 
 
-def test_the_answer_of_equal_tops_is_that_of_one_that_is_alone_and_uniform_in_its_displacement():
+def test_equal_summits_have_uniform_displacement_and_one_summit_the_pressure_of_a_point():
     heights = np.zeros((9, 8))
     heights[4, 3] = 5.0
     assert np.allclose(summit_pressure(heights, 1e-2), point_pressure(heights, 1e-2), rtol=1e-12)

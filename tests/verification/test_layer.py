@@ -104,7 +104,7 @@ def test_a_very_thin_layer_is_a_row_of_springs_to_many_digits_at_a_given_approac
 @pytest.mark.parametrize("name", ALL)
 @pytest.mark.parametrize("ratio", [-0.5, 0.3, 0.5])
 @pytest.mark.parametrize("thickness", [1.0, 30.0, 1e3])
-def test_a_wave_in_complete_contact_takes_its_height_over_the_compliance(name, ratio, thickness):
+def test_a_wave_in_complete_contact_has_the_pressure_height_over_compliance(name, ratio, thickness):
     amplitude = 1 / response(256, ratio, thickness)[3]
     heights = np.cos(2 * np.pi * 3 * np.arange(256) / 256)
     result = pressed(heights, ratio=ratio, thickness=thickness, name=name, mean_pressure=1.01 * amplitude)
@@ -160,7 +160,7 @@ def test_any_heights_on_any_layer_are_certified(points, seed, share, thickness, 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.499, 0.5])
 @pytest.mark.parametrize("thickness", [3.0, 40.0, 1e4])
-def test_an_approach_and_the_pressure_it_takes_are_the_same_solution(ratio, thickness):
+def test_an_approach_and_the_pressure_that_it_needs_have_the_same_solution(ratio, thickness):
     heights = rough(256)
     for load in (1e-3, 0.05):
         loaded = pressed(heights, ratio=ratio, thickness=thickness, mean_pressure=load, tolerance=1e-8)
@@ -217,7 +217,7 @@ def test_on_a_half_space_the_mean_of_the_layer_alone_enters_the_approach():
     assert moved.mean_pressure == pytest.approx(both.mean_pressure, rel=1e-6)
 
 
-def test_a_layer_in_two_is_not_two_layers_but_equal_ones_are_one_of_half_the_modulus():
+def test_two_equal_layers_are_one_of_half_the_modulus():
     twice = solved(scene(Layer(2.0, 0.3, 30.0), Layer(2.0, 0.3, 30.0)))
     once = solved(scene(Layer(1.0, 0.3, 30.0)))
     assert np.allclose(twice.pressure, once.pressure, rtol=1e-9)
@@ -228,7 +228,7 @@ def test_a_layer_in_two_is_not_two_layers_but_equal_ones_are_one_of_half_the_mod
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_a_layer_is_taken_by_each_solver_of_ours(name):
+def test_every_solver_accepts_a_layer(name):
     assert scene(Layer(1.0, 0.3, 1.0)).traits == {Trait.LINE, Trait.WALL, Trait.LAYER, Trait.MEAN_PRESSURE}
     check_solver(make_solver(name), scene(Layer(1.0, 0.3, 1.0)))
 

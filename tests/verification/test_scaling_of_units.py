@@ -47,7 +47,7 @@ def test_in_a_layer_as_thick_as_a_half_space_poissons_ratio_does_not_change_the_
         assert same(plain, pressed(HEIGHTS, reduced_pressure, thickness=thickness, poisson_ratio=ratio))
 
 
-def test_in_a_layer_half_as_thick_as_the_longest_wave_of_the_power_law_it_does():
+def test_in_a_layer_half_as_thick_as_the_long_cutoff_poissons_ratio_changes_the_contact():
     found = [pressed(HEIGHTS, 1e-2, thickness=POINTS / 8, poisson_ratio=ratio) for ratio in (0.1, 0.45)]
     assert not same(*found)
     # The thickest of the study is thicker still, the thin one half of the roll-off wavelength.

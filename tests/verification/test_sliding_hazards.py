@@ -47,7 +47,7 @@ def test_energy_minimisation_refuses_slides_of_a_law_without_potential():
     assert judge(wide_window(0), "energy_minimisation").outcome is Outcome.REFUSED
 
 
-def test_a_state_a_cell_further_on_is_found():
+def test_a_state_one_lattice_constant_too_far_is_found():
     """A slip that did not happen, or one too many, leaves a balanced state: only the branch tells."""
     case = large_increments(0)
     problem, states = case.follow(make_solver("newton"))
