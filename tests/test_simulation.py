@@ -65,13 +65,13 @@ def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed)
     ("spacing", "value"),
     [((1, 2, 3), "(1, 2, 3)"), ((1, -2), "-2"), (np.array([0, 1]), "0"), (np.float64(-1.5), "-1.5"), ("a", "'a'")],
 )
-def test_a_bad_spacing_of_a_surface_is_blamed_and_told_in_plain_numbers(spacing, value):
+def test_a_bad_spacing_of_a_surface_is_named_in_plain_numbers(spacing, value):
     with pytest.raises(InputError) as caught:
         contactsim.press(np.eye(4), spacing=spacing, contact_modulus=1.0, mean_pressure=0.1)
     assert str(caught.value).startswith(f"spacing: got {value}; allowed: a positive finite number")
 
 
-def test_numbers_of_numpy_within_others_are_told_plainly():
+def test_messages_show_numbers_of_numpy_as_plain_numbers():
     with pytest.raises(InputError, match=r"got \{'mean_pressure': 0.5, 'approach': 2.0\};"):
         contactsim.press(**GOOD | {"mean_pressure": np.float64(0.5), "approach": np.float64(2.0)})
 

@@ -46,7 +46,7 @@ ASPERITY = {
         ("compressibility", SCENE.effects[0], replace(LAYER, poisson_ratio=0.5)),
     ],
 )
-def test_each_changes_one_thing_of_a_scene(name, effect, body):
+def test_each_simplification_changes_one_thing_of_a_scene(name, effect, body):
     less = simplify(SCENE, [name])
     assert less.effects == (effect,)
     assert less.lower.elasticity == body
@@ -54,7 +54,7 @@ def test_each_changes_one_thing_of_a_scene(name, effect, body):
     assert simplify(less, [name]) == less
 
 
-def test_all_of_them_together_in_any_order_leave_a_normal_scene():
+def test_all_simplifications_in_any_order_leave_a_normal_only_scene():
     found = [simplify(SCENE, names) for names in itertools.permutations(SIMPLIFICATIONS)]
     assert all(less == found[0] for less in found)
     assert found[0].components == found[0].exerted == ("n",)

@@ -126,7 +126,7 @@ def test_a_quarter_of_the_error_takes_twice_the_points_where_errors_are_of_secon
 
 
 @pytest.mark.parametrize("family", [PATH, ROUGH_PATH, SLIDE])
-def test_the_error_expected_of_a_path_is_within_the_wanted_one_and_that_of_its_companion_is_larger(family):
+def test_the_expected_error_of_a_path_is_within_the_requested_one_and_that_of_its_coarse_run_is_larger(family):
     for error in (0.01, 0.05):
         setup = choose_options(drawn(family).setup, error)
         relations = scaling_relations().families[family]
@@ -212,7 +212,7 @@ def test_an_adhesive_asperity_is_as_accurate_as_was_asked_for():
 
 
 @pytest.mark.parametrize("family", [LINE, SURFACE])
-def test_a_run_that_begins_from_its_companion_takes_fewer_transforms_to_the_same_contact(family):
+def test_a_run_that_begins_from_its_coarse_run_takes_fewer_transforms_to_the_same_contact(family):
     names = QUANTITIES[family]
     setup = choose_options(drawn(family, 2 if family == LINE else 1).setup, 0.05).with_options(tolerance=1e-4)
     coarse = solve_setup(coarsen(setup).with_options(keep=("fields",)), names)
@@ -228,7 +228,7 @@ def run_to_accuracy(run: Run, folder: Path, name: str = "run") -> Path:
     return files.data
 
 
-def test_a_grid_that_was_too_hopeful_is_refined_and_an_error_that_is_still_missed_is_told(
+def test_a_grid_that_was_too_coarse_is_refined_and_an_error_that_is_still_too_large_is_reported(
     monkeypatch, caplog, tmp_path
 ):
     true = scaling_relations()
@@ -295,7 +295,7 @@ def test_a_forecast_is_near_what_a_run_takes(family):
     assert forecast.points == choose_options(setup, 0.03).points
 
 
-def test_a_forecast_tells_what_it_does_not_know():
+def test_a_forecast_says_what_it_does_not_know():
     setup = setup_of(LINE_SCENE)
     with refused("solver.kind", "were not measured"):
         forecast_setup(setup.with_options(solver=make_solver("polonsky_keer")))
@@ -324,7 +324,7 @@ def test_the_shell_tells_the_cost_of_a_scene_and_runs_it_to_its_accuracy(tmp_pat
         cli.main(["estimate", str(file), "--accuracy", "2"])
 
 
-def test_what_lies_ahead_is_told_with_what_is_not_known(tmp_path):
+def test_the_summary_of_jobs_ahead_says_what_is_unknown(tmp_path):
     known = study(LINE_SCENE).runs()[0]
     wave = {"kind": "sinusoid", "length": 100.0, "amplitude": 0.1}
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}

@@ -128,7 +128,7 @@ def test_the_frozen_maps_are_those_of_the_config():
         ),
     ],
 )
-def test_what_a_map_cannot_be_is_refused(over, key, allowed):
+def test_wrong_settings_of_a_map_are_refused(over, key, allowed):
     with refused(key, allowed):
         read_maps(ROOT / "config", over, "quick")
 
@@ -261,7 +261,7 @@ def test_chapter_5_leaves_the_coupling_out_where_it_is_negligible_and_simulates_
         ({"neglect": ["friction"]}, "neglect", "neglected anyway"),
     ],
 )
-def test_what_cannot_be_left_out_by_itself_is_refused(section, key, allowed):
+def test_wrong_settings_of_neglect_are_refused(section, key, allowed):
     with refused(key, allowed):
         study(**section)
 

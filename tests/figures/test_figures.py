@@ -279,7 +279,7 @@ def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
     assert wording.quantity_text("kappa_r_grid_error") == "grid error of κᵣ"
 
 
-def test_every_quantity_that_can_be_priced_has_a_symbol():
+def test_every_quantity_of_a_work_precision_study_has_a_symbol():
     assert [name for name in MEASURED_QUANTITIES if name not in notation.SYMBOLS] == []
 
 

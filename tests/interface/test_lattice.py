@@ -236,7 +236,7 @@ def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():
     np.testing.assert_array_equal(problem.gap(np.zeros(problem.unknowns, complex))[1], 2.0)
 
 
-def test_a_scene_that_does_not_slide_is_what_it_was():
+def test_a_scene_that_does_not_slide_has_no_lattice():
     scene = replace(sliding(), path=approaches([0.0]))
     assert not scene.sliding
     assert scene.pairing is ALIGNED

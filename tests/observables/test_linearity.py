@@ -42,13 +42,13 @@ def test_loads_that_pull_first_are_far_from_a_straight_line():
     assert nonlinearity(AREA, AREA**2 - 0.2 * AREA) > 0.5
 
 
-def test_too_few_states_and_none_in_contact_tell_nothing():
+def test_too_few_states_or_no_contact_give_no_measure_of_linearity():
     assert np.isnan(nonlinearity(AREA[:2], AREA[:2]))
     assert np.isnan(nonlinearity(AREA, 0 * AREA))
     assert np.isnan(curvature(0 * AREA, AREA))
 
 
-def test_a_level_is_read_where_it_is_value_at_level_and_not_where_it_never_is():
+def test_a_level_is_interpolated_where_a_curve_reaches_it_and_missing_elsewhere():
     area, load = np.array([0.0, 0.1, 0.3, 0.2, 0.4]), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
     assert value_at_level(area, 0.2, load) == pytest.approx(1.5)
     assert np.isnan(value_at_level(area, 0.5, load))
@@ -86,18 +86,18 @@ def test_a_cycle_dissipates_the_area_of_its_loop():
     assert float(found.dissipated_work) == pytest.approx(0.06)
 
 
-def test_what_comes_back_on_the_same_way_is_not_dissipated():
+def test_loading_and_unloading_along_one_curve_dissipate_nothing():
     assert float(summarise_cycles(path([0.0, -1.0, 2.0, 3.0, 2.0, -1.0, 0.0])).dissipated_energy) == pytest.approx(0.0)
 
 
-def test_a_jump_leaves_half_of_its_step_open_and_no_jump_nothing():
+def test_a_jump_has_an_error_of_half_its_step_and_a_smooth_cycle_has_none():
     load = [0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0]
     assert float(summarise_cycles(path(load)).dissipated_energy_increment_error) == 0.0
     found = summarise_cycles(path(load, [0.0] * 6 + [0.5]))
     assert float(found.dissipated_energy_increment_error) == pytest.approx(2.0)
 
 
-def test_an_open_or_unknown_loop_dissipates_nothing_that_is_known():
+def test_an_open_or_incomplete_loop_has_no_dissipated_energy():
     closed = np.array([0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0])
     approach = path(closed).approach.values
     assert np.isfinite(dissipated_energy(approach, closed, 0 * closed)[0])

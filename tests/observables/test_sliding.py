@@ -315,7 +315,7 @@ def test_the_onset_is_before_the_first_slip_or_at_the_first_maximum():
     assert line([0, 1, 2, 3], [0, 1, 2, 3]).onset is None
 
 
-def test_what_may_be_missed_beside_a_slip_is_what_its_width_allows():
+def test_the_error_beside_a_slip_follows_from_its_width():
     slide = line([0, 1, 2, 2, 3], [0, 1, 2, 0.5, 1.5], after=(3,), width=0.01)
     assert slide.extreme_error(2) == pytest.approx(0.01)
     assert slide.extreme_error(3) == pytest.approx(0.01)
@@ -325,7 +325,7 @@ def test_what_may_be_missed_beside_a_slip_is_what_its_width_allows():
     assert line([0, 1, 2], [0, 1, 0]).extreme_error(1) == pytest.approx(0.25)
 
 
-def test_laws_are_found_where_they_hold():
+def test_peeling_laws_are_fitted_to_data_that_follow_them():
     force = np.linspace(0, 3, 20)
     coefficient, agreement = peeling.fit_quadratic_law(force, 100 - 2.5 * force**2)
     assert coefficient == pytest.approx(2.5)

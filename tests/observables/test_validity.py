@@ -70,7 +70,7 @@ def test_slopes_that_are_not_small_are_flagged(amplitude):
     assert flagged(data, "rms_gradient").all() == (rms > 0.45)
 
 
-def test_what_is_beyond_is_told_in_words_even_where_states_are_missing():
+def test_exceeded_limits_are_reported_in_words_even_where_states_are_missing():
     numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0], "validity_flags": [0, 1, np.nan, 1]}
     data = described(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
     assert status.describe_excess(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]

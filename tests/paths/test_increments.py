@@ -52,7 +52,7 @@ def test_all_solvers_follow_the_same_branch_and_jump_at_the_same_increment(name)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", PATH[2:])
-def test_the_cheap_baselines_follow_the_whole_loop(kind):
+def test_damped_dynamics_and_minimisation_follow_the_whole_loop(kind):
     law = LAWS["uncoupled"] if kind == "energy_minimisation" else LAWS["frictional"]
     scene = scene_of(law, along(-7, 1, 0.25) >> along(0.75, -18, 0.25))
     ours, other = walk(scene), walk(scene, method=kind)
@@ -282,7 +282,7 @@ def test_adaptive_increments_go_wherever_the_path_goes(path):
     assert [state.step.value for state in adaptive.states] == [step.value for step in path.steps]
 
 
-def test_states_asked_for_a_rounding_apart_from_those_walked_through_are_interpolated_safely():
+def test_requested_states_a_rounding_error_from_computed_ones_are_interpolated_safely():
     scene = scene_of(LAWS["uncoupled"], sweep(Trait.MEAN_PRESSURE, [0.0, 0.05], 0.001))
     asked, adaptive = walk(scene), walk(scene, increments=Adaptive(least=1e-5, most=0.02))
     near = walk(scene, increments=Adaptive(least=0.01, most=1.0))  # its shortest increment is ten of those asked for

@@ -14,7 +14,9 @@ from contactsim.contact import loading
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
+from contactsim.evaluation.robustness.cases import layer_response
 from contactsim.explanation import explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
@@ -238,18 +240,25 @@ def test_the_stiffness_is_an_m_matrix_on_every_grid(points):
 
 
 @pytest.mark.parametrize("contacts", [[3], [0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 5], [7], [1, 6]])
-def test_continuation_is_linear_between_contacts_and_restriction_its_adjoint(contacts):
+@pytest.mark.parametrize("decay", [None, 0.3, 30.0, 1e4])
+def test_a_gap_extension_keeps_the_contact_and_restriction_is_its_adjoint(contacts, decay):
     where = np.zeros(8, bool)
     where[contacts] = True
-    both = GapExtension(where)
+    both = GapExtension(where) if decay is None else GapExtension(where, decay)
     rng = np.random.default_rng(0)
     values, field = rng.normal(size=len(contacts)), rng.normal(size=8)
     extended = np.empty(8)
     both.extend(values, extended, np.empty(8))
     rolled = np.roll(extended, contacts[0])
-    assert np.allclose(rolled, np.interp(np.arange(8), contacts, values, period=8))
-    assert np.dot(extended, field) == pytest.approx(np.dot(values, both.restrict(field)))
-    assert both.restrict(field).sum() == pytest.approx(field.sum())
+    assert np.allclose(rolled[contacts], values)
+    assert np.dot(extended, field) == pytest.approx(np.dot(values, both.restrict(field.copy())))
+    if decay is None:  # linear between contacts
+        assert np.allclose(rolled, np.interp(np.arange(8), contacts, values, period=8))
+        assert both.restrict(field).sum() == pytest.approx(field.sum())
+    else:
+        assert both.share(field).sum() == pytest.approx(field.sum())
+    if decay == 30.0:
+        assert np.abs(np.delete(rolled, contacts)).max(initial=0.0) < 1e-12
 
 
 @pytest.mark.parametrize("points", [63, 512, 4096])
@@ -269,6 +278,22 @@ def test_the_preconditioners_stiffness_is_close_to_the_true_one_and_kills_consta
         sine = np.sin(q * np.arange(points))
         exact = 0 if points < 512 else 0.35  # blocks of eight smear a wave of their own length; a CG needs no more
         assert sine @ apply(sine) == pytest.approx(q / 2 * (sine @ sine), rel=max(exact, 1e-9))
+
+
+@pytest.mark.parametrize(("ratio", "thickness"), [(0.3, 1.0), (0.3, 10.0), (0.3, 100.0), (0.5, 10.0), (0.5, 100.0)])
+def test_the_preconditioners_stiffness_is_close_to_that_of_the_layer(ratio, thickness):
+    points = 512
+    response = layer_response(2 * np.pi * np.fft.rfftfreq(points) * thickness, ratio) * thickness
+    flat = Flat(float(points))
+    layer = Body(flat, Layer(1.0, ratio, thickness))
+    subject = Scene(layer, Body(flat), (HardWall(),), loading.pressures([0.1]))
+    problem, _ = pose_hard_wall(subject, subject.path.steps[0], rough(points), 1e-3, 1)
+    stiffness = BlockStiffness(problem.compliance, uniform=True)
+    for mode in (1, 5, points // 5, points // 3, points // 2 - 1):
+        sine = np.sin(2 * np.pi * mode / points * np.arange(points))
+        stiffness.field[:] = sine
+        exact = 1 / response[mode]
+        assert sine @ stiffness(np.empty(points), np.empty(points)) / (sine @ sine) == pytest.approx(exact, rel=0.35)
 
 
 # ---- cost

@@ -159,7 +159,7 @@ UNSTABLE = [
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "length", "work", "friction"), UNSTABLE)
-def test_no_state_is_one_that_the_least_disturbance_leaves(ratio, length, work, friction):
+def test_every_state_of_a_path_is_stable_against_small_disturbances(ratio, length, work, friction):
     law = CohesiveZone(work, friction, 1.0, length)
     body = Layer(70.0 / (1 - ratio**2), ratio, 5000.0)
     found = walk(scene_of(law, along(-10, 10, 0.5), body), points=128)
@@ -171,7 +171,7 @@ def test_no_state_is_one_that_the_least_disturbance_leaves(ratio, length, work, 
 
 
 @pytest.mark.parametrize("periods", [3, 5])
-def test_alike_asperities_jump_one_by_one_where_all_at_once_would_be_unstable(periods):
+def test_equal_asperities_jump_one_by_one_where_jumping_together_would_be_unstable(periods):
     wave = Sinusoid(length=10000.0, amplitude=20.0, periods=periods)
     path = along(-30, -19, 0.1) >> along(-19.1, -32, 0.1)
     found = walk(scene_of(NormalCohesiveZone(2.0), path, HalfSpace(77.0, 0.3), surface=wave), points=128)

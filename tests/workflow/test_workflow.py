@@ -335,7 +335,7 @@ def test_two_at_once_in_one_folder_are_refused_but_a_dry_run_is_not(fresh: Proje
     assert fresh.science("smooth") == made.science("smooth")
 
 
-def test_tiers_lie_apart(project: Project) -> None:
+def test_tiers_have_separate_results(project: Project) -> None:
     quick = ("--config", "tier=quick")
     before = project.times("standard/**/*")
     assert of_study(project.make("smooth", options=quick)) == {"smooth": 1}
@@ -377,7 +377,7 @@ def test_a_wrong_command_is_refused_in_words(
     assert not (fresh.folder / "results").exists()
 
 
-def test_what_accuracy_costs_is_made_case_by_case_beside_the_study_that_is_there(project: Project) -> None:
+def test_work_precision_studies_are_made_case_by_case_and_leave_their_study_alone(project: Project) -> None:
     case = figure("smooth") | {
         "load": [0.1, 0.3],
         "quantities": ["relative_contact_area"],
