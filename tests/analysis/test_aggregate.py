@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from types import SimpleNamespace
 
 import numpy as np
@@ -23,68 +24,62 @@ CONVERGED, MAX_ITERATIONS, NON_FINITE, *_ = (status.value[0] for status in Statu
 SETTINGS = {"title": "A study", "fit_limits": None, "surface": {"radius": 50.0}}
 
 
-def numbers(hurst_exponent, member, companion=False, loads=PRESSURES):
+def numbers(hurst_exponent, member, coarse=False):
     """What a run found, made up but reproducible: one value per load for each quantity."""
-    draw = np.random.default_rng([int(10 * hurst_exponent), member, companion])
+    draw = np.random.default_rng([int(10 * hurst_exponent), member, coarse])
     return {
-        "relative_contact_area": np.asarray(loads) * (1.5 + 0.3 * hurst_exponent + 0.1 * draw.random(len(loads))),
-        "relative_contact_area_subgrid": np.asarray(loads) * 1.4,
-        "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(loads))),
-        "rms_gradient_contact_pairs": GRADIENT * (1 - 0.1 * draw.random(len(loads))),
-        "mean_gap": draw.random(len(loads)),
+        "relative_contact_area": np.array(PRESSURES) * (1.5 + 0.3 * hurst_exponent + 0.1 * draw.random(len(PRESSURES))),
+        "relative_contact_area_subgrid": np.array(PRESSURES) * 1.4,
+        "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(PRESSURES))),
+        "rms_gradient_contact_pairs": GRADIENT * (1 - 0.1 * draw.random(len(PRESSURES))),
+        "mean_gap": draw.random(len(PRESSURES)),
     }
+
+
+def run_dataset(hurst_exponent, member, coarse, status, load, changes):
+    """The dataset of one run: what it found, its status at each load, and arrays that stay with it."""
+    values = numbers(hurst_exponent, member, coarse) | changes
+    data = xr.Dataset(
+        {name: (load, value) for name, value in values.items()}
+        | {"mean_pressure": (load, np.asarray(PRESSURES) * MODULUS * GRADIENT), "status": (load, status)}
+        | {"point_digest": (load, [f"digest{row}" for row in range(len(PRESSURES))])}
+        | {"contact_bits": ((load, "byte"), np.zeros((len(PRESSURES), 8), np.uint8))}
+        | {"contact_pressure": ("contact_point", np.zeros(5 + member, np.float32))}
+        | {"profile_real": ("mode", np.ones(4)), "profile_imag": ("mode", np.ones(4))}
+        | {"rms_height": 1.0 + member, "points": 32 if coarse else 64, "length": 640.0}
+        | {"contact_modulus": MODULUS, "seed": 1},
+        {load: PRESSURES},
+        {"problem": "hard_wall"},
+    )
+    return dataset.stamped(dataset.described(data), "run", {}, "source")
 
 
 @pytest.fixture
 def runs(tmp_path):
-    """Write the runs of a study: members, those of the companion, and the places that did not converge."""
+    """Write the runs of a study: members, those on the coarse grid, and the places that did not converge."""
 
-    def write(members=4, companions=0, bad=(), load="reduced_pressure", loads=PRESSURES, change=None):
+    def write(members=4, coarse_members=0, bad=(), load="reduced_pressure", change=lambda hurst_exponent, member: {}):
         listed = []
-        for companion, count in ((False, members), (True, companions)):
-            for hurst_exponent in HURSTS:
-                for member in range(count):
-                    found = numbers(hurst_exponent, member, companion, loads) | (
-                        change(hurst_exponent, member) if change else {}
-                    )
-                    status = [bad_status(bad, hurst_exponent, member, companion, row) for row in range(len(loads))]
-                    pressure = np.asarray(loads) * MODULUS * GRADIENT
-                    data = xr.Dataset(
-                        {name: (load, values) for name, values in found.items()}
-                        | {"mean_pressure": (load, pressure), "status": (load, np.array(status, np.int8))}
-                        | {"point_digest": (load, [f"digest{row}" for row in range(len(loads))])}
-                        | {"contact_bits": ((load, "byte"), np.zeros((len(loads), 8), np.uint8))}
-                        | {"contact_pressure": ("contact_point", np.zeros(5 + member, np.float32))}
-                        | {"profile_real": ("mode", np.ones(4)), "profile_imag": ("mode", np.ones(4))}
-                        | {"rms_height": 1.0 + member, "points": 32 if companion else 64, "length": 640.0}
-                        | {"contact_modulus": MODULUS, "seed": 1},
-                        {load: list(loads)},
-                        {"problem": "hard_wall"},
-                    )
-                    path = tmp_path / f"{hurst_exponent}_{member}_{companion}.nc"
-                    dataset.write(dataset.stamped(dataset.described(data), "run", {}, "source"), path)
-                    place = {
-                        "path": path,
-                        "coordinates": {"hurst_exponent": hurst_exponent},
-                        "member": member,
-                        "measures_error": companion,
-                    }
-                    listed.append(place)
+        for coarse, count in ((False, members), (True, coarse_members)):
+            for hurst_exponent, member in product(HURSTS, range(count)):
+                place = hurst_exponent, member, coarse
+                status = [dict(bad).get((*place, row), CONVERGED) for row in range(len(PRESSURES))]
+                data = run_dataset(*place, np.array(status, np.int8), load, change(hurst_exponent, member))
+                path = tmp_path / f"{hurst_exponent}_{member}_{coarse}.nc"
+                dataset.write(data, path)
+                coordinates = {"hurst_exponent": hurst_exponent}
+                listed.append({"path": path, "coordinates": coordinates, "member": member, "measures_error": coarse})
         return listed
 
     return write
-
-
-def bad_status(bad, hurst_exponent, member, companion, row):
-    return dict(bad).get((hurst_exponent, member, companion, row), CONVERGED)
 
 
 def made(runs, **settings):
     return aggregate.aggregate(runs, SETTINGS | settings, "source")
 
 
-def by_hand(name, hurst_exponent, row, members, companion=False):
-    return np.array([numbers(hurst_exponent, member, companion)[name][row] for member in members])
+def by_hand(name, hurst_exponent, row, members, coarse=False):
+    return np.array([numbers(hurst_exponent, member, coarse)[name][row] for member in members])
 
 
 # --- one dataset --------------------------------------------------------------------------------------------------
@@ -103,12 +98,12 @@ def test_runs_become_one_dataset_over_varied_keys_members_and_loads(runs):
 
 
 def test_the_order_of_the_runs_does_not_matter(runs):
-    listed = runs(companions=2)
+    listed = runs(coarse_members=2)
     xr.testing.assert_identical(made(listed), made(listed[::-1]))
 
 
 def test_everything_has_units_and_a_long_name_and_the_study_is_stamped(runs):
-    data = made(runs(companions=2), fit_limits=[1.0])
+    data = made(runs(coarse_members=2), fit_limits=[1.0])
     for name, item in data.variables.items():
         assert set(item.attrs) >= {"units", "long_name"}, name
     assert data.kappa_mean.long_name.endswith(": mean over members")
@@ -168,7 +163,7 @@ def test_means_and_standard_errors_are_numpys(runs):
 
 
 def test_every_averaged_quantity_has_mean_error_and_grid_error(runs):
-    data = made(runs(companions=2))
+    data = made(runs(coarse_members=2))
     for name in AVERAGED:
         for suffix in ("_mean", "_standard_error", "_grid_error"):
             assert data[f"{name}{suffix}"].dims == ("hurst_exponent", "reduced_pressure")
@@ -222,18 +217,16 @@ def test_a_quantity_without_contact_is_left_out_like_an_unconverged_one(runs):
 
 
 def test_the_grid_error_is_the_change_of_the_mean_over_the_members_of_both_grids(runs):
-    data = made(runs(companions=2))
+    data = made(runs(coarse_members=2))
     for hurst_exponent in HURSTS:
         for row in range(3):
-            fine, coarse = (
-                by_hand("mean_gap", hurst_exponent, row, range(2), companion) for companion in (False, True)
-            )
+            fine, coarse = (by_hand("mean_gap", hurst_exponent, row, range(2), coarse) for coarse in (False, True))
             found = data.mean_gap_grid_error.sel(hurst_exponent=hurst_exponent).isel(reduced_pressure=row).item()
             assert found == pytest.approx(abs(fine.mean() - coarse.mean()), rel=1e-12)
 
 
 def test_a_member_unconverged_on_either_grid_is_left_out_of_the_grid_error(runs):
-    data = made(runs(companions=3, bad={(0.2, 0, False, 0): MAX_ITERATIONS, (0.2, 2, True, 0): MAX_ITERATIONS}))
+    data = made(runs(coarse_members=3, bad={(0.2, 0, False, 0): MAX_ITERATIONS, (0.2, 2, True, 0): MAX_ITERATIONS}))
     expected = abs(by_hand("mean_gap", 0.2, 0, [1]) - by_hand("mean_gap", 0.2, 0, [1], True)).item()
     found = data.mean_gap_grid_error.sel(hurst_exponent=0.2).isel(reduced_pressure=0).item()
     assert found == pytest.approx(expected, rel=1e-12)
@@ -253,7 +246,7 @@ def test_a_study_with_fit_limits_gets_its_fits(runs):
 
 
 def test_an_aggregated_study_can_be_written_and_read(runs, tmp_path):
-    data = made(runs(companions=2), fit_limits=[1.0])
+    data = made(runs(coarse_members=2), fit_limits=[1.0])
     dataset.write(data, tmp_path / "study.nc")
     xr.testing.assert_identical(dataset.load_dataset(tmp_path / "study.nc"), data)
 
@@ -264,7 +257,7 @@ def test_a_load_is_named_by_the_dimension_that_it_is():
 
 
 def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_from_the_grid_error(runs):
-    listed = runs(companions=2)
+    listed = runs(coarse_members=2)
     tight = [run | {"error": "tolerance"} for run in listed if run["measures_error"]]
     data = made([run for run in listed if not run["measures_error"]] + tight)
     assert "mean_gap_grid_error" not in data

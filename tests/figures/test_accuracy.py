@@ -7,7 +7,6 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from contactsim import dataset
 from contactsim.evaluation.work_precision import error_cost
@@ -122,8 +121,20 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     axes = np.reshape(panels, (2, columns))
     equal = error_cost.compare_solvers(table, settings["quantities"][0], settings["levels"], accuracy.COSTS)
     accuracy.plot_accuracy(table, equal, jobs[plan["default"]], axes, plan)
-    FigureCanvasAgg(figure).draw()
+    figure.draw_without_rendering()
     return axes, table
+
+
+@pytest.fixture(scope="module")
+def usual():
+    """The case as it is; tests leave it as it is."""
+    return drawn()
+
+
+@pytest.fixture(scope="module")
+def path():
+    """The case of a path as it is."""
+    return drawn(PATH_JOBS, 1, PATH_PLAN)
 
 
 def curve(axes, label):
@@ -156,8 +167,8 @@ def test_each_setting_has_the_seconds_that_it_took(tmp_path, order):
 
 
 @pytest.mark.parametrize(("row", "measure"), [(0, "work"), (1, "seconds")])
-def test_error_is_across_and_cost_is_up(row, measure):
-    axes, table = drawn()
+def test_error_is_across_and_cost_is_up(row, measure, usual):
+    axes, table = usual
     assert axes[row, 0].get_ylabel() == accuracy.COSTS[measure]
     assert "error" in axes[1, 0].get_xlabel()
     for column, knob in enumerate(("points", "tolerance", "members")):
@@ -168,8 +179,8 @@ def test_error_is_across_and_cost_is_up(row, measure):
             )
 
 
-def test_the_least_cost_falls_as_the_error_allowed_rises():
-    axes, table = drawn()
+def test_the_least_cost_falls_as_the_error_allowed_rises(usual):
+    axes, table = usual
     errors, costs = curve(axes[0, 0], "least cost")
     assert (np.diff(errors) < 0).all()
     assert (np.diff(costs) > 0).all()
@@ -177,8 +188,8 @@ def test_the_least_cost_falls_as_the_error_allowed_rises():
     assert axes[0, 0].lines[0].get_drawstyle() == "steps-pre"  # dearer before, and not after, an error is met
 
 
-def test_the_values_of_the_tiers_and_of_the_thesis_are_ringed_on_every_curve():
-    axes, table = drawn()
+def test_the_values_of_the_tiers_and_of_the_thesis_are_ringed_on_every_curve(usual):
+    axes, table = usual
     own = table[table.solver == "active_set"].set_index("knob")
     points, tolerance = own.loc["points"].set_index("points"), own.loc["tolerance"].set_index("tolerance")
     assert np.allclose(rings(axes[0, 0]), points.loc[[32, 64], ["kappa_r", "work"]])
@@ -198,8 +209,8 @@ def test_a_setting_that_did_not_converge_is_a_cross_and_has_no_ring():
     assert "quick, with grid points 32" in footer_text(table, PLAN)
 
 
-def test_the_footer_says_where_each_knob_was_turned_its_reference_and_what_has_no_ring():
-    text = footer_text(drawn()[1], PLAN)
+def test_the_footer_says_where_each_knob_was_turned_its_reference_and_what_has_no_ring(usual):
+    text = footer_text(usual[1], PLAN)
     for part in (
         "quick tier · 12 settings, best of up to 2 timings",
         "points turned at tolerance 0.001, reference 1024 points at tolerance 1e-06",
@@ -209,8 +220,8 @@ def test_the_footer_says_where_each_knob_was_turned_its_reference_and_what_has_n
     ):
         assert part in text
     once = PLAN | {"settings": SETTINGS | {"repeats": 1}, "marks": {}}
-    assert "each timed once" in footer_text(drawn()[1], once)
-    assert "ring" not in footer_text(drawn()[1], once)
+    assert "each timed once" in footer_text(usual[1], once)
+    assert "ring" not in footer_text(usual[1], once)
 
 
 def test_errors_of_zero_and_infinity_stand_in_margins():
@@ -242,8 +253,8 @@ def test_on_a_surface_its_own_solver_is_the_measure_and_points_are_those_of_a_si
     assert "curve of conjugate gradients" in text
 
 
-def test_a_path_has_a_column_for_its_increment_and_shows_its_first_quantity_against_the_grid():
-    axes, table = drawn(PATH_JOBS, 1, PATH_PLAN)
+def test_a_path_has_a_column_for_its_increment_and_shows_its_first_quantity_against_the_grid(path):
+    axes, table = path
     assert [panel.get_title() for panel in axes[0]] == ["grid points", "tolerance", "increment (nm)", ""]
     assert axes[1, 2].get_xlabel() == "relative error of pull-off on loading"
     own = table[(table.knob == "increment") & table.own]
@@ -256,8 +267,8 @@ def test_a_path_has_a_column_for_its_increment_and_shows_its_first_quantity_agai
     assert "Observed order in grid points: pull-off on loading" in axes[1, 3].texts[0].get_text()
 
 
-def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers_have_no_increment():
-    text = footer_text(drawn(PATH_JOBS, 1, PATH_PLAN)[1], PATH_PLAN)
+def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers_have_no_increment(usual, path):
+    text = footer_text(path[1], PATH_PLAN)
     for part in (
         "points turned at tolerance 0.001 and increment 0.5 nm, reference 1024 points at tolerance 1e-06 · tolerance",
         "tolerance turned at 32 points and increment 0.5 nm, reference tolerance 1e-06 · increment",
@@ -266,7 +277,7 @@ def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers
         "increments of their own, so without a ring: quick",
     ):
         assert part in text
-    assert "adapt" not in footer_text(drawn()[1], PLAN)
+    assert "adapt" not in footer_text(usual[1], PLAN)
 
 
 @pytest.mark.parametrize(

@@ -159,7 +159,7 @@ def test_a_variant_and_a_member_do_not_depend_on_the_others():
     more = study({"vary": {"surface.hurst_exponent": [0.2, 0.5, 0.8], "surface.long_cutoff": [24.0]}, "members": 5})
     one, other = by_place(study().runs()), by_place(more.runs())
     common = one.keys() & other.keys()
-    assert len(common) == 6  # two Hurst exponents at one roll-off: two members each, and a companion
+    assert len(common) == 6  # two Hurst exponents at one roll-off: two members each, and a coarse run
     for place in common:
         assert one[place].stem == other[place].stem
         assert canonical(one[place].settings) == canonical(other[place].settings)
@@ -233,8 +233,8 @@ def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
 
 def test_a_coarse_run_samples_the_same_surface():
     runs = by_place(study().runs())
-    for (*place, member, companion), run in runs.items():
-        if companion:
+    for (*place, member, coarse), run in runs.items():
+        if coarse:
             fine, coarse = profile(runs[(*place, member, False)]), profile(run)
             # Both are sums of the same waves: they differ by the rounding of two transforms only.
             assert np.allclose(fine[::2], coarse, rtol=0, atol=1e-14 * np.abs(fine).max() * np.log2(fine.size))
@@ -259,7 +259,7 @@ def test_reduced_pressures_of_prescribed_heights_use_each_members_own_gradient_w
             pressures(run), np.array([0.01, 0.1]) * 2.0 * surface.profile_rms_gradient, rtol=1e-15
         )
         places.setdefault((*run.coordinates.values(), run.member), []).append(pressures(run).tolist())
-    assert all(loads == [loads[0]] * len(loads) for loads in places.values())  # of a run and its companion
+    assert all(loads == [loads[0]] * len(loads) for loads in places.values())  # of a run and its coarse run
     assert len({tuple(loads[0]) for loads in places.values()}) == len(places)
 
 

@@ -34,7 +34,7 @@ from support.project import (
 pytestmark = pytest.mark.slow
 
 
-ROUGH_RUNS = 2 * 2 + 2 * 1  # Hurst exponents × members, and the same of the companion
+ROUGH_RUNS = 2 * 2 + 2 * 1  # Hurst exponents × members, and the same of the coarse grid
 LONGER = {
     ("ch8", "studies.rough.load.reduced_pressure"): [0.01, 0.03, 0.1, 0.5, 1.0],
     ("ch9", "studies.smooth.load.contact_ratio"): [0.1, 0.15, 0.2, 0.25, 0.3],
