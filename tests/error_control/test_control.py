@@ -1,4 +1,4 @@
-"""An accuracy that is asked for: grid and increments follow, a coarser run confirms them, and a grid that was too coarse is refined."""
+"""Error-controlled runs: grid and increments follow, a coarser run confirms them, and a grid too coarse is refined."""
 
 from __future__ import annotations
 

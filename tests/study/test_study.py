@@ -233,8 +233,8 @@ def test_members_hurst_exponents_studies_and_seeds_are_independent_draws():
 
 def test_a_coarse_run_samples_the_same_surface():
     runs = by_place(study().runs())
-    for (*place, member, coarse), run in runs.items():
-        if coarse:
+    for (*place, member, measures_error), run in runs.items():
+        if measures_error:
             fine, coarse = profile(runs[(*place, member, False)]), profile(run)
             # Both are sums of the same waves: they differ by the rounding of two transforms only.
             assert np.allclose(fine[::2], coarse, rtol=0, atol=1e-14 * np.abs(fine).max() * np.log2(fine.size))
