@@ -21,11 +21,11 @@ from contactsim.figures.diagnostics.claims import write_claims
 from contactsim.figures.layout import write_figure
 from contactsim.files import write_text
 from contactsim.study.execute import RunFiles
-from contactsim.study.law_table import tabulated
+from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
+from contactsim.study.run import Run
 from contactsim.study.select_effects import select_effects
 from contactsim.study.stages import STAGES
-from contactsim.study.study import Run
 from support.places import ROOT
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of processes that tests start; of this one, see below
@@ -58,7 +58,7 @@ def draw_figure(plan: Plan, name: str) -> None:
     costs = [pd.read_csv(plan.results / f"costs/{study}.csv") for study in names]
     targets = {kind: f"{plan.results}/figures/{name}.{kind}" for kind in figure.endings}
     settings = json.loads(json.dumps(plan.figure_settings(name)))
-    write_figure(settings, data if law is None else [tabulated(law)], costs, targets)
+    write_figure(settings, data if law is None else [tabulate_law(law)], costs, targets)
 
 
 def assess_claims(plan: Plan, chapter: str) -> None:

@@ -1,20 +1,19 @@
-"""What a scene will cost and why: its effects, the fields that exist, what was left out, who may solve it.
+"""Explain a scene: its effects, the fields that exist, the parts that do not, its cost, and the solvers that apply.
 
-Everything said here is read off the scene and the solvers' own declarations, so it is what the simulation does.
+All is read off the scene and the solvers' own declarations, so it is what the simulation does.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, is_dataclass
 
 import numpy as np
 
-from contactsim.contact.scene import Scene
+from contactsim.contact.scene import Body, Scene
 from contactsim.dataset import SETTINGS
-from contactsim.interface.pairing import Pairing
+from contactsim.interface.base import Effect
 from contactsim.interface.registry import EFFECTS
-from contactsim.paths.increments import Increments
 from contactsim.paths.options import Setup
 from contactsim.solvers.registry import SOLVERS, default_solver, is_installed, solver_class
 from contactsim.traits import Trait
@@ -26,16 +25,36 @@ COMPONENTS = {"n": "normal", "t": "tangential"}
 class Explanation:
     """A scene in words and numbers.
 
-    effects: those that are on, with what they read and exert; pairing: which points face which; fields: what exists at
-    each point; left_out: what does not, and why; unknowns: of one load step; increments: how smooth laws are walked;
-    transforms: of an iteration; megabytes: peak, about; solvers: for each that exists, why not, or nothing; chosen: the
-    solver that will be used.
+    Parameters
+    ----------
+    bodies : (str, str)
+        The upper and the lower body.
+    effects : dict
+        Effects that act, with what they read and exert.
+    fields : tuple of str
+        Quantities that exist at each point.
+    missing : dict
+        Parts that do not exist, and why.
+    pairing : str
+        Which points face each other.
+    unknowns, steps : int
+        Unknowns of one load step, and number of steps.
+    increments : str
+        Increments of a path of cohesive laws.
+    transforms : float
+        Real transforms of an iteration.
+    megabytes : float
+        Approximate memory at its peak.
+    solvers : dict
+        Reason for which each solver does not apply; empty where it does.
+    solver : str
+        The solver that will be used.
     """
 
     bodies: tuple[str, str]
     effects: dict[str, str]
     fields: tuple[str, ...]
-    left_out: dict[str, str]
+    missing: dict[str, str]
     pairing: str
     unknowns: int
     steps: int
@@ -43,26 +62,26 @@ class Explanation:
     transforms: float
     megabytes: float
     solvers: dict[str, str]
-    chosen: str
+    solver: str
 
     @property
     def text(self) -> str:
         """The explanation as it is printed."""
-        refused = [
-            f"{name}: {why}" if why else f"{name}{' (chosen)' * (name == self.chosen)}"
-            for name, why in self.solvers.items()
+        solvers = [
+            f"{name}: {reason}" if reason else f"{name}{' (chosen)' * (name == self.solver)}"
+            for name, reason in self.solvers.items()
         ]
         parts = {
             "above": [self.bodies[0]],
             "below": [self.bodies[1]],
-            "effects on": [f"{name}: {what}" for name, what in self.effects.items()],
+            "effects on": [f"{name}: {text}" for name, text in self.effects.items()],
             "pairing": [self.pairing],
             "fields that exist": list(self.fields),
-            "left out, and why": [f"{name}: {why}" for name, why in self.left_out.items()],
+            "left out, and why": [f"{name}: {reason}" for name, reason in self.missing.items()],
             "unknowns": [f"{self.unknowns} at each of {self.steps} load steps"],
             **({"increments": [self.increments]} if self.increments else {}),
             "cost": [f"{self.transforms:g} real transforms an iteration, about {self.megabytes:.3g} MB"],
-            "solvers": refused,
+            "solvers": solvers,
         }
         return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
 
@@ -81,94 +100,107 @@ def explain_setup(setup: Setup, neglected: Sequence[str] = ()) -> Explanation:
     method = options.solver or default_solver(scene)
     size, exerted = setup.size, len(scene.exerted)
     return Explanation(
-        bodies=(_body(scene, "upper"), _body(scene, "lower")),
-        effects={_name(effect): _effect(effect) for effect in scene.effects},
+        bodies=(_describe_body(scene.upper), _describe_body(scene.lower)),
+        effects={_effect_name(effect): _describe_effect(effect) for effect in scene.effects},
         fields=tuple(
             f"{COMPONENTS[component]} {field}"
             for component in scene.components
             for field in ("displacement", *["traction"] * (component in scene.exerted))
         ),
-        left_out=dict.fromkeys(neglected, "as the study asks") | _left_out(scene),
-        pairing=_described(scene.pairing) + _slide(scene),
+        missing=dict.fromkeys(neglected, "as the study asks") | _missing_parts(scene),
+        pairing=_describe_options(scene.pairing) + _describe_slide(scene),
         unknowns=size * exerted,
         steps=len(scene.path.steps),
-        increments="" if options.increments is None else _described(options.increments),
+        increments="" if options.increments is None else _describe_options(options.increments),
         transforms=method.transforms(setup.points) * exerted,
         megabytes=method.fields * len(scene.components) * size * 8 / 1e6,
-        solvers={name: _why_not(scene, name) for name in SOLVERS},
-        chosen=next(name for name in SOLVERS if is_installed(name) and type(method) is solver_class(name)),
+        solvers={name: _refusal(scene, name) for name in SOLVERS},
+        solver=next(name for name in SOLVERS if is_installed(name) and type(method) is solver_class(name)),
     )
 
 
-def _body(scene: Scene, side: str) -> str:
-    body = getattr(scene, side)
+def _describe_body(body: Body) -> str:
+    """Return the surface and the elasticity of a body in words."""
     kind = type(body.surface).__name__
     if body.elasticity is None:
         return f"{kind}, rigid"
-    others = [entry.name for entry in fields(body.elasticity) if entry.name != "contact_modulus"]
-    given = {name: getattr(body.elasticity, name) for name in others}
-    named = "".join(f", {_setting(name, value)}" for name, value in given.items() if value is not None)
-    return f"{kind}, {type(body.elasticity).__name__} with E* = {body.elasticity.contact_modulus:g} GPa{named}"
+    values = _field_values(body.elasticity)
+    settings = [_describe_setting(name, values[name]) for name in values if name != "contact_modulus"]
+    solid = f"{type(body.elasticity).__name__} with E* = {body.elasticity.contact_modulus:g} GPa"
+    return ", ".join([kind, solid, *settings])
 
 
-def _setting(key: str, value: float) -> str:
+def _describe_setting(key: str, value: object) -> str:
+    """Return a setting with its unit."""
     unit, name = SETTINGS[key]
     return f"{name} {value:g}" + f" {unit}" * (unit != "1")
 
 
-def _name(effect: object) -> str:
+def _effect_name(effect: Effect) -> str:
+    """Return the name of an effect in the config."""
     return next(name for name, kind in EFFECTS.items() if isinstance(effect, kind))
 
 
-def _effect(effect: object) -> str:
+def _describe_effect(effect: Effect) -> str:
+    """Return what an effect is, reads and exerts."""
     reads, exerts = (" and ".join(COMPONENTS[c] for c in sorted(parts)) for parts in (effect.reads, effect.exerts))
-    first = type(effect).__doc__.split("\n")[0].rstrip(".")
-    return f"{first}; reads the {reads} gap, exerts {exerts} traction"
+    return f"{_first_sentence(effect)}; reads the {reads} gap, exerts {exerts} traction"
 
 
-def _described(kind: Increments | Pairing) -> str:
-    """What the class says of itself, and its options that are given."""
-    given = {entry.name: getattr(kind, entry.name) for entry in fields(kind)}
-    options = ", ".join(f"{name} {value}" for name, value in given.items() if value is not None)
-    return type(kind).__doc__.split("\n")[0].rstrip(".") + f" ({options})" * bool(options)
+def _describe_options(item: object) -> str:
+    """Return the first sentence of an object's class, and its options."""
+    options = ", ".join(f"{name} {value}" for name, value in _field_values(item).items())
+    return _first_sentence(item) + f" ({options})" * bool(options)
 
 
-def _slide(scene: Scene) -> str:
-    """How far the upper body slides, and under what."""
-    slides = [step for step in scene.path.steps if step.held is not None]
+def _first_sentence(item: object) -> str:
+    """Return the first line of the docstring of an object's class."""
+    return (type(item).__doc__ or "").split("\n")[0].rstrip(".")
+
+
+def _field_values(item: object) -> dict[str, object]:
+    """Return the fields of a dataclass that have a value."""
+    names = [entry.name for entry in fields(item)] if is_dataclass(item) else []
+    return {name: getattr(item, name) for name in names if getattr(item, name) is not None}
+
+
+def _describe_slide(scene: Scene) -> str:
+    """Return the slide of the upper body in words; empty without one."""
+    slides = [step for step in scene.path.steps if step.slides]
     if not slides:
         return ""
     distances = [step.sliding_distance for step in slides]
     ends = f"from {min(distances):g} to {max(distances):g} nm"
-    return f"; the upper body slides along x {ends} in {len(slides)} steps, at {slides[-1].held.text}"
+    return f"; the upper body slides along x {ends} in {len(slides)} steps, at {slides[-1].normal.text}"
 
 
-def _left_out(scene: Scene) -> dict[str, str]:
-    """What does not exist in a scene, and why."""
+def _missing_parts(scene: Scene) -> dict[str, str]:
+    """Return the parts that do not exist in a scene, and why."""
     unused = "no effect reads or exerts them" if scene.slips else "the surfaces do not slip: laws have no slip to feel"
-    out = {
+    parts = {
         f"{COMPONENTS[component]} displacement and traction": unused
         for component in COMPONENTS
         if component not in scene.components
     }
-    out |= {
+    parts |= {
         f"{COMPONENTS[component]} unknowns": "no effect exerts it: it follows the normal displacement, wave by wave"
         for component in scene.components
         if component not in scene.exerted
     }
-    for side in ("upper", "lower"):
-        if getattr(scene, side).elasticity is None:
-            out[f"deformation of the {side} body"] = "rigid: absent, not stiff"
+    for side, body in (("upper", scene.upper), ("lower", scene.lower)):
+        if body.elasticity is None:
+            parts[f"deformation of the {side} body"] = "rigid: absent, not stiff"
     if len(scene.elasticities) == 2:
-        out["the second displacement field"] = "aligned bodies: their compliances add"
+        parts["the second displacement field"] = "aligned bodies: their compliances add"
     if scene.compliance(np.zeros(1))[0] == 0:
-        free, kept = "free on a half-space: zero by convention", "zero: an incompressible layer keeps its volume"
-        out["mean displacement"] = free if Trait.HALF_SPACE in scene.traits else kept
-    unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(on, kind) for on in scene.effects)]
-    return out | dict.fromkeys(unlisted, "does not act")
+        free, fixed = "free on a half-space: zero by convention", "zero: an incompressible layer keeps its volume"
+        parts["mean displacement"] = free if Trait.HALF_SPACE in scene.traits else fixed
+    unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(effect, kind) for effect in scene.effects)]
+    return parts | dict.fromkeys(unlisted, "does not act")
 
 
-def _why_not(scene: Scene, name: str) -> str:
+def _refusal(scene: Scene, name: str) -> str:
+    """Return the reason for which a solver cannot solve a scene; empty if it can."""
     if not is_installed(name):
         return "is not installed"
     missing = sorted(trait.value for trait in scene.traits - solver_class(name).accepts)

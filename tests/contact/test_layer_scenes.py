@@ -54,17 +54,17 @@ def test_a_solver_that_knows_half_spaces_alone_refuses_a_layer():
 def test_an_explanation_names_the_layer_and_says_where_the_volume_is_fixed():
     explanation = explained(scene(Layer(1.0, 0.3, 100.0)))
     assert explanation.bodies[1] == "Flat, Layer with E* = 1 GPa, Poisson's ratio 0.3, thickness 100 nm"
-    assert "mean displacement" not in explanation.left_out
+    assert "mean displacement" not in explanation.missing
     assert {name: explanation.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
     for ratio, named in ((None, ""), (0.3, ", Poisson's ratio 0.3")):
         bodies = explained(scene(HalfSpace(1.0, ratio))).bodies
         assert bodies[1] == f"Flat, HalfSpace with E* = 1 GPa{named}"
     incompressible = explained(scene(Layer(1.0, 0.5, 100.0)))
-    assert incompressible.left_out["mean displacement"] == "zero: an incompressible layer keeps its volume"
+    assert incompressible.missing["mean displacement"] == "zero: an incompressible layer keeps its volume"
     free = explained(scene(Layer(1.0, 0.5, 100.0), HalfSpace(1.0)))
-    assert free.left_out["mean displacement"].startswith("free on a half-space")
+    assert free.missing["mean displacement"].startswith("free on a half-space")
     compressible = explained(scene(Layer(1.0, 0.3, 100.0), HalfSpace(1.0)))
-    assert "mean displacement" not in compressible.left_out
+    assert "mean displacement" not in compressible.missing
 
 
 def test_peak_memory_on_a_layer_is_within_what_is_explained():

@@ -43,7 +43,8 @@ from contactsim.paths.options import Setup
 from contactsim.solvers.registry import make_solver
 from contactsim.study import execute_to_accuracy
 from contactsim.study.execute import RunFiles
-from contactsim.study.study import Run, Study
+from contactsim.study.run import Run
+from contactsim.study.study import Study
 from support.cases import refused
 from support.places import ROOT
 

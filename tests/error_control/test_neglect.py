@@ -21,7 +21,8 @@ from contactsim.paths.options import Setup
 from contactsim.study import execute_neglecting
 from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
-from contactsim.study.study import Run, Study
+from contactsim.study.run import Run
+from contactsim.study.study import Study
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from support.cases import refused
 from support.places import ROOT

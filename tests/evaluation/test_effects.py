@@ -158,15 +158,15 @@ def test_what_is_not_listed_is_not_stored():
 def test_an_explanation_says_what_is_on_what_is_not_and_who_may_solve_it():
     explanation = explained(scene())
     assert explanation.fields == ("normal displacement", "normal traction")
-    assert explanation.left_out["tangential displacement and traction"] == "no effect reads or exerts them"
-    assert explanation.left_out["deformation of the upper body"].startswith("rigid")
+    assert explanation.missing["tangential displacement and traction"] == "no effect reads or exerts them"
+    assert explanation.missing["deformation of the upper body"].startswith("rigid")
     assert explanation.unknowns == 256
     assert {name: explanation.solvers[name] for name in ALL} == dict.fromkeys(ALL, "")
     moved = explained(scene(path=loading.approaches([-0.5])))
     assert "approach" in moved.solvers["verlet"]
     assert "verlet: does not take load step given by an approach" in moved.text
     both = scene(Body(Flat(64.0), HalfSpace(2.0)), Body(Sinusoid(64.0, 1.0), HalfSpace(2.0)))
-    assert "the second displacement field" in explained(both).left_out
+    assert "the second displacement field" in explained(both).missing
 
 
 def test_a_smooth_scene_asks_for_no_random_numbers():

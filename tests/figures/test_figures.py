@@ -20,7 +20,7 @@ from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
 from contactsim.study.claim_plan import quantities
-from contactsim.study.law_table import tabulated
+from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from support.places import ROOT
@@ -32,7 +32,7 @@ def figure_data(made, name):
     """The datasets that a figure shows, as it shows them."""
     figure = PLAN.figures[name]
     if figure.settings["law"] is not None:
-        return [tabulated(figure.settings["law"])]
+        return [tabulate_law(figure.settings["law"])]
     paths = [made / f"results/quick/datasets/{PLAN.dataset_name(study)}.nc" for study in figure.studies]
     return [layout.selected(dataset.load_dataset(path), figure.settings["select"]) for path in paths]
 

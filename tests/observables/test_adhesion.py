@@ -25,7 +25,7 @@ from contactsim.observables.adhesion import (
     summarise_load_curves,
 )
 from contactsim.simulation import simulate
-from contactsim.study.law_table import tabulated
+from contactsim.study.law_table import tabulate_law
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.surfaces.statistics import local_squares, rms_gradient
 from support.smooth import LAWS, LENGTH, along, scene_of
@@ -129,7 +129,7 @@ def test_a_stiff_cylinder_pulls_off_like_a_rigid_one(law):
 def test_a_tabulated_law_peaks_at_its_strengths():
     settings = {"effect": "cohesive_zone", "work_of_separation": 2.0, "work_ratio": 0.5, "normal_length": 1.5}
     settings |= {"tangential_length": 0.8, "normal_gap": [-0.5, 0.0, 1.0], "tangential_gap": [0.0, 0.4], "reach": 6.0}
-    data = tabulated(settings)
+    data = tabulate_law(settings)
     normal = reference.normal_strength(2.0, 1.5, data.tangential_gap.values / 0.8)
     assert np.allclose(data.normal_traction.max("opening"), normal, rtol=1e-4)
     tangential = reference.tangential_strength(1.0, 0.8, data.normal_gap.values / 1.5)

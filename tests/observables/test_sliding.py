@@ -20,7 +20,7 @@ from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.work_precision.knobs import summarise_solutions
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice
-from contactsim.observables import friction, peeling, sliding
+from contactsim.observables import friction, peeling, polyline, sliding
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.state import PathState
@@ -299,11 +299,11 @@ def test_edges_lie_between_nodes_and_wrap_around():
 
 def line(
     sliding_distance: list[float], force: list[float], after: tuple[int, ...] = (), width: float = 0.01
-) -> friction.Polyline:
+) -> polyline.Polyline:
     sliding_distance, force = np.array(sliding_distance, float), np.array(force, float)
     slipped = np.isin(np.arange(sliding_distance.size), after)
     wide = np.where(slipped | np.isin(np.arange(sliding_distance.size), np.array(after, int) - 1), width, 0.0)
-    return friction.Polyline(
+    return polyline.Polyline(
         sliding_distance, force, np.full(sliding_distance.size, np.nan), slipped, wide, np.arange(sliding_distance.size)
     )
 
@@ -347,13 +347,13 @@ def test_peeling_at_one_edge_is_asymmetric():
 def test_a_force_is_averaged_over_whole_lattice_constants():
     sliding_distance = np.linspace(0, 10, 1001)
     wave = line(sliding_distance, 2 + np.sin(2 * np.pi * sliding_distance / 3.0))
-    mean, error = friction.average_force(wave, 3.0)
+    mean, error = polyline.average_force(wave, 3.0)
     assert mean == pytest.approx(2.0, abs=1e-4)
     assert abs(mean - 2.0) <= error < 1e-3
-    assert np.isnan(friction.average_force(wave, 11.0)).all()
-    assert np.isnan(friction.average_force(line([0, 1, 0], [0, 1, 0]), 0.1)).all()
+    assert np.isnan(polyline.average_force(wave, 11.0)).all()
+    assert np.isnan(polyline.average_force(line([0, 1, 0], [0, 1, 0]), 0.1)).all()
     sawtooth = line([0, 2, 2, 4, 4, 6], [0, 2, 0, 2, 0, 2], after=(2, 4), width=0.0)
-    assert friction.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
+    assert polyline.average_force(sawtooth, 2.0)[0] == pytest.approx(1.0)
 
 
 def test_a_slide_without_an_onset_has_no_static_friction():

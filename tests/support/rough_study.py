@@ -11,7 +11,8 @@ import pytest
 from contactsim.errors import InputError
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
-from contactsim.study.study import Run, Study
+from contactsim.study.run import Run
+from contactsim.study.study import Study
 
 ROUGH = {
     "title": "Rough line",

@@ -22,8 +22,8 @@ from contactsim.evaluation.robustness import survey as hazard_survey
 from contactsim.evaluation.work_precision import case_config, cases
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
+from contactsim.study.run import Run
 from contactsim.study.stages import STAGES, stage_digest
-from contactsim.study.study import Run
 
 ByWildcards = Callable[[Wildcards], Any]
 

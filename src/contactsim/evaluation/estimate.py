@@ -20,7 +20,7 @@ from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.evaluation.work_precision.case_config import read_all_tiers, read_cases
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
-from contactsim.study.study import Run
+from contactsim.study.run import Run
 
 
 @dataclass(frozen=True)

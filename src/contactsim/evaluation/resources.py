@@ -13,8 +13,8 @@ from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import expected_neglect
 from contactsim.errors import InputError
 from contactsim.provenance import canonical
+from contactsim.study.run import Run
 from contactsim.study.scenes import build_setup
-from contactsim.study.study import Run
 
 START_SECONDS = 1.0
 """CPU seconds that a job takes beside its computation."""

@@ -1,11 +1,17 @@
-"""Effects and pairings by their names in the configuration."""
+"""Classes of effects and pairings by their names in the configuration."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import Aligned
 
-EFFECTS = {"hard_wall": HardWall, "cohesive_zone": CohesiveZone, "normal_cohesive_zone": NormalCohesiveZone}
+EFFECTS: dict[str, Any] = {
+    "hard_wall": HardWall,
+    "cohesive_zone": CohesiveZone,
+    "normal_cohesive_zone": NormalCohesiveZone,
+}
 PAIRINGS = {"aligned": Aligned, "lattice": Lattice}

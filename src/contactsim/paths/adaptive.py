@@ -7,9 +7,8 @@ interpolated traction.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,102 +16,16 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError, is_number
 from contactsim.paths.continuation import Continuation
+from contactsim.paths.increment_control import ROUNDING, IncrementController
 from contactsim.paths.jumps import Jump
-from contactsim.paths.segments import Segment
+from contactsim.paths.legs import Leg, leg_end
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-SAFETY, MIN_FACTOR, MAX_FACTOR = 0.9, 0.4, 2.0
-"""Share of the increment that the error allows, and smallest and largest factor between two increments."""
 DEFAULT_ERROR, DEFAULT_MIN, DEFAULT_MAX = 0.005, 0.01, 1.0
 """Error of a prediction, and smallest and largest increment of an approach, in the laws' length."""
-ROUNDING = 1e-6
-"""Part of an increment below which two parameters are the same."""
-REJECTION = 4.0
-"""Ratio of the error of a prediction to the allowed error beyond which an increment is rejected."""
-
-
-@dataclass
-class IncrementController:
-    """Control of the increments of a path by the error of the predictions.
-
-    Attributes
-    ----------
-    error
-        Allowed error of a prediction, nm.
-    smallest, largest
-        Bounds of the increment, nm or GPa.
-    increment
-        Length of the next increment, nm or GPa.
-    """
-
-    error: float
-    smallest: float
-    largest: float
-    increment: float
-
-    def propose(self, parameter: float, end: float) -> float:
-        """Return the next parameter towards the end; the last two increments are equal, to interpolate well."""
-        distance = end - parameter
-        if abs(distance) <= self.increment * (1 + ROUNDING):
-            return end
-        return parameter + math.copysign(min(self.increment, abs(distance) / 2), distance)
-
-    def rejects(self, error: float) -> bool:
-        """Return True if a prediction with that error (nm) asks for a shorter increment, and there is one."""
-        return not error <= REJECTION * self.error and self.increment > self.smallest
-
-    def shrink(self) -> None:
-        """Shorten the increment after a rejection."""
-        self.increment = max(self.increment * MIN_FACTOR, self.smallest)
-
-    def accept(self, error: float, order: int, flowed: bool) -> None:
-        """Adapt the increment after a prediction of that error (nm) and polynomial order, or after a flow."""
-        unknown = flowed or not 0 < error < np.inf
-        factor = MAX_FACTOR if unknown else SAFETY * (self.error / error) ** (1 / (order + 1))
-        increment = self.increment * np.clip(factor, MIN_FACTOR, MAX_FACTOR)
-        self.increment = float(np.clip(increment, self.smallest, self.largest))
-
-
-@dataclass
-class Leg:
-    """A part of a path under one control and in one direction, and the segments of states that were solved on it."""
-
-    steps: Sequence[LoadStep]
-    segments: list[Segment] = field(default_factory=lambda: [Segment()])
-    iterations: int = 0
-    status: Status = Status.CONVERGED
-
-    @property
-    def direction(self) -> int:
-        """Sign of the change of the parameter along the leg."""
-        parameters = self.segments[0].parameters
-        start = parameters[0] if parameters else self.steps[0].value
-        return 1 if self.steps[-1].value >= start else -1
-
-    def add(self, parameter: float, state: Equilibrium, jumps: tuple[Jump, ...]) -> None:
-        """Append a solved state; jumps on the way to it begin a new segment."""
-        if jumps:
-            self.segments.append(Segment(jumps))
-        self.segments[-1].add(parameter, state)
-
-    def passed_segments(self, value: float) -> list[Segment]:
-        """Return the segments that begin before a parameter, or at it."""
-        return [
-            segment
-            for segment in self.segments
-            if segment.parameters and self.direction * (value - segment.parameters[0]) >= 0
-        ]
-
-    def jumps_before(self, value: float) -> tuple[Jump, ...]:
-        """Return the jumps between the requested state at a parameter and the one requested before it."""
-        direction = self.direction
-        earlier = [direction * step.value for step in self.steps if direction * (value - step.value) > 0]
-        previous = max(earlier, default=-np.inf)
-        new = [item for item in self.passed_segments(value) if direction * item.parameters[0] > previous]
-        return tuple(jump for segment in new for jump in segment.jumps)
 
 
 @dataclass(frozen=True)
@@ -164,7 +77,7 @@ class Adaptive:
         self.check(problem.grid.size, steps, solver)
         path, begin = Continuation(problem, solver), 0
         while begin < len(steps):
-            end = _leg_end(steps, begin, path.parameter(steps[begin]))
+            end = leg_end(steps, begin, path.parameter(steps[begin]))
             transforms = problem.counter.transforms
             leg = self._solve_leg(path, steps[begin:end])
             transforms = problem.counter.transforms - transforms
@@ -259,19 +172,3 @@ def _flow_to(path: Continuation, step: LoadStep) -> tuple[Equilibrium, tuple[Jum
 def _is_between(parameter: float | None, value: float, goal: float) -> bool:
     """Return True if a value lies after a parameter, by more than rounding, and not after the goal."""
     return parameter is not None and ROUNDING < (value - parameter) / (goal - parameter) <= 1
-
-
-def _leg_end(steps: Sequence[LoadStep], begin: int, parameter: float | None) -> int:
-    """Return the end (exclusive) of the leg that begins at a step: one control, one direction; a hold is a leg too.
-
-    `parameter` is that of the current state, None at the beginning of the path.
-    """
-    before, direction = parameter, None
-    for index in range(begin, len(steps)):
-        if steps[index].control is not steps[begin].control:
-            return index
-        change = None if before is None else float(np.sign(steps[index].value - before))
-        if direction is not None and change != direction:
-            return index
-        before, direction = steps[index].value, change
-    return len(steps)

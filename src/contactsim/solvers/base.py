@@ -23,7 +23,7 @@ from contactsim.traits import Trait
 
 
 class Solver(Protocol):
-    """What is common to solvers of both kinds of problem."""
+    """Common part of the solvers of both kinds of problem."""
 
     @property
     def accepts(self) -> frozenset[Trait]:
@@ -91,7 +91,7 @@ class Result:
     approach
         Approach, nm; see `contactsim.contact.loading`.
     status
-        How the solution ended.
+        Status of the solution.
     record
         Cost and quality.
     seconds

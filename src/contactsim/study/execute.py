@@ -38,7 +38,7 @@ def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
     Parameters
     ----------
     settings : dict
-        Settings of a `contactsim.study.study.Run`.
+        Settings of a `contactsim.study.run.Run`.
     source : str
         Digest of the code that computes it.
     files : RunFiles

@@ -24,8 +24,8 @@ def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
 
 def compute(setup: Setup, settings: dict, source: str, files: RunFiles) -> tuple[xr.Dataset, dict]:
     """Return the dataset of a run to its accuracy, and its settings with the grid that this took."""
-    accuracy = setup.options.accuracy
-    controlled = solve_to_error(setup, accuracy.error, accuracy.quantities)
+    accuracy = settings["accuracy"]
+    controlled = solve_to_error(setup, accuracy["error"], tuple(accuracy["quantities"]))
     if not controlled.met:
         logger.warning("an accuracy of %g is not reached: %s", controlled.wanted, controlled.summary)
     return controlled.data, updated_settings(settings, controlled.last.setup)

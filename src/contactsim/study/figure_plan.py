@@ -6,6 +6,7 @@ import ast
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from contactsim.analysis.ensemble import widen_interval
 from contactsim.errors import InputError
@@ -106,7 +107,9 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
     first, load = study.runs()[0], study.settings["load"]
     if FIELDS not in study.settings["keep"] or Trait.SURFACE not in first.setup.scene.traits:
         raise InputError(f"{prefix}.study", study.name, "a study of surfaces, not lines, that keeps `fields`", file)
-    places = [run.coordinates | {"member": run.member} for run in study.runs() if not run.measures_error]
+    places: list[dict[str, Any]] = [
+        run.coordinates | {"member": run.member} for run in study.runs() if not run.measures_error
+    ]
     places = [place | {load["name"]: value} for place in places for value in load["values"]]
     for dim, (least, largest) in settings["select"].items():
         low, high = widen_interval(least, largest)

@@ -1,9 +1,9 @@
-"""What a study says of each kind of problem: its keys, loads, quantities and options."""
+"""Differences between studies of the two kinds of problem: their keys, loads, quantities and options."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.scene import ProblemKind, Scene
@@ -20,9 +20,16 @@ from contactsim.paths.options import Setup
 class StudyKind(Protocol):
     """Differences between studies of the two kinds of problem.
 
-    keys: what is asked for beside the scene, which studies of the other kind have no use for; sections: parts that
-    runs depend on; needs_path: True where single loads have no meaning; comparable: quantities whose change can say
-    whether an effect is negligible.
+    Attributes
+    ----------
+    keys
+        Keys that studies of the other kind have no use for.
+    sections
+        Parts that runs depend on.
+    needs_path
+        True where single loads have no meaning.
+    comparable
+        Quantities whose change can say whether an effect is negligible.
     """
 
     keys: tuple[str, ...]
@@ -34,7 +41,7 @@ class StudyKind(Protocol):
         """Return what a run of that member keeps, as settings."""
         ...
 
-    def options(self, settings: Mapping) -> dict[str, object]:
+    def options(self, settings: Mapping) -> dict[str, Any]:
         """Return the run options that only this kind has."""
         ...
 
@@ -50,16 +57,16 @@ class StudyKind(Protocol):
 class HardWallStudy:
     """Loads at a hard wall."""
 
-    keys = ("keep",)
-    sections = ()
+    keys: tuple[str, ...] = ("keep",)
+    sections: tuple[str, ...] = ()
     needs_path = False
-    comparable = ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
+    comparable: tuple[str, ...] = ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
 
     def run_settings(self, settings: Mapping, member: int) -> dict:
         """Return what is kept of each solution."""
         return {"keep": settings["keep"]}
 
-    def options(self, settings: Mapping) -> dict[str, object]:
+    def options(self, settings: Mapping) -> dict[str, Any]:
         """Return what is kept of each solution."""
         return {"keep": tuple(settings["keep"])}
 
@@ -74,17 +81,17 @@ class HardWallStudy:
 class CohesiveStudy:
     """Paths of cohesive laws."""
 
-    keys = ("increments", "snapshots", "snapshot_members")
-    sections = ("increments",)
+    keys: tuple[str, ...] = ("increments", "snapshots", "snapshot_members")
+    sections: tuple[str, ...] = ("increments",)
     needs_path = True
-    comparable = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
+    comparable: tuple[str, ...] = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
 
     def run_settings(self, settings: Mapping, member: int) -> dict:
         """Return where snapshots are kept, and if they have fields."""
         fields = member < (settings["snapshot_members"] or settings["members"])
         return {"snapshots": settings["snapshots"], "keep_fields": fields}
 
-    def options(self, settings: Mapping) -> dict[str, object]:
+    def options(self, settings: Mapping) -> dict[str, Any]:
         """Return the increments and what is kept at snapshots."""
         section = dict(settings["increments"])
         return {
@@ -97,7 +104,8 @@ class CohesiveStudy:
         """Raise InputError for a tolerance, increments or snapshots that the path cannot have."""
         scene, options = setup.scene, setup.options
         check_tolerance(options.tolerance)
-        (options.increments or Requested()).check(setup.points, scene.path.steps, options.solver)
+        solver: Any = options.solver  # one of cohesive problems, as the scene has been checked
+        (options.increments or Requested()).check(setup.points, scene.path.steps, solver)
         for value in options.snapshots or ():
             scene.path.nearest(value)
 

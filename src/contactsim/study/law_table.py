@@ -7,13 +7,14 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.errors import InputError
+from contactsim.interface.base import Law
 from contactsim.interface.registry import EFFECTS
 from contactsim.provenance import source_digest
 from contactsim.study.reading import Key, choice, keys_of, listed, number, positive, read
 
 MIXED = tuple(name for name, law in EFFECTS.items() if {"n", "t"} <= law.reads)
-POINTS = 601
-"""Of each curve."""
+CURVE_POINTS = 601
+"""Points of each curve."""
 
 LAW_KEYS = {
     "effect": Key(choice(MIXED), f"one of {', '.join(MIXED)}"),
@@ -24,9 +25,9 @@ LAW_KEYS = {
 
 
 def read_law(section: dict, file: object, prefix: str) -> dict:
-    """The settings of a law that is tabulated: those above, and its own options."""
+    """Return the settings of a law that is tabulated: those above, and its own options."""
     effect = read({"effect": section.get("effect")}, {"effect": LAW_KEYS["effect"]}, file, prefix)["effect"]
-    settings = read(section, LAW_KEYS | keys_of(EFFECTS[effect]), file, prefix)
+    settings = read(section, {**LAW_KEYS, **keys_of(EFFECTS[effect])}, file, prefix)
     try:
         law = _law(settings)
     except InputError as error:
@@ -36,15 +37,15 @@ def read_law(section: dict, file: object, prefix: str) -> dict:
     return settings
 
 
-def tabulated(settings: dict) -> xr.Dataset:
-    """Tractions (GPa) of a law: normal (tangential_gap, opening), tangential (normal_gap, slip); gaps in nm.
+def tabulate_law(settings: dict) -> xr.Dataset:
+    """Return the tractions (GPa) of a law: normal (tangential_gap, opening), tangential (normal_gap, slip); gaps in nm.
 
     settings: as `read_law` returns them. The opening goes from -1 nm up to the reach, the slip over both signs of it.
     """
     law, reach = _law(settings), settings["reach"]
-    opening, slip = np.linspace(-1.0, reach, POINTS), np.linspace(-reach, reach, POINTS)
-    normal = [law.traction(np.stack((opening, np.full(POINTS, at))))[0] for at in settings["tangential_gap"]]
-    tangential = [law.traction(np.stack((np.full(POINTS, at), slip)))[1] for at in settings["normal_gap"]]
+    opening, slip = np.linspace(-1.0, reach, CURVE_POINTS), np.linspace(-reach, reach, CURVE_POINTS)
+    normal = [law.traction(np.stack((opening, np.full(CURVE_POINTS, at))))[0] for at in settings["tangential_gap"]]
+    tangential = [law.traction(np.stack((np.full(CURVE_POINTS, at), slip)))[1] for at in settings["normal_gap"]]
     data = xr.Dataset(
         {
             "normal_traction": (("tangential_gap", "opening"), normal),
@@ -61,5 +62,6 @@ def tabulated(settings: dict) -> xr.Dataset:
     return dataset.stamped(dataset.described(data), title, settings, source_digest("contactsim.study.law_table"))
 
 
-def _law(settings: dict) -> object:
+def _law(settings: dict) -> Law:
+    """Return the law with its options."""
     return EFFECTS[settings["effect"]](**{name: settings[name] for name in keys_of(EFFECTS[settings["effect"]])})

@@ -16,9 +16,10 @@ from contactsim.study.claim_plan import Claim
 from contactsim.study.figure_plan import Figure
 from contactsim.study.reading import Key, load_yaml, mapping, read, text, whole
 from contactsim.study.reserved_names import reserved_names
+from contactsim.study.run import Run
 from contactsim.study.select_effects import selection_digest
 from contactsim.study.stages import stage_digest
-from contactsim.study.study import Run, Study
+from contactsim.study.study import Study
 
 CONFIG_KEYS = {
     "seed": Key(whole(0), "a whole number, 0 or more"),

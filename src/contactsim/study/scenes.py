@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from functools import lru_cache
 
 import numpy as np
@@ -40,7 +39,7 @@ def build_setup(settings: Mapping, threads: int = 1) -> Setup:
     Parameters
     ----------
     settings : mapping
-        Settings of a `contactsim.study.study.Run`, checked and complete.
+        Settings of a `contactsim.study.run.Run`, checked and complete.
     threads : int
         Threads of the transforms.
     """
@@ -199,7 +198,7 @@ def updated_settings(settings: Mapping, setup: Setup) -> dict:
     settings = dict(settings) | {"points": options.points, "tolerance": options.tolerance}
     if options.increments is not None:
         kind = next(name for name, kind in INCREMENTS.items() if type(options.increments) is kind)
-        settings["increments"] = {"kind": kind} | asdict(options.increments)
+        settings["increments"] = {"kind": kind} | vars(options.increments)
     sections = [name for name in ("load", "slide") if "increment" in (settings.get(name) or {})]
     for name, part in zip(sections, (part for part in path.parts if part.increment is not None), strict=True):
         settings[name] = settings[name] | {"increment": part.increment}

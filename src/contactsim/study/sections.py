@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contactsim.contact.loading import sweep
 from contactsim.errors import InputError
+from contactsim.interface.registry import EFFECTS
 from contactsim.solvers.registry import DEFAULT_SOLVERS
 from contactsim.study.keys import (
     ACCURACY_KEYS,
@@ -175,3 +176,14 @@ def default_solver_kind(settings: dict) -> str:
     kind = SURFACES.get(str(surface.get("kind")), Flat)
     dimensions = surface.get("dimensions", getattr(kind, "dimensions", 2 if surface.get("width") else 1))
     return DEFAULT_SOLVERS[problem_kind(settings["effects"]), dimensions]
+
+
+def refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for the section of an effect that the study lacks, or a key of the other kind of problem."""
+    others = [name for name in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])) if settings[name]]
+    own = study_kind(settings)
+    unused = [key for kind in STUDY_KINDS.values() if kind is not own for key in kind.keys]
+    for key in [*others, *(key for key in unused if section.get(key) is not None)]:
+        what = "section" if key in EFFECTS else "key"
+        allowed = f"no such {what}, as effects are {', '.join(settings['effects'])}"
+        raise InputError(f"{prefix}.{key}", settings[key], allowed, file)

@@ -12,20 +12,20 @@ import itertools
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any, cast
 
 from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
-from contactsim.error_control.relations import FILE
 from contactsim.errors import InputError
 from contactsim.interface.registry import EFFECTS
-from contactsim.paths.options import Setup
 from contactsim.provenance import digest
-from contactsim.solvers.base import check_solver
-from contactsim.solvers.registry import check_installed, solver_module
+from contactsim.solvers.base import Solver, check_solver
+from contactsim.solvers.registry import check_installed
 from contactsim.study.keys import BODIES, ERROR_RUNS, MODULI, RIGID, SECTION_KINDS, STUDY_KEYS
-from contactsim.study.kinds import STUDY_KINDS, study_kind
-from contactsim.study.reading import Key, choice, keys_of, read
+from contactsim.study.kinds import study_kind
+from contactsim.study.reading import Key, choice, keys_of, mapping, read
+from contactsim.study.run import Run
 from contactsim.study.scenes import build_scene, build_setup, updated_settings
 from contactsim.study.sections import (
     default_solver_kind,
@@ -35,68 +35,8 @@ from contactsim.study.sections import (
     read_load,
     read_slide,
     read_slide_section,
+    refuse_unused,
 )
-from contactsim.study.stages import computing_stage_digest
-
-
-@dataclass(frozen=True)
-class Run:
-    """One job of a study.
-
-    Parameters
-    ----------
-    study, variant : str
-        Names of the study and of the variant.
-    member : int
-        Number in the ensemble.
-    coordinates : dict
-        Varied values by dimension of the study's dataset.
-    settings : dict
-        Every value that the run depends on.
-    error : str
-        Kind of error that it measures, of `keys.ERROR_RUNS`; empty for the study's own runs.
-    """
-
-    study: str
-    variant: str
-    member: int
-    coordinates: dict[str, object]
-    settings: dict
-    error: str = ""
-
-    @property
-    def measures_error(self) -> bool:
-        """True where it only measures an error."""
-        return bool(self.error)
-
-    @cached_property
-    def setup(self) -> Setup:
-        """Scene and options."""
-        return build_setup(self.settings)
-
-    @property
-    def stage(self) -> str:
-        """Stage of the workflow that computes it, of `stages.STAGES`."""
-        if "auto" in self.settings:
-            return "run_neglecting"
-        return "run_to_accuracy" if "accuracy" in self.settings else "run"
-
-    @cached_property
-    def source(self) -> str:
-        """Digest of the code that computes the run, its one solver, the libraries and the relations it is chosen by."""
-        code = computing_stage_digest(self.stage, solver_module(self.settings["solver"]["kind"]))
-        relations = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
-        return digest(code, *relations)
-
-    @cached_property
-    def digest(self) -> str:
-        """Digest of the settings and of the code that computes the run."""
-        return digest(self.settings, self.source)
-
-    @property
-    def stem(self) -> str:
-        """Path of the run's files below runs/ and costs/runs/, without their endings."""
-        return f"{self.study}/{self.variant}/{self.member}"
 
 
 @dataclass(frozen=True)
@@ -124,14 +64,14 @@ class Study:
     def read(cls, name: str, section: object, file: object, seed: int) -> Study:
         """Check a section of a chapter's config, down to the scene of every variant."""
         prefix = f"studies.{name}"
-        settings = read(section, STUDY_KEYS, file, prefix)
-        settings = read_accuracy(section, settings | read_effects(settings, file, prefix), file, prefix)
+        settings, own = read(section, STUDY_KEYS, file, prefix), mapping(section)
+        settings = read_accuracy(own, settings | read_effects(settings, file, prefix), file, prefix)
         settings["load"] = read_load(settings, file, prefix)
         settings["slide"] = read_slide(settings, file, prefix)
         if settings["points"] is not None and "points" in settings["vary"]:
             raise InputError(f"{prefix}.points", settings["points"], "left out, for points are varied", file)
         settings["solver"] = {"kind": default_solver_kind(settings)} | settings["solver"]
-        _refuse_unused(section, settings, file, prefix)
+        refuse_unused(own, settings, file, prefix)
         for part in ERROR_RUNS:
             if settings[part] is not None:
                 settings[part] = read_error_run(part, settings, file, prefix)
@@ -180,7 +120,7 @@ class Study:
             dict(zip(names, values, strict=True))
             for values in itertools.product(*(self._values(name) for name in names))
         ]
-        changes = [("", {}, self.settings["members"])]
+        changes: list[tuple[str, dict[str, object], int]] = [("", {}, self.settings["members"])]
         for part, (knob, error, _) in ERROR_RUNS.items():
             if self.settings[part] is not None:
                 value = self.settings[part].get(knob, [])  # with nothing left out
@@ -209,7 +149,8 @@ class Study:
         """Return the run of one variant and member; change: what a run that measures an error does otherwise."""
         parts, points = self._varied_parts(varied)
         kind = study_kind(self.settings)
-        settings = {"study": self.settings["same_surfaces_as"] or self.name, "member": member, "seed": self.seed}
+        name = self.settings["same_surfaces_as"] or self.name
+        settings: dict[str, Any] = {"study": name, "member": member, "seed": self.seed}
         settings |= {name: self.settings[name] for name in ("effects", "load", "tolerance", "neglect")}
         settings |= kind.run_settings(self.settings, member) | {"points": points} | change | parts
         if "through" in settings["load"]:  # says all, and is short
@@ -288,7 +229,7 @@ class Study:
         own = {"kind": section["kind"]} if "kind" in section else {}
         kind = read(own, {"kind": key}, self.file, prefix)["kind"]
         moduli = MODULI if name in BODIES and kind != RIGID else {}
-        keys = {"kind": key} | keys_of(class_of(kind)) | moduli
+        keys = {"kind": key, **keys_of(class_of(kind)), **moduli}
         values = read(section, keys, self.file, prefix)
         return {key: value for key, value in values.items() if key not in MODULI or value}
 
@@ -305,20 +246,9 @@ class Study:
         try:
             scene = run.setup.scene
             check_installed(run.settings["solver"]["kind"])
-            check_solver(run.setup.options.solver, scene)
+            check_solver(cast(Solver, run.setup.options.solver), scene)
             scene.upper.surface.check(run.setup.points)
             study_kind(run.settings).check(run.setup)
         except InputError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.located(self.file, f"studies.{self.name}{section}") from error
-
-
-def _refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> None:
-    """Raise InputError for the section of an effect that the study lacks, or a key of the other kind of problem."""
-    others = [name for name in sorted(set(settings) & set(EFFECTS) - set(settings["effects"])) if settings[name]]
-    own = study_kind(settings)
-    unused = [key for kind in STUDY_KINDS.values() if kind is not own for key in kind.keys]
-    for key in [*others, *(key for key in unused if section.get(key) is not None)]:
-        what = "section" if key in EFFECTS else "key"
-        allowed = f"no such {what}, as effects are {', '.join(settings['effects'])}"
-        raise InputError(f"{prefix}.{key}", settings[key], allowed, file)

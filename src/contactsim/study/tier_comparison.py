@@ -37,7 +37,7 @@ def _compare_figure(first: Plan, second: Plan, name: str) -> pd.DataFrame:
                 allowed = f"one of {', '.join(numeric)}; {_remedy(plan, name)}"
                 raise InputError(f"figures.{name}.compare", column, allowed, _path(plan, name))
     try:
-        return differences(join_rows(*tables, keys), figure.compare)
+        return differences(join_rows(tables[0], tables[1], keys), figure.compare)
     except InputError as error:
         raise error.located(f"{_path(first, name)} and {_path(second, name)}", f"figures.{name}") from error
 

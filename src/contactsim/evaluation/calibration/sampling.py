@@ -11,7 +11,8 @@ from contactsim.error_control.knobs import MIN_PRESSING_INCREMENT
 from contactsim.error_control.scaling import FAMILIES, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.errors import InputError
 from contactsim.study.reading import Key, listed, mapping, pair, positive, read, size, text, tiered, whole
-from contactsim.study.study import Run, Study
+from contactsim.study.run import Run
+from contactsim.study.study import Study
 
 DRAW_KEYS = {"seed": Key(whole(0), "a whole number, 0 or more"), "scenes": Key(whole(1), "how many of each kind")}
 KEYS = {

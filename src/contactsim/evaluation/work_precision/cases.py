@@ -25,8 +25,9 @@ from contactsim.provenance import digest
 from contactsim.solvers.registry import is_installed, package_version, solver_module
 from contactsim.study.execute import label_run
 from contactsim.study.keys import ERROR_RUNS
+from contactsim.study.run import Run
 from contactsim.study.stages import computing_stage_digest
-from contactsim.study.study import Run, Study
+from contactsim.study.study import Study
 
 REFERENCE = "reference"
 MAX_REPEATED_SECONDS = 5.0

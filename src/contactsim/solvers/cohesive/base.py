@@ -1,4 +1,4 @@
-"""What solvers of cohesive problems share: the protocol, the equilibrium that they return, and how it is judged."""
+"""The protocol of cohesive solvers, the equilibrium that they return, and its status."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Equilibrium:
     gap, traction
         Gap (read, n), nm, and traction (exerted, n), GPa.
     status
-        How the solution ended.
+        Status of the solution.
     residual
         Largest residual at any point, over the strength of the laws.
     largest_change
@@ -39,7 +39,7 @@ class Equilibrium:
     iterations
         Iterations of the method.
     unstable
-        Whether a small disturbance would grow, as on the balance on a knife's edge.
+        True where a small disturbance would grow, as on the balance on a knife's edge.
     """
 
     displacement: Array = field(repr=False)
@@ -53,7 +53,7 @@ class Equilibrium:
 
     @property
     def is_stable(self) -> bool:
-        """Whether it has converged to a state that no small disturbance leaves, as far as the solver has looked."""
+        """True where it has converged to a state that no small disturbance leaves, as far as the solver has looked."""
         return self.status is Status.CONVERGED and not self.unstable
 
 
@@ -62,7 +62,7 @@ class CohesiveSolver(Solver, Protocol):
 
     @property
     def uses_guess(self) -> bool:
-        """Whether `solve_near` profits from a guess beyond the last state; if not, it follows the flow from there."""
+        """True where `solve_near` uses a guess beyond the last state; elsewhere it follows the flow from there."""
 
     @property
     def trust_radius(self) -> float:
@@ -104,7 +104,7 @@ def status_of(residual: float, problem: CohesiveProblem) -> Status:
 
 
 def are_pulled_apart(problem: CohesiveProblem, gap: Array) -> bool:
-    """Return whether a load has pulled the bodies apart; gap: (read, n), nm."""
+    """Return True if a load has pulled the bodies apart; gap: (read, n), nm."""
     return problem.load is not None and bool(gap[0].min() > SEPARATION * problem.interaction_range)
 
 

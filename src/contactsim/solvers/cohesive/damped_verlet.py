@@ -13,6 +13,7 @@ T(g) + T'(g)(g - g⁻), which adds damping where a law repels and removes it whe
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -33,7 +34,7 @@ MAX_STIFFENING = 2.0
 Mobility = Callable[[Array], Array]
 
 
-class _VerletDynamics:
+class VerletDynamics(ABC):
     """Common part of both schemes: each state is reached by the flow from the last one."""
 
     fields = 30
@@ -47,18 +48,19 @@ class _VerletDynamics:
 
     def new_memory(self) -> None:
         """Return nothing: the method has no memory of earlier states."""
+        return
 
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: None, within: float = np.inf) -> Equilibrium:
         """Return the equilibrium reached from a guess."""
         return self.flow_from(problem, guess)
 
+    @abstractmethod
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """Return the equilibrium reached from a state at rest."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class DampedVerlet(_VerletDynamics):
+class DampedVerlet(VerletDynamics):
     """Unit mass on every node (Eqs 2.3-2.7), the scheme of the thesis.
 
     Parameters
@@ -94,7 +96,7 @@ class DampedVerlet(_VerletDynamics):
 
 
 @dataclass(frozen=True)
-class MassWeightedVerlet(_VerletDynamics):
+class MassWeightedVerlet(VerletDynamics):
     """Masses proportional to the stiffness of each wave plus the largest tangent of the laws.
 
     Parameters

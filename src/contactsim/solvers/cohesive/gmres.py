@@ -42,8 +42,6 @@ def gmres(
     ----------
     Y. Saad and M. H. Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986), doi:10.1137/0907058.
     """
-    from scipy.linalg.lapack import dtrtrs  # takes longer to import than the rest of a solver
-
     flat = target.reshape(-1).view(float)
     norm = np.linalg.norm(flat)
     basis = np.empty((budget + 1, flat.size))
@@ -56,33 +54,54 @@ def gmres(
     for column in range(budget):
         steps.append(precondition(basis[column].view(complex).reshape(target.shape)))
         vector = product(steps[-1]).reshape(-1).view(float)
-        earlier, entries = basis[: column + 1], hessenberg[: column + 2, column]
-        for _ in range(2):  # the second pass removes what rounding has left
-            shares = earlier @ vector
-            vector -= shares @ earlier
-            entries[:-1] += shares
-        entries[-1] = np.linalg.norm(vector)
+        entries = hessenberg[: column + 2, column]
+        _orthogonalise(vector, basis[: column + 1], entries)
         broken = not entries[-1] > 0
         if not broken:
             np.divide(vector, entries[-1], out=basis[column + 1])
-        for row, (cosine, sine) in enumerate(rotations):
-            upper, lower = entries[row], entries[row + 1]
-            entries[row], entries[row + 1] = cosine * upper + sine * lower, cosine * lower - sine * upper
-        length = np.hypot(entries[-2], entries[-1])
-        if not length > 0:
+        if not _eliminate(entries, right[column : column + 2], rotations):
             steps.pop()
             break
-        cosine, sine = entries[-2] / length, entries[-1] / length
-        rotations.append((cosine, sine))
-        entries[-2], entries[-1] = length, 0.0
-        right[column], right[column + 1] = cosine * right[column], -sine * right[column]
         if broken or abs(right[column + 1]) <= tolerance * norm:
             break
-    count = len(steps)
+    return _combine(steps, hessenberg, right, target), len(steps)
+
+
+def _orthogonalise(vector: Array, basis: Array, entries: Array) -> None:
+    """Take from a vector its parts along an orthonormal basis; add them, and write its norm, to a column of H."""
+    for _ in range(2):  # the second pass removes what rounding has left
+        shares = basis @ vector
+        vector -= shares @ basis
+        entries[:-1] += shares
+    entries[-1] = np.linalg.norm(vector)
+
+
+def _eliminate(entries: Array, right: Array, rotations: list[tuple[float, float]]) -> bool:
+    """Rotate a column of H so that its last entry is zero, and the right-hand side with it.
+
+    The rotations of earlier columns come first. Returns False for a column of zeros, which is no use.
+    """
+    for row, (cosine, sine) in enumerate(rotations):
+        upper, lower = entries[row], entries[row + 1]
+        entries[row], entries[row + 1] = cosine * upper + sine * lower, cosine * lower - sine * upper
+    length = np.hypot(entries[-2], entries[-1])
+    if not length > 0:
+        return False
+    cosine, sine = entries[-2] / length, entries[-1] / length
+    rotations.append((cosine, sine))
+    entries[-2], entries[-1] = length, 0.0
+    right[0], right[1] = cosine * right[0], -sine * right[0]
+    return True
+
+
+def _combine(steps: list[Array], hessenberg: Array, right: Array, target: Array) -> Array:
+    """Return the sum of the steps that leaves the smallest residual, of the shape of the target."""
+    from scipy.linalg.lapack import dtrtrs  # takes longer to import than the rest of a solver
+
+    out, count = np.zeros_like(target), len(steps)
     if not count:
-        return np.zeros_like(target), 0
+        return out
     weights = dtrtrs(hessenberg[:count, :count], right[:count])[0]
-    out = np.zeros_like(target)
     for weight, step in zip(weights, steps, strict=True):
         out += weight * step
-    return out, count
+    return out
