@@ -11,13 +11,13 @@ import xarray as xr
 
 import contactsim
 from contactsim import dataset, provenance
-from contactsim.dataset import SETTINGS, described, settings_of, stamped
+from contactsim.dataset import describe, settings_of, stamp
 from contactsim.errors import InputError
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.status import Status
 from contactsim.study.keys import SECTION_KINDS
 from contactsim.study.reading import keys_of
-from contactsim.variables import SUFFIXES, VARIABLES
+from contactsim.variables import RESULTS, SETTINGS, SUFFIXES, dimension_name
 
 SOURCE = Path(contactsim.__file__).parent
 
@@ -38,7 +38,7 @@ def data():
         },
         {"hurst_exponent": [0.2, 0.8], "reduced_pressure": [0.01, 0.1]},
     )
-    return stamped(described(made), "A title with κ", {"b": None, "a": [0.1, True]}, "abc")
+    return stamp(describe(made), "A title with κ", {"b": None, "a": [0.1, True]}, "abc")
 
 
 def names_written():
@@ -53,18 +53,18 @@ def names_written():
 def test_every_variable_in_the_table_is_written_by_some_module():
     written = names_written()
     assert "relative_contact_area" in written
-    assert [name for name in VARIABLES if name not in written] == []
+    assert [name for name in RESULTS if name not in written] == []
 
 
 def test_every_variable_has_a_unit_and_a_long_name_of_its_own():
-    assert all(unit and text and text == text.strip() for unit, text in VARIABLES.values())
-    texts = [text for _, text in VARIABLES.values()]
+    texts = [variable.long_name for variable in RESULTS.values()]
+    assert all(text and text == text.strip() for text in texts)
     assert len(set(texts)) == len(texts)
 
 
 def test_described_variables_and_coordinates_have_units_and_a_long_name(data):
     for name, item in data.variables.items():
-        assert (item.attrs["units"], item.attrs["long_name"]) == VARIABLES.get(name, SETTINGS.get(name)), name
+        assert (item.attrs["units"], item.attrs["long_name"]) == (SETTINGS | RESULTS)[name][:2], name
     assert data.relative_contact_area.long_name == "relative contact area"
     assert data.length.units == "nm"
 
@@ -72,7 +72,7 @@ def test_described_variables_and_coordinates_have_units_and_a_long_name(data):
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_what_aggregation_derives_inherits_the_unit_and_says_what_it_is(suffix):
     name = f"mean_gap{suffix}"
-    made = described(xr.Dataset({name: 1.0}))
+    made = describe(xr.Dataset({name: 1.0}))
     assert made[name].units == "nm"
     assert made[name].long_name == "mean gap" + SUFFIXES[suffix]
 
@@ -87,7 +87,7 @@ def test_what_aggregation_derives_inherits_the_unit_and_says_what_it_is(suffix):
     ],
 )
 def test_a_name_that_ends_like_a_derived_quantity_is_not_taken_for_one(name, words):
-    assert words in described(xr.Dataset({name: 1.0}))[name].long_name
+    assert words in describe(xr.Dataset({name: 1.0}))[name].long_name
 
 
 def test_every_key_that_can_be_varied_gets_a_dimension_that_no_result_has_with_its_unit():
@@ -95,13 +95,13 @@ def test_every_key_that_can_be_varied_gets_a_dimension_that_no_result_has_with_i
     for section, (known, class_of) in SECTION_KINDS.items():
         for kind in known:
             for key in ["kind", *keys_of(class_of(kind))]:
-                dimensions[section, key] = dataset.dimension(f"{section}.{key}")
-    assert not set(dimensions.values()) & set(VARIABLES)
+                dimensions[section, key] = dimension_name(f"{section}.{key}")
+    assert not set(dimensions.values()) & set(RESULTS)
     assert len(set(dimensions.values())) == len({(section, key) for section, key in dimensions})
     for (section, key), name in dimensions.items():
-        made = described(xr.Dataset(coords={name: [1.0]}))
+        made = describe(xr.Dataset(coords={name: [1.0]}))
         if section not in ("solver", "increments"):
-            assert (made[name].units, made[name].long_name) == SETTINGS[key], name
+            assert (made[name].units, made[name].long_name) == SETTINGS[key][:2], name
         else:
             assert made[name].units == "1"
 
@@ -219,5 +219,5 @@ def test_a_solver_has_no_option_named_like_a_key_of_a_surface_or_a_body():
 )
 def test_values_along_a_path_are_in_the_unit_of_what_is_prescribed(control, sliding_distance, unit):
     data = xr.Dataset({"control": control}, {"snapshot": [0.1, 0.2], "increment": [0.1]})
-    found = dataset.described(data.assign(sliding_distance=("snapshot", [1.0, 2.0])) if sliding_distance else data)
+    found = dataset.describe(data.assign(sliding_distance=("snapshot", [1.0, 2.0])) if sliding_distance else data)
     assert found.snapshot.attrs["units"] == found.increment.attrs["units"] == unit

@@ -18,7 +18,6 @@ FLOORS = (
         "files",
         "status",
         "variables",
-        "notation",
         "dataset",
         "provenance",
         "reference",

@@ -114,7 +114,7 @@ def run_scene(options: argparse.Namespace) -> None:
     data, settings = _simulated(study, options.threads)
     data = _as_of_a_study(data, settings)
     source = study.runs()[0].source
-    dataset.write(dataset.stamped(data, study.settings["title"], settings, source), target)
+    dataset.write(dataset.stamp(data, study.settings["title"], settings, source), target)
     sys.stdout.write(f"{_table(data)}\n")
     if "accuracy" in data:
         sys.stdout.write(f"{_reached(data)}\n")
@@ -224,7 +224,7 @@ def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
     """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
     data = label_run(data, settings, [""] * data.step.size).drop_vars("point_digest")
     form = form_of(data)
-    return data if form.is_path else dataset.described(form.derive(data))
+    return data if form.is_path else dataset.describe(form.derive(data))
 
 
 def compare_tiers(options: argparse.Namespace) -> None:

@@ -11,12 +11,12 @@ from dataclasses import dataclass, fields, is_dataclass
 import numpy as np
 
 from contactsim.contact.scene import Body, Scene
-from contactsim.dataset import SETTINGS
 from contactsim.interface.base import Effect
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup
 from contactsim.solvers.registry import SOLVERS, default_solver, is_installed, solver_class
 from contactsim.traits import Trait
+from contactsim.variables import SETTINGS
 
 COMPONENTS = {"n": "normal", "t": "tangential"}
 
@@ -132,8 +132,8 @@ def _describe_body(body: Body) -> str:
 
 def _describe_setting(key: str, value: object) -> str:
     """Return a setting with its unit."""
-    unit, name = SETTINGS[key]
-    return f"{name} {value:g}" + f" {unit}" * (unit != "1")
+    variable = SETTINGS[key]
+    return f"{variable.long_name} {value:g}" + f" {variable.unit}" * (variable.unit != "1")
 
 
 def _effect_name(effect: Effect) -> str:

@@ -51,7 +51,7 @@ def run_dataset(hurst_exponent, member, coarse, status, load, changes):
         {load: PRESSURES},
         {"problem": "hard_wall"},
     )
-    return dataset.stamped(dataset.described(data), "run", {}, "source")
+    return dataset.stamp(dataset.describe(data), "run", {}, "source")
 
 
 @pytest.fixture

@@ -34,7 +34,7 @@ from contactsim.figures.layout import write_figure
 from contactsim.solvers.base import State
 from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
-from contactsim.variables import VARIABLES
+from contactsim.variables import RESULTS
 from support.cases import ALL, ON_SURFACES
 from support.places import ROOT
 
@@ -281,7 +281,7 @@ def test_everything_in_the_dataset_is_described(drawn):
     data = dataset.load_dataset(drawn / "stability.nc")
     for name in data.variables:
         assert data[name].attrs["units"] == "1", name
-        assert VARIABLES[name][1] == data[name].attrs["long_name"], name
+        assert RESULTS[name].long_name == data[name].attrs["long_name"], name
     meanings = data.outcome.attrs["flag_meanings"].split()
     assert dict(zip(meanings, data.outcome.attrs["flag_values"], strict=True)) == {
         outcome.name.lower(): outcome.value[0] for outcome in Outcome

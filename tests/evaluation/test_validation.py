@@ -70,7 +70,7 @@ def test_calibration_and_trial_have_different_scenes_of_the_same_ranges():
 def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path):
     data, costs = [], []
     for name, (found, spent) in tried.items():
-        dataset.write(dataset.stamped(found, "trial", {}, "source"), tmp_path / f"{name}.nc")
+        dataset.write(dataset.stamp(found, "trial", {}, "source"), tmp_path / f"{name}.nc")
         (tmp_path / f"{name}.json").write_text(json.dumps(spent))
         data.append(str(tmp_path / f"{name}.nc"))
         costs.append(str(tmp_path / f"{name}.json"))
@@ -150,9 +150,9 @@ def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_pat
     files = []
     for name, one in sorted(settings["maps"].items()):
         shape = [len(axis["values"]) for axis in one["axes"].values()]
-        data = dataset.described(survey.map_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
+        data = dataset.describe(survey.map_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
         files.append(str(tmp_path / f"{name}.nc"))
-        dataset.write(dataset.stamped(data, name, {}, "source"), files[-1])
+        dataset.write(dataset.stamp(data, name, {}, "source"), files[-1])
     targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
     map_figure.write_effect_maps(survey.maps_figure_job(settings, "quick"), files, targets)
     assert set(pd.read_csv(targets["csv"])["map"]) == set(settings["maps"])

@@ -9,9 +9,9 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from contactsim import dataset, notation
+from contactsim import dataset
 from contactsim.analysis import wording
-from contactsim.analysis.reductions import REDUCTIONS, mean_quantity
+from contactsim.analysis.reductions import mean_quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
@@ -23,6 +23,7 @@ from contactsim.study.claim_plan import quantities
 from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
 from contactsim.surfaces.shapes import Flat, Sinusoid
+from contactsim.variables import RESULTS
 from support.places import ROOT
 
 PLAN = Plan.read(ROOT / "config", "quick")
@@ -270,9 +271,8 @@ def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors,
     assert wording.rounded_texts(value, *errors) == shown
 
 
-def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
+def test_every_quantity_and_dimension_of_a_claim_has_words_to_read():
     names = {
-        *REDUCTIONS,
         *(name for study in PLAN.studies.values() for name in [*quantities(study), *study.dimensions]),
     }
     assert not [name for name in names if "_" in wording.quantity_text(name)]
@@ -280,7 +280,7 @@ def test_every_quantity_dimension_and_reduction_of_a_claim_has_words_to_read():
 
 
 def test_every_quantity_of_a_work_precision_study_has_a_symbol():
-    assert [name for name in MEASURED_QUANTITIES if name not in notation.SYMBOLS] == []
+    assert [name for name in MEASURED_QUANTITIES if not RESULTS[name].symbol] == []
 
 
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):

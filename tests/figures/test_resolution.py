@@ -40,7 +40,7 @@ def made(points, members=3, hurst_exponent=(0.2, 0.8), scale=1.0, surface=SURFAC
     data = data.merge(aggregate.ensemble_means(data, AVERAGED))
     if len(points) == 3:
         data = data.merge(aggregate.finer_grid_limits(data))
-    return dataset.stamped(data, "made", {"surface": surface}, "source")
+    return dataset.stamp(data, "made", {"surface": surface}, "source")
 
 
 def place(shown, quantity, hurst_exponent, load):

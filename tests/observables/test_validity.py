@@ -10,7 +10,7 @@ import xarray as xr
 
 from contactsim import status
 from contactsim.contact.loading import approaches
-from contactsim.dataset import described
+from contactsim.dataset import describe
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Sinusoid
@@ -72,7 +72,7 @@ def test_slopes_that_are_not_small_are_flagged(amplitude):
 
 def test_exceeded_limits_are_reported_in_words_even_where_states_are_missing():
     numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0], "validity_flags": [0, 1, np.nan, 1]}
-    data = described(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
+    data = describe(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
     assert status.describe_excess(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]
     assert list(data.validity_flags.flag_masks) == [1, 2, 4, 8]
     assert data.validity_flags.flag_meanings == "max_interpenetration slip process_zone_step rms_gradient"

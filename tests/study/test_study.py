@@ -12,6 +12,7 @@ from contactsim.analysis import aggregate
 from contactsim.provenance import canonical
 from contactsim.study.scenes import build_scene
 from contactsim.study.study import Study
+from contactsim.variables import dimension_name
 from support.rough_study import GONE, WALKED, changed, executed, profile, refusal, smooth, study
 
 
@@ -31,7 +32,7 @@ def test_what_may_be_varied_can_also_be_aggregated(vary, tmp_path):
     read = study(section)
     data = aggregate.aggregate(executed(read, tmp_path), read.settings, "source")
     ((name, values),) = vary.items()
-    assert sorted(data.indexes[dataset.dimension(name)]) == sorted(values)
+    assert sorted(data.indexes[dimension_name(name)]) == sorted(values)
 
 
 def test_the_kinds_of_two_sections_are_varied_along_two_dimensions():

@@ -9,5 +9,5 @@ from contactsim.evaluation.effects.survey import measure_map
 
 open_log(snakemake.log[0])
 job = json.loads(snakemake.params.plan)
-data = dataset.stamped(measure_map(job["name"], job["map"]), "what an effect changes", job["map"], job["source"])
+data = dataset.stamp(measure_map(job["name"], job["map"]), "what an effect changes", job["map"], job["source"])
 dataset.write(data, snakemake.output[0])

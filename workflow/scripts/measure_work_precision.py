@@ -16,5 +16,5 @@ plan, config = json.loads(snakemake.params.plan), snakemake.params.config
 case = read_cases(config, Plan.read(config, snakemake.params.tier))[snakemake.wildcards.case]
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
     data, seconds = case.measure(snakemake.wildcards.job)
-dataset.write(dataset.stamped(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
+dataset.write(dataset.stamp(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
 write_text(json.dumps({"seconds": seconds, "transform_seconds": transform_seconds()}), snakemake.output.costs)

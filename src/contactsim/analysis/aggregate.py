@@ -43,7 +43,7 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     form = form_of(combined)
     data = form.derive(combined)
     data = _aggregate_paths(data, form, runs) if form.is_path else _aggregate_loads(data, form, runs, settings)
-    return dataset.stamped(dataset.described(data), settings["title"], settings, source)
+    return dataset.stamp(dataset.describe(data), settings["title"], settings, source)
 
 
 def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], settings: dict) -> xr.Dataset:

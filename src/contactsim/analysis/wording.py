@@ -11,20 +11,29 @@ import xarray as xr
 
 from contactsim import dataset, status, variables
 from contactsim.analysis import ensemble
-from contactsim.notation import READ, SYMBOLS
 
 TINY = 1e-9
 """Numbers below it are written with a power of ten."""
 LIMIT = "_limit"
 """Ending of the name of a quantity in the limit of fine grids."""
-SUMMARY_NAMES = {name: READ[name] for name in ("kappa", "kappa_r", "kappa_r_pairs")} | {
+SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in ("kappa", "kappa_r", "kappa_r_pairs")} | {
     "final_contact_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
     "pull_off_load_unloading": "on unloading",
 }
 """Quantities whose largest errors a summary gives, with their names in it."""
-SLIDE_SUMMARY_NAMES = {name: SYMBOLS[name] for name in ("static_friction", "first_force_drop", "reattached_fraction")}
+SLIDE_SUMMARY_NAMES = {
+    name: variables.RESULTS[name].symbol for name in ("static_friction", "first_force_drop", "reattached_fraction")
+}
 """The same for slides."""
+REDUCTION_PHRASES = {
+    "kappa_fit": "κ of the fit to each H",
+    "kappa_fit_logarithm": "κ of the logarithmic fit",
+    "kappa_fit_all": "κ of the fit to all H",
+    "spread_ratio": "ratio of spreads",
+    "rise_gain": "gain of the rise",
+}
+"""Quantities and reductions of claims that no dataset holds."""
 INDEX_LETTERS = {"κ_r": "κᵣ", "p_r*": "pᵣ*"}
 """Symbols of statements as they are printed."""
 
@@ -54,7 +63,7 @@ def quantity_text(name: str) -> str:
     for suffix, words in (errors | {LIMIT: "limit of "}).items():
         if name.endswith(suffix):
             return words + quantity_text(name.removesuffix(suffix))
-    return READ.get(name, name)
+    return REDUCTION_PHRASES.get(name) or variables.find_variable(name).phrase or name
 
 
 def measure_text(measure: str) -> str:

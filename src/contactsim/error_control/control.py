@@ -84,7 +84,7 @@ class Controlled:
             coarse_run_transforms=self.work - self.last.transforms,
             seconds=("step", seconds),
         )
-        return dataset.described(data)
+        return dataset.describe(data)
 
     @property
     def work(self) -> float:

@@ -18,7 +18,7 @@ from contactsim.analysis.round_contact import KAPPA_R, beside_exact
 from contactsim.figures import style
 from contactsim.figures.maps import SurfaceFields, plot_fields
 from contactsim.figures.parts import proportionality, resolution
-from contactsim.notation import PLACES
+from contactsim.variables import find_variable
 
 FREE_OF_NEIGHBOURS = 0.25
 """Largest c/R at which a cylinder or sphere at L/R = 4 does not feel its neighbours."""
@@ -192,7 +192,7 @@ def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Map contact, pressure and gap of one rough surface at one load."""
     surface_fields = SurfaceFields.of_dataset(fields)
     places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
-    labels = [f"{PLACES.get(dim, dim)} = {value:g}" for dim, value in places.items()]
+    labels = [f"{find_variable(dim).symbol or dim} = {value:g}" for dim, value in places.items()]
     axes[0].text(1, -0.03, ", ".join(labels), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")
     return plot_fields(surface_fields, axes).assign(**places)
 

@@ -11,7 +11,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import dataset, reference
+from contactsim import reference
 from contactsim.analysis import slide_tables
 from contactsim.analysis.scales import LawScales, varied_key
 from contactsim.analysis.slide_tables import slide_table
@@ -20,6 +20,7 @@ from contactsim.figures.parts import law_curves
 from contactsim.figures.parts import slide_curves as curves
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import EVENT
+from contactsim.variables import dimension_name
 
 LATTICES = (1.0, 1.5, 2.0, 2.44, 4.88)
 """Lattice constants over δt of Fig. 6.3c."""
@@ -253,7 +254,7 @@ def open_choices(
 def _plot_choice(axes: Axes, data: xr.Dataset) -> pd.DataFrame:
     """Plot the force for each value of the key that a study varies; earlier curves are wider."""
     key = varied_key(data)
-    dim, name = dataset.dimension(key), key.rpartition(".")[2].replace("_", " ")
+    dim, name = dimension_name(key), key.rpartition(".")[2].replace("_", " ")
     columns = ("static_friction", "peeled_fraction", "reattached_fraction", "first_slip_periods")
     rows = []
     widths = np.linspace(THICK, THIN, data[dim].size)

@@ -190,7 +190,7 @@ def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequen
     }
     if heights.ndim == 2:
         variables |= {"points_y": heights.shape[0], "length_y": scene.lengths[0]}
-    return dataset.described(xr.Dataset(variables, attrs={"problem": scene.kind.value}))
+    return dataset.describe(xr.Dataset(variables, attrs={"problem": scene.kind.value}))
 
 
 def read_points(target: str | Path, costs: str | Path) -> dict[str, Point]:

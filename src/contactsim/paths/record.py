@@ -97,7 +97,7 @@ def simulate_path(
             )
     data = _join_states(scene, problem, rows, fields)
     if scene.sliding:
-        data = dataset.described(data.merge(slips_of(slips)))
+        data = dataset.describe(data.merge(slips_of(slips)))
     for words in status.describe_excess(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
@@ -177,4 +177,4 @@ def _join_states(
     if scene.sliding:
         lattice = problem.lattice_constant
         variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan
-    return dataset.described(xr.Dataset(variables, coordinates, {"problem": scene.kind.value}))
+    return dataset.describe(xr.Dataset(variables, coordinates, {"problem": scene.kind.value}))

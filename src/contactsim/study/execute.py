@@ -64,7 +64,7 @@ def keep_run(data: xr.Dataset, settings: dict, source: str, files: RunFiles, beg
     names = point_digests(settings, source, data.step.size)
     seconds = data.seconds.values.tolist()
     title = f"contactsim run of {settings['study']}"
-    dataset.write(dataset.stamped(label_run(data, settings, names), title, settings, source), files.data)
+    dataset.write(dataset.stamp(label_run(data, settings, names), title, settings, source), files.data)
     spent = {
         "seconds": dict(zip(names, seconds, strict=True)),
         "cpu_seconds_of_last_run": time.process_time() - begin,
@@ -93,7 +93,7 @@ def label_run(data: xr.Dataset, settings: dict, names: list[str]) -> xr.Dataset:
     """Return a simulation as a run stores it: steps by the study's own load, the name of each point, no times."""
     load, values = settings["load"]["name"], _places(settings, data.step.size)
     data = data.drop_vars(["seconds", load], errors="ignore").rename(step=load).assign_coords({load: values})
-    return dataset.described(data.assign(seed=settings["seed"], point_digest=(load, np.array(names, object))))
+    return dataset.describe(data.assign(seed=settings["seed"], point_digest=(load, np.array(names, object))))
 
 
 def peak_memory() -> float:

@@ -59,7 +59,7 @@ def tabulate_law(settings: dict) -> xr.Dataset:
         },
     )
     title = f"contactsim table of {settings['effect']}"
-    return dataset.stamped(dataset.described(data), title, settings, source_digest("contactsim.study.law_table"))
+    return dataset.stamp(dataset.describe(data), title, settings, source_digest("contactsim.study.law_table"))
 
 
 def _law(settings: dict) -> Law:

@@ -14,7 +14,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
-from contactsim import dataset
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
@@ -37,6 +36,7 @@ from contactsim.study.sections import (
     read_slide_section,
     refuse_unused,
 )
+from contactsim.variables import dimension_name
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class Study:
     @property
     def dimensions(self) -> list[str]:
         """Dimensions of the study's dataset."""
-        varied = [dataset.dimension(name) for name in self.settings["vary"]]
+        varied = [dimension_name(name) for name in self.settings["vary"]]
         return [*varied, "member", self.settings["load"]["name"]]
 
     def runs(self) -> list[Run]:
@@ -163,7 +163,7 @@ class Study:
             settings["file_digest"] = self._file_digest(parts["surface"]["file"])
         if self.settings["accuracy"] is not None:
             settings = self._with_accuracy(settings)
-        coordinates = {dataset.dimension(name): value for name, value in varied.items()}
+        coordinates = {dimension_name(name): value for name, value in varied.items()}
         variant = digest(varied, *change.values() or [None])[:8]
         return Run(self.name, variant, member, coordinates, settings, error)
 

@@ -26,6 +26,7 @@ from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
 from contactsim.study.stages import computing_stage_digest, stage_digest
+from contactsim.variables import RESULTS
 
 LADDER_GRIDS = (1 / 8, 1 / 5.7, 1 / 4, 1 / 2.8, 1 / 2, 1 / 1.4, 1.0, 1.4, 2.0)
 """Grids of the ladder, over the final one's points."""
@@ -34,7 +35,6 @@ LADDER_FACTORS = {
     ProblemKind.COHESIVE: ((4.0, 2.0, 1.0), (1.0,)),
 }
 """Increments and tolerances of the ladder, over the final ones."""
-SYMBOLS = {"reduced_pressure": "p*", "contact_ratio": "c/R"}
 """Symbols of loads."""
 REFERENCE_GRIDS = {LINE: 6.0, SURFACE: 3.0}
 """How many times finer the grid of the reference is than the final one; along paths three times."""
@@ -118,7 +118,7 @@ def run_trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     data = xr.Dataset({name: ("scene", [value]) for name, value in row.items()}, coordinates)
     data = data.assign(description=("scene", [_describe_scene(run.settings)]))
     spent = {"predicted": expected.seconds, "seconds": result.seconds, "least": least.seconds if least else math.nan}
-    return dataset.described(data), spent
+    return dataset.describe(data), spent
 
 
 def _error(solution: Solution, reference: Solution) -> float:
@@ -173,7 +173,7 @@ def _describe_scene(run: dict) -> str:
     else:
         parts = [f"{surface['kind']} R {surface['radius'] / 1000:.3g} µm"]
     if "values" in load:
-        parts.append(f"{SYMBOLS[load['name']]} {load['values'][0]:.2g}")
+        parts.append(f"{RESULTS[load['name']].phrase} {load['values'][0]:.2g}")
     law = next((run[name] for name in run["effects"] if run.get(name)), None)
     if law is not None:
         deepest = run["slide"]["approach"] if "slide" in run else load["through"][-1]

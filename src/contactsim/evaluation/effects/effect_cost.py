@@ -102,4 +102,4 @@ def measure_effects(settings: dict) -> tuple[xr.Dataset, dict]:
         spent[name] = {"seconds": min(float(run.seconds.sum()) for run in runs), "megabytes": peak}
     columns = {name: ("variant", np.array([row[name] for row in rows])) for name in rows[0] if name != "variant"}
     data = xr.Dataset(columns, {"variant": [row["variant"] for row in rows]})
-    return dataset.described(data), spent
+    return dataset.describe(data), spent

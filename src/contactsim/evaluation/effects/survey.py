@@ -166,7 +166,7 @@ def measure_map(name: str, settings: dict) -> xr.Dataset:
 def map_dataset(settings: dict, errors: Array) -> xr.Dataset:
     """Return the changes of a map with the values of its axes."""
     axes = {axis: given["values"] for axis, given in settings["axes"].items()}
-    return dataset.described(xr.Dataset({"change_without": (list(axes), errors)}, axes))
+    return dataset.describe(xr.Dataset({"change_without": (list(axes), errors)}, axes))
 
 
 def _read_study(settings: dict, values: Mapping[str, float], name: str, file: str) -> Study:

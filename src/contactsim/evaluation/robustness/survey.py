@@ -148,19 +148,19 @@ def survey_hazard(hazard: str, severities: Sequence[float], solvers: Mapping[str
         coords={"hazard": hazard, "solver": list(methods), "severity": list(severities)},
     )
     settings = {"hazard": hazard, "severities": list(severities), "solvers": dict(solvers)}
-    return dataset.stamped(_describe_outcomes(data), f"Stability: {hazard}", settings, source)
+    return dataset.stamp(_describe_outcomes(data), f"Stability: {hazard}", settings, source)
 
 
 def merge_surveys(parts: Iterable[xr.Dataset], settings: Mapping, source: str) -> xr.Dataset:
     """Return the surveys of all hazards in one dataset, dimensions (hazard, solver, severity)."""
     parts = [part.drop_encoding() for part in parts]  # or the first part's length would cut all text
     data = xr.concat(parts, "hazard", data_vars="all", coords="minimal", join="exact", combine_attrs="override")
-    return dataset.stamped(_describe_outcomes(data), str(settings["title"]), settings, source)
+    return dataset.stamp(_describe_outcomes(data), str(settings["title"]), settings, source)
 
 
 def _describe_outcomes(data: xr.Dataset) -> xr.Dataset:
     """Return a survey with units, long names and the meanings of its outcomes."""
-    data = dataset.described(data)
+    data = dataset.describe(data)
     values, meanings = [kind.value[0] for kind in Outcome], " ".join(kind.name.lower() for kind in Outcome)
     data["outcome"].attrs.update(flag_values=np.array(values, np.int8), flag_meanings=meanings)
     return data

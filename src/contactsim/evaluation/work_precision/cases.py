@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import xarray as xr
 
-from contactsim import dataset
 from contactsim.evaluation.work_precision.knobs import (
     Setting,
     SingleLoads,
@@ -28,6 +27,7 @@ from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.run import Run
 from contactsim.study.stages import computing_stage_digest
 from contactsim.study.study import Study
+from contactsim.variables import dimension_name
 
 REFERENCE = "reference"
 MAX_REPEATED_SECONDS = 5.0
@@ -55,7 +55,7 @@ class Case:
     @property
     def selection(self) -> dict[str, list]:
         """Return the selected values of the study's dataset by dimension; other dimensions count whole."""
-        return {dataset.dimension(name): values for name, values in self.settings["vary"].items()}
+        return {dimension_name(name): values for name, values in self.settings["vary"].items()}
 
     def jobs(self) -> list[str]:
         """Return the jobs of a case: its reference and its installed solvers."""

@@ -25,7 +25,7 @@ from contactsim.status import is_solved
 from contactsim.study.kinds import problem_kind
 from contactsim.study.reading import Key, listed, positive, read, whole
 from contactsim.study.study import Study
-from contactsim.variables import VARIABLES
+from contactsim.variables import RESULTS
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ class WholePath:
 
     def units(self, study: Study) -> dict[str, str]:
         """Return the unit of the increment, that of the path's control; a tolerance is in parts of the strength."""
-        return {"increment": VARIABLES[study.settings["load"]["control"]][0]}
+        return {"increment": RESULTS[study.settings["load"]["control"]].unit}
 
 
 class WholeSlide(WholePath):

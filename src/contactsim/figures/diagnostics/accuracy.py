@@ -25,8 +25,7 @@ from contactsim.figures.diagnostics import knobs
 from contactsim.figures.diagnostics.accuracy_footer import KNOB_NAMES, footer_text, own_solver, varied_knobs
 from contactsim.figures.layout import empty_figure, save
 from contactsim.files import write_atomically
-from contactsim.notation import SYMBOLS
-from contactsim.variables import VARIABLES
+from contactsim.variables import RESULTS
 
 COSTS = {"work": "transforms × points", "seconds": "seconds, one thread"}
 """Columns of the costs, with their labels."""
@@ -134,7 +133,7 @@ def plot_accuracy(
             knobs.plot_knob(panel, part, quantity, cost, knobs.names_by_value(plan["marks"], knob))
             _plot_forecast(panel, part[part.own], quantity, cost)
             panel.set_title(titles[knob] if row == 0 else "", fontsize=9)
-            panel.set_xlabel(f"relative error of {SYMBOLS[quantity]}" if row else "")
+            panel.set_xlabel(f"relative error of {RESULTS[quantity].symbol}" if row else "")
         axes[row, 0].set_ylabel(label)
     _plot_against_grid(axes[0, -1], values, quantity, titles["points"])
     _write_comparison(axes[1, -1], table, equal)
@@ -175,8 +174,8 @@ def _plot_against_grid(axes: Axes, values: xr.Dataset, quantity: str, xlabel: st
                 part.points, mean.sel(hurst_exponent=hurst_exponent), color=colour, **style.hurst_look(hurst_exponent)
             )
     first = next(iter(definitions))
-    unit = VARIABLES[first][0]
-    axes.set(xlabel=xlabel, ylabel=SYMBOLS[first] + (f" ({unit})" if unit != "1" else ""))
+    unit = RESULTS[first].unit
+    axes.set(xlabel=xlabel, ylabel=RESULTS[first].symbol + (f" ({unit})" if unit != "1" else ""))
     axes.set_xscale("log", base=2)
     axes.yaxis.get_major_formatter().set_useOffset(False)
     handles = style.hurst_handles(part.hurst_exponent.values) if "hurst_exponent" in part.dims else []
@@ -189,7 +188,9 @@ def _write_comparison(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> N
     axes.axis("off")
     grids = table[(table.knob == "points") & table.own]
     orders = [
-        f"{symbol} {error_cost.convergence_order(grids, name):.2f}" for name, symbol in SYMBOLS.items() if name in table
+        f"{variable.symbol} {error_cost.convergence_order(grids, name):.2f}"
+        for name, variable in RESULTS.items()
+        if variable.symbol and name in table
     ]
     text = f"{wrapped_list('Observed order in grid points: ', orders)}\n\n"
     text += f"Cost at equal error over that of {own_solver(table)},\nin transforms × points (in seconds)"

@@ -16,6 +16,7 @@ from matplotlib.colors import LogNorm
 from contactsim import dataset
 from contactsim.figures import style
 from contactsim.figures.layout import empty_figure, save
+from contactsim.variables import find_variable
 
 PANELS_IN_ROW = 4
 SMALLEST_CHANGE, LARGEST_CHANGE = 1e-4, 1.0
@@ -24,16 +25,14 @@ NUMBER_LOOK: dict[str, Any] = {"fontsize": 5.5, "color": "#222222", "ha": "cente
 CONDITION_BOX = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": style.CONTACT, "lw": 0.6}
 CONTOURS = {0.01: ":", 0.05: "-"}
 """Lines of equal change."""
-AXIS_LABELS = {
-    "poisson_ratio": "Poisson's ratio ν",
-    "work_ratio": "φt/φn",
+RATIO_LABELS = {
     "spacing": "w/R",
     "strength": "φn/(δn E)",
     "stiffness": "E of the stiffer over the softer body",
     "thickness": "thickness over roll-off wavelength",
-    "hurst_exponent": "Hurst exponent H",
     "cutoff_ratio": "λs/λr",
 }
+"""Labels of axes that are ratios of two or more keys."""
 
 
 @mpl.rc_context(style.RC_PARAMS)
@@ -98,7 +97,7 @@ def plot_cut(axes: Axes, data: xr.Dataset, cut: Mapping[str, Any], title: str) -
 
 def axis_label(axis: str) -> str:
     """Return the label of an axis of a map."""
-    return AXIS_LABELS.get(axis, axis.replace("_", " "))
+    return RATIO_LABELS.get(axis) or find_variable(axis).symbol or axis.replace("_", " ")
 
 
 def per_cent_text(change: float) -> str:

@@ -14,7 +14,7 @@ from contactsim.evaluation.work_precision import error_cost
 from contactsim.figures import style
 from contactsim.figures.diagnostics.knobs import OTHER_LOOK, SOLVER_LOOKS
 from contactsim.figures.layout import empty_figure, save
-from contactsim.notation import SYMBOLS
+from contactsim.variables import RESULTS
 
 PANELS_IN_ROW = 3
 KNOB_LINES = {"points": "-", "tolerance": ":"}
@@ -44,7 +44,7 @@ def write_overview(plan: Mapping[str, Any], paths: Sequence[str], targets: Mappi
     for panel, (name, table) in zip(panels, tables.items(), strict=False):
         quantity = cases[name]["quantity"]
         plot_case(panel, table, quantity)
-        panel.set_title(f"{cases[name]['title']}: {SYMBOLS[quantity]}", fontsize=7.5)
+        panel.set_title(f"{cases[name]['title']}: {RESULTS[quantity].symbol}", fontsize=7.5)
         parts.append(table.assign(case=name, quantity=quantity, error=table[quantity]))
     for panel in panels[len(tables) :]:
         panel.axis("off")

@@ -44,7 +44,7 @@ def write_trials(
     targets : data (netCDF), png, pdf and csv
     """
     trials = xr.concat([dataset.load_dataset(path) for path in data], "scene")
-    dataset.write(dataset.stamped(trials, plan["settings"]["title"], plan, plan["data"]), targets["data"])
+    dataset.write(dataset.stamp(trials, plan["settings"]["title"], plan, plan["data"]), targets["data"])
     table = trial_table(trials, [json.loads(Path(path).read_text()) for path in costs])
     figure, panels = empty_figure(plan["settings"] | {"panels": 3}, footer_text(table, plan))
     plot_trials(table, panels)

@@ -15,7 +15,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from contactsim.analysis.resolution import change_texts, grid_count, grid_counts, grid_name, grid_table, per_wavelength
 from contactsim.figures import style
 from contactsim.figures.parts.proportionality import FACTOR_COLOURS
-from contactsim.notation import SYMBOLS
+from contactsim.variables import RESULTS
 
 FAINTEST = 0.35
 """Opacity of the smallest load."""
@@ -70,7 +70,7 @@ def plot_factor(table: pd.DataFrame, name: str, axes: Axes) -> None:
             place = end * (1 + 0.05 * (3 * loads.index(load) + exponents.index(hurst_exponent)))
             style.plot_limits(axes, limit.value, [place], limit_error(limit.standard_error, limit.spread), **look)
     axes.axvspan(end * 0.93, end * 1.5, color="#eeeeee", zorder=0, lw=0)
-    axes.set(xscale="log", xlabel="points per shortest wavelength", ylabel=SYMBOLS[name])
+    axes.set(xscale="log", xlabel="points per shortest wavelength", ylabel=RESULTS[name].symbol)
     axes.set_xlim(counts[0] / 1.2, end * 1.5)
     axes.xaxis.set_major_locator(FixedLocator([*counts, end * 1.2]))
     axes.xaxis.set_minor_locator(NullLocator())

@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim.figures import style
-from contactsim.notation import SYMBOLS
+from contactsim.variables import RESULTS
 
 LINES = ("-", ":", "-.", "--")
 """Lines of thicknesses, the largest first."""
@@ -72,7 +72,7 @@ def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     lines = {f"$h={_number(value)}$ nm": thickness_line(data, value) for value in data.thickness.values}
     handles = style.colour_handles(colours) + style.line_handles(lines | {f"thesis, {kappa_r:g}": style.THESIS})
     area.legend(handles=handles + style.poisson_handles(data.poisson_ratio.values), loc="upper left")
-    opacities = {SYMBOLS[name]: alpha for name, alpha in CHANGE_OPACITIES.items()}
+    opacities = {RESULTS[name].symbol: alpha for name, alpha in CHANGE_OPACITIES.items()}
     change.legend(handles=style.opacity_handles(opacities), loc="lower right")
     factor.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="upper right")
     error.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="lower left")
