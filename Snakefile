@@ -1,4 +1,4 @@
-# What can be made. `snakemake` alone lists it.
+# The targets of the workflow; `snakemake` without arguments lists them.
 include: "workflow/rules/common.smk"
 
 

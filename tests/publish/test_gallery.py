@@ -16,7 +16,7 @@ from contactsim.study.reading import keys_of
 from support.places import ROOT
 
 DOCS = ROOT / "docs/gallery"
-OTHERS = {"effects": "What effects cost"}
+OTHERS = {"effects": "Cost of effects"}
 
 
 @pytest.mark.parametrize(

@@ -30,15 +30,16 @@ class Pages:
         titles = {name: figure.settings["title"] for name, figure in plan.figures.items()}
         titles |= {name: f"dataset: {study.settings['title']}" for name, study in plan.studies.items()}
         titles |= self.products.evaluation_titles
-        titles |= {"accuracy": "all targets whose names begin with accuracy_"} if cases else {}
-        titles |= {"claims": "what the thesis states, and whether it is reproduced"} if plan.claims else {}
+        titles |= {"accuracy": "all targets accuracy_NAME: error against cost of every solver"} if cases else {}
+        titles |= {"claims": "statements of the thesis, with verdicts"} if plan.claims else {}
         titles |= {
             "report": "all results on one page",
-            "all": "all of these; beside them there are:",
-            "gallery": "the figures in small pictures, with verdicts, errors and costs",
-            "bundle": "all results in one folder to deposit",
+            "all": "all targets above; not included are:",
+            "gallery": "small pictures of all figures, with verdicts, errors and costs",
+            "bundle": "all results in one folder to publish",
         }
-        return "\n".join(f"  {name:14} {title}" for name, title in titles.items())
+        width = max(map(len, titles))
+        return "\n".join(f"  {name:{width}}  {title}" for name, title in titles.items())
 
     def list_targets(self, wildcards: Wildcards) -> Path:
         """Print the targets; return a file that is there, as input of a rule that makes nothing."""

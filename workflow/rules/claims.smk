@@ -1,4 +1,4 @@
-# From datasets to verdicts on what the thesis states.
+# From datasets to verdicts on the statements of the thesis.
 rule assess_claims:
     input: RESULT_JOBS.claims_data
     output:

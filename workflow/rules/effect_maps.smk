@@ -1,4 +1,4 @@
-# What neglecting effects changes: one job a map, and their figure; and the maps in the form that the package keeps.
+# Neglecting effects: one job for each map, and their figure; and the maps in the form that the package contains.
 if PRODUCTS.maps:
 
     rule measure_effect_map:

@@ -1,4 +1,4 @@
-# What effects cost: one job that measures them, alone on the machine since it is timed, and its figure.
+# Cost of effects: one job that measures them, alone on the machine since it is timed, and its figure.
 if PRODUCTS.effects:
 
     rule measure_effects:

@@ -1,4 +1,4 @@
-# One rule a figure, from the datasets that it shows.
+# One rule for each figure, from the datasets that it draws.
 for _name, _figure in PLAN.figures.items():
     _datasets = [PLAN.dataset_name(study) for study in _figure.studies]
 

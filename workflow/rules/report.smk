@@ -1,4 +1,4 @@
-# All results on one page, in small pictures for the docs, and in one folder to deposit.
+# All results on one page, in small pictures for the docs, and in one folder to publish.
 rule report:
     input: PAGES.report_inputs()
     output: RESULTS / "report.html"

@@ -1,4 +1,4 @@
-# Every solver on every hazard: one job a hazard, one dataset, one figure.
+# Robustness: one job for each hazard with every solver, one dataset, one figure.
 if PRODUCTS.hazards:
 
     rule survey_hazard:

@@ -1,4 +1,4 @@
-# One job a study, variant and member, sweeping all its loads; and the effects that a variant can neglect.
+# One job for each study, variant and member, over its whole load path; and the effects that a variant can neglect.
 rule select_effects:
     output:
         decision=RESULTS / "decisions/{study}/{variant}.json",

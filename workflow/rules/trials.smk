@@ -1,4 +1,4 @@
-# Error-controlled runs on trial: one timed job a scene, alone on the machine, and a figure; and the scaling measured anew.
+# Error-controlled runs on random scenes: one timed job for each scene, alone on the machine, and a figure; and the fit of the scaling relations.
 if PRODUCTS.trials:
 
     rule solve_trial:

@@ -1,4 +1,4 @@
-# Accuracy versus cost: one job a case and solver, timed, at most two at once.
+# Accuracy versus cost: one timed job for each case and solver, at most two at once.
 rule measure_work_precision:
     output:
         data=RESULTS / "accuracy/{case}/{job}.nc",
