@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import t as student
 
 from contactsim import reference
-from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fits
+from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fit_line_areas
 from support.ensembles import ensemble
 
 LOADS = np.geomspace(1e-3, 1, 12)
@@ -62,7 +62,7 @@ def line(members=4, noise=0.0, seed=0, bad=()):
 
 
 def test_each_hurst_exponent_is_fitted_by_itself_and_all_together():
-    found = fits(line(), [1.0])
+    found = fit_line_areas(line(), [1.0])
     assert found.fitted.values.tolist() == ["0.2", "0.8", "all"]
     assert found.weighting.values.tolist() == list(WEIGHTINGS)
     for hurst_exponent, (b1, b2) in PLANTED.items():
@@ -78,7 +78,7 @@ def test_a_limit_leaves_out_larger_pressures_and_keeps_the_one_at_the_limit():
     data["relative_contact_area"][:, :, LOADS > 0.11] = 0.99
     limit = LOADS[LOADS < 0.11][-1]
     data["relative_contact_area"][:, :, np.isclose(LOADS, limit)] *= 1.5
-    found = fits(data, [0.9 * limit, limit])
+    found = fit_line_areas(data, [0.9 * limit, limit])
     planted = np.array([[b1] * 2 for b1, _ in PLANTED.values()])
     below = found.fit_b1.isel(fitted=[0, 1], fit_limit=0).values
     # Up to 0.048 the area hardly depends on b2, so that b1 has fewer digits than in the fits above.
@@ -89,11 +89,11 @@ def test_a_limit_leaves_out_larger_pressures_and_keeps_the_one_at_the_limit():
 def test_unconverged_areas_are_left_out_of_a_fit():
     data = line(bad=[(0, 1, 5)])
     data["relative_contact_area"][0, 1, 5] = 0.9
-    np.testing.assert_allclose(fits(data, [1.0]).fit_b1.sel(fitted="0.2"), PLANTED[0.2][0], rtol=1e-4)
+    np.testing.assert_allclose(fit_line_areas(data, [1.0]).fit_b1.sel(fitted="0.2"), PLANTED[0.2][0], rtol=1e-4)
 
 
 def test_a_hurst_exponent_that_never_converged_has_no_fit_and_spoils_no_other():
-    found = fits(line(bad=[(0, slice(None), slice(None))]), [1.0])
+    found = fit_line_areas(line(bad=[(0, slice(None), slice(None))]), [1.0])
     for name in ("fit_b1", "fit_b1_half_width"):
         assert np.isnan(found[name].sel(fitted="0.2")).all()
         assert np.isfinite(found[name].sel(fitted=["0.8", "all"])).all()
@@ -104,7 +104,7 @@ def test_the_jackknife_of_a_mean_is_the_confidence_interval_of_a_mean(monkeypatc
     mean = "contactsim.analysis.fits.fit_line_area"
     monkeypatch.setattr(mean, lambda pressure, area, weighting: (area.mean(), -2 * area.mean()))
     data = line(members=7, noise=0.1)
-    found = fits(data, [1.0]).sel(fitted="0.8", weighting="area", fit_limit=1.0)
+    found = fit_line_areas(data, [1.0]).sel(fitted="0.8", weighting="area", fit_limit=1.0)
     means = data.relative_contact_area.sel(hurst_exponent=0.8).mean("reduced_pressure").values
     half_width = student.ppf(0.975, 6) * means.std(ddof=1) / np.sqrt(7)
     assert found.fit_b1_half_width.item() == pytest.approx(half_width, rel=1e-10)
@@ -123,11 +123,11 @@ def test_the_half_width_is_that_of_the_scatter_between_ensembles():
 
 def fit_and_half_width(area):
     data = ensemble(area).rename(kappa="relative_contact_area").assign_coords(reduced_pressure=LOADS)
-    one = fits(data, [1.0]).isel(fitted=0, fit_limit=0).sel(weighting="area")
+    one = fit_line_areas(data, [1.0]).isel(fitted=0, fit_limit=0).sel(weighting="area")
     return one.fit_b1.item(), one.fit_b1_half_width.item()
 
 
 def test_two_members_are_too_few_for_a_half_width():
-    found = fits(line(members=2), [1.0])
+    found = fit_line_areas(line(members=2), [1.0])
     assert np.isnan(found.fit_b1_half_width).all()
     assert np.isfinite(found.fit_b1).all()

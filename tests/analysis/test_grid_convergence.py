@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim.analysis.grid_convergence import extrapolated, is_doubled, jackknifed
+from contactsim.analysis.grid_convergence import extrapolate, is_doubled, jackknife
 from contactsim.errors import InputError
 
 
@@ -19,7 +19,7 @@ def on_grids(*values, points=(1024, 2048, 4096), dims=("points",)):
 @pytest.mark.parametrize("size", [3.0, -0.2])
 def test_a_sequence_of_known_order_gives_its_limit(order, size):
     spacing = np.array([4.0, 2.0, 1.0])
-    found = extrapolated(on_grids(*(1.75 + size * spacing**order)))
+    found = extrapolate(on_grids(*(1.75 + size * spacing**order)))
     assert float(found.order) == pytest.approx(order, rel=1e-12)
     assert float(found.limit) == pytest.approx(1.75, rel=1e-12)
     last = size * (1 - 2.0**order)
@@ -27,7 +27,7 @@ def test_a_sequence_of_known_order_gives_its_limit(order, size):
 
 
 def test_at_first_order_the_limit_lies_one_change_further_and_has_no_error():
-    found = extrapolated(on_grids(9.0, 5.0, 3.0))
+    found = extrapolate(on_grids(9.0, 5.0, 3.0))
     assert (float(found.limit), float(found.order), float(found.spread)) == (1.0, 1.0, 0.0)
 
 
@@ -37,12 +37,12 @@ def test_at_first_order_the_limit_lies_one_change_further_and_has_no_error():
     ids=["turns down", "turns up", "as fast", "faster", "starts late", "not known"],
 )
 def test_changes_that_turn_or_do_not_shrink_have_no_limit(values):
-    found = extrapolated(on_grids(*values))
+    found = extrapolate(on_grids(*values))
     assert found.isnull().all().to_array().all()
 
 
 def test_what_no_longer_changes_is_its_own_limit():
-    found = extrapolated(on_grids(3.0, 2.0, 2.0))
+    found = extrapolate(on_grids(3.0, 2.0, 2.0))
     assert float(found.limit) == 2.0
     assert float(found.spread) == 0.0
 
@@ -52,7 +52,7 @@ def test_other_than_three_doubled_grids_are_refused(points):
     values = on_grids(*range(len(points)), points=points)
     assert not is_doubled(values.points)
     with pytest.raises(InputError, match="each twice as fine"):
-        extrapolated(values)
+        extrapolate(values)
 
 
 def mean_of(values):
@@ -65,7 +65,7 @@ def ensemble(values):
 
 def test_the_jackknife_of_a_mean_is_its_standard_error():
     draw = np.random.default_rng(1).random((7, 3))
-    found = jackknifed(mean_of, ensemble(draw))
+    found = jackknife(mean_of, ensemble(draw))
     assert float(found["first"]) == pytest.approx(draw[:, 0].mean(), rel=1e-12)
     assert float(found["first_standard_error"]) == pytest.approx(draw[:, 0].std(ddof=1) / np.sqrt(7), rel=1e-12)
 
@@ -78,26 +78,26 @@ def test_errors_of_independent_ensembles_add_in_squares():
         return mean_of(a) + mean_of(b)
 
     parts = [values[:, 0].std(ddof=1) / np.sqrt(len(values)) for values in (one, two)]
-    found = jackknifed(total, ensemble(one), ensemble(two))
+    found = jackknife(total, ensemble(one), ensemble(two))
     assert float(found["first_standard_error"]) == pytest.approx(np.hypot(*parts), rel=1e-12)
 
 
 def test_one_member_has_a_limit_and_no_error():
-    found = jackknifed(extrapolated, ensemble([[9.0, 5.0, 3.0]]))
+    found = jackknife(extrapolate, ensemble([[9.0, 5.0, 3.0]]))
     assert float(found.limit) == 1.0
     assert found.limit_standard_error.isnull()
 
 
 def test_a_limit_that_hangs_on_one_member_is_none():
     still, moving = [3.0, 3.0, 3.5], [30.0, 10.0, 5.0]
-    alone = extrapolated(ensemble([still, moving]).mean("member"))
+    alone = extrapolate(ensemble([still, moving]).mean("member"))
     assert float(alone.limit) > 0
-    found = jackknifed(extrapolated, ensemble([still, moving]))
+    found = jackknife(extrapolate, ensemble([still, moving]))
     assert found.isnull().all().to_array().all()
 
 
 def test_members_that_differ_by_a_constant_have_one_order_and_the_error_of_their_level():
     level = np.array([0.0, 1.0, 5.0, 6.0])
-    found = jackknifed(extrapolated, ensemble(level[:, None] + np.array([9.0, 5.0, 3.0])))
+    found = jackknife(extrapolate, ensemble(level[:, None] + np.array([9.0, 5.0, 3.0])))
     assert float(found.order_standard_error) == pytest.approx(0.0, abs=1e-12)
     assert float(found.limit_standard_error) == pytest.approx(level.std(ddof=1) / 2, rel=1e-12)

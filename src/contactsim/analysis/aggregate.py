@@ -15,7 +15,7 @@ import xarray as xr
 from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
-from contactsim.analysis.fits import fits
+from contactsim.analysis.fits import fit_line_areas
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.variables import ERRORS
@@ -59,7 +59,7 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
     if "points" in fine.dims and grid_convergence.is_doubled(fine.points):
         data = data.merge(finer_grid_limits(fine))
     if settings["fit_limits"] is not None:
-        data = data.merge(fits(fine, settings["fit_limits"]))
+        data = data.merge(fit_line_areas(fine, settings["fit_limits"]))
     return data
 
 
@@ -87,9 +87,9 @@ def _read_runs(runs: list[dict]) -> xr.Dataset:
 def _error_runs(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield the suffix and the combined runs of each kind of error that is measured."""
     for error in ERRORS:
-        others = [run for run in runs if run["measures_error"] and run.get("error", "grid") == error]
-        if others:
-            yield f"_{error}_error", _read_runs(others)
+        error_runs = [run for run in runs if run["measures_error"] and run.get("error", "grid") == error]
+        if error_runs:
+            yield f"_{error}_error", _read_runs(error_runs)
 
 
 def ensemble_means(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
@@ -122,7 +122,7 @@ def finer_grid_limits(data: xr.Dataset) -> xr.Dataset:
     variables = {}
     for name in AVERAGED:
         if name in data:
-            limits = grid_convergence.jackknifed(grid_convergence.extrapolated, on_all_grids(data, name))
-            kept = limits.drop_vars("spread_standard_error")
-            variables |= {f"{name}_{kind}": values for kind, values in kept.items()}
+            limits = grid_convergence.jackknife(grid_convergence.extrapolate, on_all_grids(data, name))
+            columns = limits.drop_vars("spread_standard_error")
+            variables |= {f"{name}_{kind}": values for kind, values in columns.items()}
     return xr.Dataset(variables)

@@ -1,4 +1,4 @@
-"""What runs cost: times, kept apart from results because they are not reproducible."""
+"""Costs of runs: times and memory, kept apart from results because they are not reproducible."""
 
 from __future__ import annotations
 
@@ -11,19 +11,33 @@ from contactsim import dataset
 
 
 def table(runs: list[dict]) -> pd.DataFrame:
-    """One row for each solved load: where it stands, transforms, seconds, status.
+    """Return the costs of runs, with one row for each solved load.
 
-    runs: path, costs, coordinates, member and measures_error of each, as `Plan.study_settings` lists them.
+    Parameters
+    ----------
+    runs : list of dict
+        Path, costs, coordinates, member and measures_error of each run, as `Plan.study_settings` lists them.
+
+    Returns
+    -------
+    DataFrame
+        Run, coordinates, load, grid points, transforms, seconds, memory (MiB) and status.
     """
-    return pd.concat([_of_run(run) for run in runs], ignore_index=True)
+    return pd.concat([_run_costs(run) for run in runs], ignore_index=True)
 
 
-def _of_run(run: dict) -> pd.DataFrame:
+def _run_costs(run: dict) -> pd.DataFrame:
+    """Return the costs of one run."""
     data = dataset.load_dataset(run["path"])
-    spent = json.loads(Path(run["costs"]).read_text())
+    measured = json.loads(Path(run["costs"]).read_text())
     load = data.status.dims[0]
-    told = {"run": run["path"], **run["coordinates"], "member": run["member"], "measures_error": run["measures_error"]}
-    told |= {load: data[load].values, "points": data.points.item(), "transforms": data.transforms.values}
-    seconds = [spent["seconds"][str(name)] for name in data.point_digest.values]
-    told |= {"seconds": seconds, "memory_mib": spent["peak_memory_of_last_run"], "status": data.status.values}
-    return pd.DataFrame(told)
+    columns = {
+        "run": run["path"],
+        **run["coordinates"],
+        "member": run["member"],
+        "measures_error": run["measures_error"],
+    }
+    columns |= {load: data[load].values, "points": data.points.item(), "transforms": data.transforms.values}
+    seconds = [measured["seconds"][str(name)] for name in data.point_digest.values]
+    columns |= {"seconds": seconds, "memory_mib": measured["peak_memory_of_last_run"], "status": data.status.values}
+    return pd.DataFrame(columns)

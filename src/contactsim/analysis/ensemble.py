@@ -1,7 +1,7 @@
-"""What ensembles say when they are compared: differences and ratios of means, each with its standard error.
+"""Comparison of ensembles: differences and ratios of means, each with its standard error.
 
-Solutions that did not converge are left out and counted. Members are the same surfaces but for their scale, so what is
-changed on them is taken member by member; different Hurst exponents, and lines and surfaces, are independent.
+Solutions that did not converge are left out and counted. Members are the same surfaces but for their scale, so changes
+are computed member by member. Different Hurst exponents, and lines and surfaces, are independent.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from contactsim.errors import InputError
 from contactsim.status import is_solved
 
 ROUNDING = 1e-9
-"""Of the ends of a selection."""
+"""Relative rounding error of the ends of a selection."""
 
 
 def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
-    """Values with NaN where the solution did not converge."""
+    """Return values with NaN where the solution did not converge."""
     return values.where(is_solved(data.status))
 
 
 def unconverged(data: xr.Dataset) -> tuple[int, int]:
-    """How many solutions did not converge, and how many there are; paths of a study need not be equally long."""
+    """Return the number of solutions that did not converge, and of all; paths of a study may differ in length."""
     exist = data.status.notnull()
     return int((exist & ~is_solved(data.status)).sum()), int(exist.sum())
 
@@ -36,40 +36,56 @@ def widen_interval(low: float, high: float) -> tuple[float, float]:
 
 
 def on_all_grids(data: xr.Dataset, name: str) -> xr.DataArray:
-    """A quantity of the members that converged on all grids; NaN for the others."""
+    """Return a quantity of the members that converged on all grids; NaN for the others."""
     values = converged(data[name], data)
     return values.where(values.notnull().all("points"))
 
 
-def ratio_limits(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
-    """The mean of a quantity over that in another, independent ensemble, on three grids and extrapolated.
+def ratio_limits(above: xr.Dataset, below: xr.Dataset, name: str) -> xr.Dataset:
+    """Return the ratio of a quantity's means in two independent ensembles, on three grids and extrapolated.
 
-    `points` of both count the same points per wavelength: InputError if not. Returns `ratio` along `points` and, with
-    both means extrapolated, `limit` and its `spread`: less that of first order; each with its standard error.
+    Parameters
+    ----------
+    above, below : Dataset
+        Ensembles on three grids, with the same points per wavelength as `points`.
+    name : str
+        Name of the quantity.
+
+    Returns
+    -------
+    Dataset
+        `ratio` along `points`; of the extrapolated means `limit` and `spread`, the limit less that of first order; each
+        with its standard error.
+
+    Raises
+    ------
+    InputError
+        For grids that differ.
     """
-    grids, others = one.points.values, two.points.values
-    if grids.shape != others.shape or not np.allclose(grids, others, rtol=1e-9, atol=0):
-        raise InputError("points", others.tolist(), f"per wavelength those of the other ensemble, {grids.tolist()}")
-    two = two.assign_coords(points=grids)
+    grids, grids_below = above.points.values, below.points.values
+    if grids.shape != grids_below.shape or not np.allclose(grids, grids_below, rtol=1e-9, atol=0):
+        allowed = f"those per wavelength of the other ensemble, {grids.tolist()}"
+        raise InputError("points", grids_below.tolist(), allowed)
+    below = below.assign_coords(points=grids)
 
-    def ratios(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
-        """Of the means, on each grid."""
-        return (above / below).to_dataset(name="ratio")
+    def ratios(numerator: xr.DataArray, denominator: xr.DataArray) -> xr.Dataset:
+        """Return the ratio of the means on each grid."""
+        return (numerator / denominator).to_dataset(name="ratio")
 
-    def limits(above: xr.DataArray, below: xr.DataArray) -> xr.Dataset:
-        """Of the means, extrapolated."""
-        top, bottom = grid_convergence.extrapolated(above), grid_convergence.extrapolated(below)
+    def limits(numerator: xr.DataArray, denominator: xr.DataArray) -> xr.Dataset:
+        """Return the ratio of the extrapolated means."""
+        top, bottom = grid_convergence.extrapolate(numerator), grid_convergence.extrapolate(denominator)
         limit = top.limit / bottom.limit
         first = (top.limit - top.spread) / (bottom.limit - bottom.spread)
         return xr.Dataset({"limit": limit, "spread": limit - first})
 
-    ensembles = [on_all_grids(data, name) for data in (one, two)]
-    return xr.merge([grid_convergence.jackknifed(measure, *ensembles) for measure in (ratios, limits)])
+    ensembles = [on_all_grids(data, name) for data in (above, below)]
+    return xr.merge([grid_convergence.jackknife(measure, *ensembles) for measure in (ratios, limits)])
 
 
 @dataclass(frozen=True)
 class Departure:
-    """A difference of two means: its size, its standard error, and the two places."""
+    """A difference of two means, with its standard error and the coordinates of both."""
 
     difference: float
     standard_error: float
@@ -77,80 +93,92 @@ class Departure:
 
     @property
     def in_errors(self) -> float:
-        """The difference over its standard error."""
+        """Return the difference over its standard error."""
         return self.difference / self.standard_error
 
 
 def departure(data: xr.Dataset, name: str, along: str) -> Departure:
-    """The most significant difference of a quantity between two values of `along`, all else being equal.
+    """Return the most significant difference of a quantity between two values of a dimension, all else being equal.
 
-    Members are the same profiles but for their scale along everything else than the Hurst exponent, so differences are
-    taken member by member there; different Hurst exponents are independent. Needs two members or more.
+    Members are the same profiles but for their scale, so differences are computed member by member; only different
+    Hurst exponents are independent.
+
+    Parameters
+    ----------
+    data : Dataset
+        Results with two members or more.
+    name : str
+        Name of the quantity.
+    along : str
+        Dimension with two values or more.
+
+    Raises
+    ------
+    InputError
+        For one member, or one value along the dimension.
     """
     if data.member.size < 2:
         raise InputError("members", data.member.size, "2 or more: without a spread nothing is significant")
     if data[along].size < 2:
         raise InputError(along, data[along].size, "2 or more values: a difference needs two")
     values = converged(data[name], data)
-    others = [dim for dim in values.dims if dim not in ("member", along)]
+    dims = [dim for dim in values.dims if dim not in ("member", along)]
     best = None
     for (i, first), (j, second) in (
         (a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]
     ):
-        one, two = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
+        before, after = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
         paired = along != "hurst_exponent"
-        gap = abs((one - two).mean("member")) if paired else abs(one.mean("member") - two.mean("member"))
-        square = _squared_error(one - two) if paired else _squared_error(one) + _squared_error(two)
+        gap = abs((before - after).mean("member")) if paired else abs(before.mean("member") - after.mean("member"))
+        square = _squared_error(before - after) if paired else _squared_error(before) + _squared_error(after)
         error = np.sqrt(square)
         if not (gap / error).notnull().any():
             continue
         place = (gap / error).argmax(...)
-        found = Departure(
+        candidate = Departure(
             float(gap[place]),
             float(error[place]),
-            tuple(
-                {dim: float(data[dim][place[dim]]) for dim in others} | {along: float(end)} for end in (first, second)
-            ),
+            tuple({dim: float(data[dim][place[dim]]) for dim in dims} | {along: float(end)} for end in (first, second)),
         )
-        if best is None or found.in_errors > best.in_errors:
-            best = found
+        if best is None or candidate.in_errors > best.in_errors:
+            best = candidate
     return best
 
 
 def relative_change(data: xr.Dataset, name: str, along: str, reference: object) -> xr.Dataset:
-    """Change of a quantity from its value at a reference of `along`, as a part of that, with its standard error.
+    """Return the relative change of a quantity from its value at a reference along a dimension.
 
-    Taken member by member, so only for what leaves the profiles as they are. Variables `NAME_change` and
+    It is computed member by member, so the dimension must leave the profiles as they are. Variables `NAME_change` and
     `NAME_change_standard_error`, the latter NaN for one member.
     """
-    apart = difference(data, name, along, reference)
+    change = difference(data, name, along, reference)
     values = converged(data[name], data)
     start = values.sel({along: reference}, drop=True)
     level = start.where(values.notnull()).mean("member")
     names = {f"{name}_difference{error}": f"{name}_change{error}" for error in ("", "_standard_error")}
-    return (apart / level).rename(names)
+    return (change / level).rename(names)
 
 
 def difference(data: xr.Dataset, name: str, along: str, reference: object) -> xr.Dataset:
-    """Difference of a quantity from its value at a reference of `along`, and its standard error.
+    """Return the difference of a quantity from its value at a reference along a dimension.
 
-    Taken member by member, over those known at both. Variables `NAME_difference` and `NAME_difference_standard_error`,
-    the latter NaN for one member.
+    It is computed member by member, over those that converged at both. Variables are `NAME_difference` and
+    `NAME_difference_standard_error`, the latter NaN for one member.
     """
     values = converged(data[name], data)
-    apart = values - values.sel({along: reference}, drop=True)
-    mean = apart.mean("member")
-    error = np.sqrt(_squared_error(apart)) if data.member.size > 1 else mean * np.nan
+    change = values - values.sel({along: reference}, drop=True)
+    mean = change.mean("member")
+    error = np.sqrt(_squared_error(change)) if data.member.size > 1 else mean * np.nan
     return xr.Dataset({f"{name}_difference": mean, f"{name}_difference_standard_error": error})
 
 
 def _squared_error(values: xr.DataArray) -> xr.DataArray:
-    """Squared standard error of the mean over the members that are known."""
+    """Return the squared standard error of the mean over the members that converged."""
     return values.var("member", ddof=1) / values.notnull().sum("member")
 
 
-def ratio_of_means(one: xr.Dataset, two: xr.Dataset, name: str) -> xr.Dataset:
-    """The mean of a quantity over that in another, independent ensemble: `value` and its standard `error`."""
-    value = one[f"{name}_mean"] / two[f"{name}_mean"]
-    parts = [data[f"{name}_standard_error"] / data[f"{name}_mean"] for data in (one, two)]
+def ratio_of_means(above: xr.Dataset, below: xr.Dataset, name: str) -> xr.Dataset:
+    """Return the ratio of a quantity's means in two independent ensembles: `value` and its standard `error`."""
+    value = above[f"{name}_mean"] / below[f"{name}_mean"]
+    parts = [data[f"{name}_standard_error"] / data[f"{name}_mean"] for data in (above, below)]
     return xr.Dataset({"value": value, "error": value * np.sqrt(parts[0] ** 2 + parts[1] ** 2)})

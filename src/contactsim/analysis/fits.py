@@ -1,4 +1,4 @@
-"""Eq. 3.11 fitted to the area of rough lines, and how well its parameters are determined."""
+"""Fits of Eq. 3.11 to the contact area of rough lines, with confidence intervals of the parameters."""
 
 from __future__ import annotations
 
@@ -12,11 +12,25 @@ from contactsim.grid import Array
 WEIGHTINGS = ("area", "logarithm")
 
 
-def fits(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
-    """Eq. 3.11 fitted to each Hurst exponent and to all, two weightings, each up to each limit of p*.
+def fit_line_areas(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
+    """Return the parameters of Eq. 3.11 for each Hurst exponent and for all together.
 
-    Returns b1 and b2 with half-widths of their 95 % confidence intervals by the jackknife over members: dims
-    (fitted, weighting, fit_limit).
+    Parameters
+    ----------
+    data : Dataset
+        Relative contact area along `hurst_exponent`, `member` and `reduced_pressure`.
+    limits : list of float
+        Largest reduced pressures to fit.
+
+    Returns
+    -------
+    Dataset
+        b1 and b2, and half-widths of their 95 % confidence intervals by the jackknife over members; dims (fitted,
+        weighting, fit_limit).
+
+    References
+    ----------
+    Eq. 3.11 of the thesis.
     """
     area = converged(data.relative_contact_area, data).transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
@@ -27,10 +41,10 @@ def fits(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
         for w, weighting in enumerate(WEIGHTINGS):
             for k, limit in enumerate(limits):
                 below = pressure <= limit * (1 + 1e-9)
-                chosen = area[rows][:, :, below]
-                best = fit_line_area(pressure[below], chosen, weighting)
+                part = area[rows][:, :, below]
+                best = fit_line_area(pressure[below], part, weighting)
                 values[:2, s, w, k] = best
-                values[2:, s, w, k] = _jackknife(pressure[below], chosen, weighting)
+                values[2:, s, w, k] = _jackknife(pressure[below], part, weighting)
     dims = ("fitted", "weighting", "fit_limit")
     kinds = ("fit_b1", "fit_b2", "fit_b1_half_width", "fit_b2_half_width")
     variables = {name: (dims, block) for name, block in zip(kinds, values, strict=True)}
@@ -38,26 +52,34 @@ def fits(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
 
 
 def fit_line_area(pressure: Array, area: Array, weighting: str) -> tuple[float, float]:
-    """b1 and b2 of Eq. 3.11 by least squares; pressure (k,), area (..., k), NaN left out.
+    """Return b1 and b2 of Eq. 3.11 by least squares.
 
-    weighting: "area" weighs the area itself, so the largest loads decide; "logarithm" weighs all alike.
+    Parameters
+    ----------
+    pressure : array (k,)
+        Reduced pressure.
+    area : array (..., k)
+        Relative contact area; NaN is left out.
+    weighting : str
+        "area" for differences of the area, where the largest loads decide; "logarithm" for those of its logarithm.
     """
     from scipy.optimize import least_squares  # takes longer to import than to fit
 
-    known = np.isfinite(area) & (area > 0)
-    if not known.any():
+    usable = np.isfinite(area) & (area > 0)
+    if not usable.any():
         return float("nan"), float("nan")
 
     def misfit(logarithms: Array) -> Array:
-        """Of the model with the parameters of these logarithms, by the weighting."""
-        model = np.broadcast_to(reference.line_area(pressure, *np.exp(logarithms)), area.shape)[known]
-        return model - area[known] if weighting == "area" else np.log(model) - np.log(area[known])
+        """Return the misfit of the model with the parameters of these logarithms."""
+        model = np.broadcast_to(reference.line_area(pressure, *np.exp(logarithms)), area.shape)[usable]
+        return model - area[usable] if weighting == "area" else np.log(model) - np.log(area[usable])
 
-    found = least_squares(misfit, np.log([0.7, 1.0]), bounds=(np.log([1e-2, 1e-4]), np.log([1e1, 1e4])), x_scale="jac")
-    return tuple(np.exp(found.x))
+    fit = least_squares(misfit, np.log([0.7, 1.0]), bounds=(np.log([1e-2, 1e-4]), np.log([1e1, 1e4])), x_scale="jac")
+    return tuple(np.exp(fit.x))
 
 
 def _jackknife(pressure: Array, area: Array, weighting: str) -> Array:
+    """Return the half-widths of the 95 % confidence intervals of b1 and b2; NaN below three members."""
     from scipy.special import stdtrit
 
     members = area.shape[1]

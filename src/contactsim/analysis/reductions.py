@@ -153,7 +153,7 @@ def mean_quantity(data: xr.Dataset, name: str) -> xr.DataArray:
     """
     if name.removesuffix(LIMIT) in AVERAGED and name.endswith(LIMIT):
         means = on_all_grids(data, name.removesuffix(LIMIT)).mean("member")
-        limit = grid_convergence.extrapolated(means).limit
+        limit = grid_convergence.extrapolate(means).limit
         return limit.where(limit.notnull().all())
     if name in FITTED:
         return _fitted_kappa(data, *FITTED[name])

@@ -71,10 +71,10 @@ def relative_areas(data: xr.Dataset, lengths: list[str]) -> dict[str, xr.DataArr
 
 @dataclass(frozen=True)
 class Saving:
-    """What leaving effects out saves and changes.
+    """Saved work and changed results of neglecting effects.
 
-    transforms: with effects left out, check included; transforms_whole: with all effects; change_of_mean: relative
-    change of the area at 12 nm, over the members of both; decision: which effects are left out.
+    transforms: without the neglected effects, check included; transforms_whole: with all effects; change_of_mean:
+    relative change of the area at 12 nm, over the members of both; decision: the neglected effects.
     """
 
     transforms: float
@@ -84,7 +84,7 @@ class Saving:
 
     @classmethod
     def of(cls, simplified: xr.Dataset, whole: xr.Dataset) -> Saving:
-        """Return the saving of a study without negligible effects, beside the same with all."""
+        """Return the saving of a study without negligible effects, compared with the same study with all."""
         area, members = "area_at_12nm", simplified.member.values
         change = abs(simplified[area].mean("member") / whole[area].sel(member=members).mean("member") - 1)
         return cls(
@@ -96,5 +96,5 @@ class Saving:
 
     @property
     def factor(self) -> float:
-        """How many times the work all effects take."""
+        """Return the work with all effects over that without the neglected ones."""
         return self.transforms_whole / self.transforms
