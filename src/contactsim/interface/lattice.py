@@ -199,6 +199,7 @@ class Lattice:
     tangential_cutoff: float = 5.0
     normal_cutoff: float = 40.0
     weight: float = 1.0
+    refuses = frozenset({Trait.SURFACE, Trait.WALL})
 
     def __post_init__(self) -> None:
         if not (is_number(self.tangential_cutoff) and self.tangential_cutoff >= 0):
@@ -215,7 +216,7 @@ class Lattice:
         if lower is not None:
             allowed = "a rigid lower body: sites that are displaced on both sides are not modelled"
             raise InputError("pairing", "lattice", allowed)
-        if not {Trait.LINE, Trait.SMOOTH} <= traits or Trait.WALL in traits:
+        if self.refuses & traits:
             raise InputError("pairing", "lattice", "aligned, or smooth laws on a line: springs are laws between sites")
 
     def join(self, law: Law, lower: Array, length: float) -> LatticeInteraction:

@@ -1,4 +1,4 @@
-"""What is read off a state of smooth laws, and off a path through such states.
+"""Numbers of a state of cohesive laws, and of a path through such states.
 
 Loads are forces per unit thickness (N/m), compression positive (Eq. 4.2). Contact is `repulsive` where the normal gap
 is negative, to a fraction of a node, or `interacting` where the traction exceeds a part of the laws' strength. A path
@@ -22,7 +22,7 @@ INTERACTING = {
 }
 """Parts of the strength beyond which two surfaces interact."""
 CRITERION = "interacting_length_0_01"
-"""The one of Chapter 5, where it says no more than that the threshold approaches zero."""
+"""Criterion of Chapter 5, which says only that its threshold approaches zero."""
 AREAS = {"relative_repulsive_area": "contact_length", "relative_interacting_area": CRITERION}
 """Parts of the period, and the lengths that they come from."""
 OPENINGS, PULLS = np.linspace(-3.0, 12.0, 61), np.linspace(-6.0, 1.0, 71)
@@ -37,8 +37,8 @@ FINAL = {
     "final_max_tensile_traction": "max_tensile_traction",
     "final_slip": "slip",
 }
-"""What is read at the largest approach, and of which number of a state."""
-LEVEL = 1e-6
+"""Numbers at the largest approach, by the number of a state that they are."""
+TURN_TOLERANCE = 1e-6
 """Changes of approach (nm) that do not turn a path."""
 LEGS = ("loading", "unloading")
 SUMMARY = (
@@ -50,11 +50,11 @@ SUMMARY = (
     "max_jump_unloading",
     *FINAL,
 )
-"""What a path amounts to; the slip only where a law reads the tangential gap."""
+"""Summary of a path; the slip only where a law reads the tangential gap."""
 
 
 def contact_length(gap: Array, spacing: float) -> float:
-    """Length, nm, over which the normal gap (n,), nm, is negative; its ends lie between nodes, to second order."""
+    """Return the length (nm) over which the normal gap (n,), nm, is negative; its ends lie between nodes."""
     after = np.concatenate((gap[1:], gap[:1]))
     inside, crossing = (gap < 0) & (after < 0), (gap < 0) != (after < 0)
     ends = np.minimum(gap, after)[crossing]
@@ -62,12 +62,24 @@ def contact_length(gap: Array, spacing: float) -> float:
 
 
 def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, float]:
-    """Numbers of one state; gap (components, n), nm; traction (exerted, n), GPa.
+    """Return the numbers of one state.
 
-    line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, GPa; contact_length,
-    lengths for `INTERACTING`, mean_gap, min_gap, nm; max_pressure and max_tensile_traction: normal traction at its
-    largest, GPa; max_interpenetration: deepest overlap, and slip: largest tangential gap where there is repulsion, of
-    springs that to the nearest site, over the laws' lengths.
+    Parameters
+    ----------
+    problem : CohesiveProblem
+        The problem that it solves.
+    gap : array, shape (components, n)
+        Gap, nm.
+    traction : array, shape (exerted, n)
+        Traction, GPa.
+
+    Returns
+    -------
+    dict
+        line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, max_pressure and
+        max_tensile_traction, GPa; contact_length, lengths for `INTERACTING`, mean_gap and min_gap, nm. Over the laws'
+        lengths: max_interpenetration, the deepest overlap, and slip, the largest tangential gap under repulsion (of
+        springs, that to the nearest site).
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength
@@ -96,21 +108,30 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
 
 
 def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, float]:
-    """Rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
+    """Return the rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
 
-    square: local mean squares of the slopes (n,), as of `contactsim.surfaces.statistics.local_squares`. NaN without
-    contact.
+    Parameters
+    ----------
+    square : array, shape (n,)
+        Local mean squares of the slopes, of `contactsim.surfaces.statistics.local_squares`.
+    problem, gap, traction
+        As in `state_observables`.
+
+    Returns
+    -------
+    dict
+        NaN without contact.
     """
-    chosen = {
+    squares = {
         "rms_gradient_repulsive": square[gap[0] < 0],
         "rms_gradient_interacting": square[np.abs(traction[0]) > INTERACTING[CRITERION] * problem.strength],
     }
-    found = {name: float(np.sqrt(values.mean())) if values.size else np.nan for name, values in chosen.items()}
-    return found | {"rms_gradient": float(np.sqrt(square.mean()))}
+    numbers = {name: float(np.sqrt(values.mean())) if values.size else np.nan for name, values in squares.items()}
+    return numbers | {"rms_gradient": float(np.sqrt(square.mean()))}
 
 
 def histograms(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, Array]:
-    """Share of the points by normal gap, bins of `OPENINGS`, and by normal traction, bins of `PULLS`."""
+    """Return the share of the points by normal gap, bins of `OPENINGS`, and by normal traction, bins of `PULLS`."""
     kinds = {
         "normal_gap_share": (gap[0] / problem.interaction_range, OPENINGS),
         "normal_traction_share": (traction[0] / problem.strength, PULLS),
@@ -122,51 +143,60 @@ def histograms(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[st
 
 
 def pull_off(approach: Array, load: Array) -> dict[str, float]:
-    """Largest pull (N/m) and its approach (nm) on loading, then on unloading; NaN where a leg does not pass it.
+    """Return the largest pull (N/m) and its approach (nm) on loading and on unloading, with their errors.
 
-    approach, load: (step,), NaN where there is no solution. A leg that begins or ends with its largest pull does not
-    pass it; one that ends without a solution, as a load that pulls the bodies apart does, passes it. The increments
-    leave an `_increment_error` of each: of the approach one increment, of the pull its change to the nearer of the two
-    states beside it, which at a jump is the one that has not jumped.
+    A leg that begins or ends with its largest pull does not pass it. A leg that ends without a solution passes it, as
+    under a load that pulls the bodies apart. The increments leave an `_increment_error`: of the approach one increment,
+    of the pull its change to the nearer of the two states beside it, which at a jump is the one before the jump.
+
+    Parameters
+    ----------
+    approach, load : array, shape (step,)
+        Approach, nm, and line load, N/m; NaN where there is no solution.
+
+    Returns
+    -------
+    dict
+        NaN where a leg does not pass its largest pull.
     """
-    found = {}
+    numbers = {}
     for name, leg in zip(LEGS, legs(approach), strict=True):
         part = slice(max(leg.start - 1, 0), leg.stop)  # from the turn on
         pull, places = -load[part], approach[part]
         best = 0 if np.isnan(pull).all() else int(np.nanargmax(pull))
-        known = 0 < best < pull.size - 1 and pull[best] > 0
-        beside = [other for other in (best - 1, best + 1) if known]
-        found[f"pull_off_load_{name}"] = float(pull[best]) if known else np.nan
-        found[f"pull_off_approach_{name}"] = float(places[best]) if known else np.nan
-        for what, values in (("load", pull), ("approach", places)):
+        is_passed = 0 < best < pull.size - 1 and pull[best] > 0
+        beside = [other for other in (best - 1, best + 1) if is_passed]
+        numbers[f"pull_off_load_{name}"] = float(pull[best]) if is_passed else np.nan
+        numbers[f"pull_off_approach_{name}"] = float(places[best]) if is_passed else np.nan
+        for quantity, values in (("load", pull), ("approach", places)):
             changes = [abs(float(values[best] - values[other])) for other in beside]
-            found[f"pull_off_{what}_{name}_increment_error"] = min(changes, default=np.nan)
-    return found
+            numbers[f"pull_off_{quantity}_{name}_increment_error"] = min(changes, default=np.nan)
+    return numbers
 
 
 def legs(approach: Array) -> tuple[slice, slice]:
-    """The steps of loading, as long as the approach grows, and of unloading, until it grows again; approach (step,)."""
+    """Return the steps of loading, while the approach (step,) grows, and of unloading, until it grows again."""
     changes = np.diff(approach)
-    back = np.flatnonzero(changes < -LEVEL)
+    back = np.flatnonzero(changes < -TURN_TOLERANCE)
     turn = int(back[0]) + 1 if back.size else approach.size
-    again = np.flatnonzero(changes[turn:] > LEVEL)
+    again = np.flatnonzero(changes[turn:] > TURN_TOLERANCE)
     return slice(0, turn), slice(turn, turn + int(again[0]) + 1 if again.size else approach.size)
 
 
 def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
-    """Largest jump (nm) on loading and on unloading, zero where there is none; NaN where there is no such leg."""
+    """Return the largest jump (nm) on loading and on unloading; zero without a jump, NaN without such a leg."""
     parts = zip(LEGS, (jump[part] for part in legs(approach)), strict=True)
     return {f"max_jump_{name}": float(np.nanmax(part)) if np.isfinite(part).any() else np.nan for name, part in parts}
 
 
 def summarise_load_curves(data: xr.Dataset) -> xr.Dataset:
-    """A study of paths with what its curves amount to (`SUMMARY`); states that did not converge are left out."""
+    """Return a study of paths with their summaries (`SUMMARY`); states that did not converge do not count."""
     names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
 
     def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
-        """What one path amounts to, in the order of `names`."""
-        found = pull_off(approach, load) | largest_jumps(approach, jump)
-        return tuple(found[name] for name in names)
+        """Return the summary of one path, in the order of `names`."""
+        numbers = pull_off(approach, load) | largest_jumps(approach, jump)
+        return tuple(numbers[name] for name in names)
 
     converged = is_solved(data.status)
     columns = xr.apply_ufunc(

@@ -1,4 +1,4 @@
-"""What is read off a solution: functions on arrays.
+"""Contact area and gradients of a hard-wall solution, as functions of arrays.
 
 Contact area follows one of three named criteria; the hard wall has `touching`, points with positive pressure. Counting
 them puts each edge half a step beyond the last of them, but on average it lies only 0.31 steps beyond, so the count is
@@ -18,29 +18,35 @@ from contactsim.grid import Array
 from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
 
 KEPT = ("contact", "pressure", "profile", "fields")
-"""What a run may keep beside its numbers; all but the last by default."""
+"""Parts of a solution that a run can keep beside its numbers; all but the last by default."""
 
 
 def touching(pressure: Array) -> Array:
-    """Points in contact at a hard wall: positive pressure, bool of the same shape (Chapter 3)."""
+    """Return the points in contact at a hard wall: positive pressure, bool of the same shape (Chapter 3)."""
     return pressure > 0
 
 
 EDGES = (-0.19, 0.81)
-"""Between which steps beyond the last point in contact a straight edge along the grid lies."""
+"""Least and largest distance, in steps, of a straight edge along the grid beyond the last point in contact."""
 EDGE_FIT = (1.333, -0.522)
-"""Straight back to v steps, the edge of Westergaard's wave lies at 1.333 v - 0.522 v², to 0.01 (4096 points)."""
+"""Where a straight line leads v steps back, the edge of Westergaard's wave lies at 1.333 v - 0.522 v², to 0.01."""
 
 
 def relative_contact_area_subgrid(pressure: Array, gap: Array) -> float:
-    """Relative contact area at a hard wall with its edges placed between points.
+    """Return the relative contact area at a hard wall with its edges placed between points.
 
-    pressure, gap: (n,) or (ny, nx) of a converged solution, periodic, in any units; calibrated on a half-space. An edge
-    with one open point beyond it counts at the mean of `EDGES`. Over a surface, each edge is placed along both axes,
-    weighted by the squares of the slope of pressure², the direction of its normal. Errors, where several points are in
-    contact across a patch: 0.01 steps an edge of a line; of the radius of a sphere 0.003 steps at 26 points, of second
-    order, where counting is 0.13 steps out. A solution's tolerance of 1e-3 grid steps adds up to 0.04 steps, one of
-    1e-4 0.01.
+    Parameters
+    ----------
+    pressure, gap : array, shape (n,) or (ny, nx)
+        A converged solution, periodic, in any units; the edges are calibrated on a half-space.
+
+    Notes
+    -----
+    An edge with one open point beyond it counts at the mean of `EDGES`. On a surface each edge is placed along both
+    axes, weighted by the squares of the slope of pressure², the direction of its normal. Where several points are in
+    contact across a patch, the error is 0.01 steps for an edge of a line; for the radius of a sphere of 26 points it is
+    0.003 steps, of second order, against 0.13 steps by counting. A tolerance of 1e-3 grid steps adds up to 0.04 steps,
+    one of 1e-4 adds 0.01.
     """
     contact, flat = touching(pressure), (pressure.ravel(), gap.ravel())
     area = float(np.count_nonzero(contact))
@@ -54,48 +60,58 @@ def relative_contact_area_subgrid(pressure: Array, gap: Array) -> float:
 
 
 def _beside(places: Array, steps: int, axis: int, shape: tuple[int, ...]) -> Array:
-    """Flat indices of the points some steps along an axis from others, periodic."""
+    """Return the flat indices of the points some steps along an axis from others, periodic."""
     stride = int(np.prod(shape[axis + 1 :], dtype=int))
     along = places // stride % shape[axis]
     return places + ((along + steps) % shape[axis] - along) * stride
 
 
 def _beyond(edge: Array, axis: int, side: int, fields: tuple[Array, Array], shape: tuple[int, ...]) -> Array:
-    """By how many steps more than half a step an edge lies beyond the last points in contact; flat indices (m,)."""
+    """Return the steps, less a half, by which an edge lies beyond the last points in contact; flat indices (m,)."""
     pressure, gap = fields
     first, second = (_beside(edge, -steps * side, axis, shape) for steps in (1, 2))
     near, far = (np.maximum(gap[places], 0.0) ** (2 / 3) for places in (first, second))
-    known = (far > near) & ~touching(pressure[second])
-    back = 1 - np.divide(near, far - near, out=np.zeros_like(near), where=known)
-    beyond = np.where(known, EDGE_FIT[0] * back + EDGE_FIT[1] * back**2, np.mean(EDGES))
+    is_regular = (far > near) & ~touching(pressure[second])
+    back = 1 - np.divide(near, far - near, out=np.zeros_like(near), where=is_regular)
+    beyond = np.where(is_regular, EDGE_FIT[0] * back + EDGE_FIT[1] * back**2, np.mean(EDGES))
     return np.clip(beyond, *EDGES) - 0.5
 
 
 def _share(edge: Array, axis: int, pressure: Array, shape: tuple[int, ...]) -> Array:
-    """How much of the edge at points in contact counts along an axis: its normal's part, squared; flat indices (m,)."""
+    """Return the weight of the edge at points in contact along an axis: its normal's part, squared; flat (m,)."""
     steep = np.array([_steepness(edge, other, pressure, shape) for other in range(len(shape))]) ** 2
     total = steep.sum(0)
     return np.divide(steep[axis], total, out=np.full(edge.shape, 1 / len(shape)), where=total > 0)
 
 
 def _steepness(places: Array, axis: int, pressure: Array, shape: tuple[int, ...]) -> Array:
-    """The larger of the differences of pressure² to both neighbours along an axis, of those in contact."""
+    """Return the larger difference of pressure² to the neighbours in contact along an axis."""
     here = pressure[places] ** 2
     beside = [pressure[_beside(places, steps, axis, shape)] for steps in (-1, 1)]
     return np.maximum(*(np.where(touching(other), np.abs(other**2 - here), 0.0) for other in beside))
 
 
 def contact_edges(contact: Array) -> int:
-    """Pairs of neighbours on the periodic grid of which one is in contact; bool (n,) or (ny, nx)."""
+    """Return the number of pairs of neighbours with one point in contact; contact: bool (n,) or (ny, nx), periodic."""
     return sum(int(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in range(contact.ndim))
 
 
 def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, gap: Array) -> dict[str, float]:
-    """Numbers of one hard-wall state; heights, pressure, gap: (n,) or (ny, nx) in nm, GPa, nm; spacings nm.
+    """Return the numbers of one hard-wall state.
 
-    relative_contact_area, of points, and with edges between points; contact_edges; rms_gradient_contact (Eqs 3.8–3.9)
-    and rms_gradient_contact_pairs (pairs with both ends in
-    contact), NaN where there is none; mean_gap, nm; mean_pressure, GPa.
+    Parameters
+    ----------
+    heights, pressure, gap : array, shape (n,) or (ny, nx)
+        In nm, GPa and nm.
+    spacing : sequence of float
+        Distance between points in each direction, nm.
+
+    Returns
+    -------
+    dict
+        Relative contact area by points, and with edges between points; pairs of points at edges; rms gradient over the
+        contact (Eqs 3.8-3.9), also of pairs with both ends in contact, NaN without contact; mean gap, nm; mean
+        pressure, GPa.
     """
     contact = touching(pressure)
     return {
@@ -110,8 +126,5 @@ def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, 
 
 
 def proportionality(area: Array, pressure: Array, gradient: Array, contact_modulus: float) -> Array:
-    """κ = a_rel ḡ E*/p (Eqs 3.1 and 3.3): with the gradient over all of the surface κ, over the contact κ_r.
-
-    Broadcasts; NaN where the pressure is zero.
-    """
+    """Return κ = a_rel ḡ E*/p (Eqs 3.1 and 3.3), or κ_r with the gradient over the contact; NaN at zero pressure."""
     return np.where(pressure > 0, area * gradient * contact_modulus / np.where(pressure > 0, pressure, 1.0), np.nan)

@@ -1,4 +1,4 @@
-"""What is read off states of sliding contacts, and off their slips.
+"""Numbers of states of sliding contacts, and of their slips.
 
 A slip is a jump of the surface along a slide, known by the states on both sides of it, a few thousandths of a nanometre
 of the slide apart. Trailing is the edge that the upper body, sliding along x, moves away from; positions are those of
@@ -27,16 +27,28 @@ EVENT = (
     "event_released_energy",
     "event_slip",
 )
-"""What is told of each slip, in the order in which they come."""
+"""Numbers of each slip."""
 TOUCHING = 1e-4
 """Mean gap, nm, within which surfaces touch all over, and neither overlap nor are apart."""
 
 
 def slide_observables(problem: CohesiveProblem, gap: Array, displacement: Array) -> dict[str, float]:
-    """Numbers of one state on a slide: gap (2, n), nm; displacement (exerted, m).
+    """Return the numbers of one state on a slide.
 
-    sliding_distance, nm; contact_trailing_edge, contact_leading_edge: outermost edges of what is under repulsion, nm,
-    NaN without; contact_slip: mean tangential gap where surfaces are closest, nm; elastic_energy of the bodies, nJ/m.
+    Parameters
+    ----------
+    problem : CohesiveProblem
+        The problem that it solves.
+    gap : array, shape (2, n)
+        Gap, nm.
+    displacement : array, shape (exerted, m)
+        Coefficients of the displacement, nm.
+
+    Returns
+    -------
+    dict
+        sliding_distance, nm; contact_trailing_edge and contact_leading_edge, the outermost edges under repulsion, nm,
+        NaN without; contact_slip, the mean tangential gap where surfaces are closest, nm; elastic_energy, nJ/m.
     """
     close = gap[0] <= gap[0].min() + problem.law.interaction_range
     weighted = problem.add_elastic(np.zeros_like(displacement), displacement) * problem.mode_weights
@@ -51,7 +63,7 @@ def slide_observables(problem: CohesiveProblem, gap: Array, displacement: Array)
 
 
 def contact_ends(gap: Array, shape: Array, spacing: float) -> tuple[float, float]:
-    """First and last place with a negative gap (n,), between nodes, nm from where the undeformed `shape` is least.
+    """Return the first and the last place with a negative gap (n,), between nodes, nm from the least `shape`.
 
     NaN where there is none; minus and plus half a period where there is contact all over.
     """
@@ -68,8 +80,8 @@ def contact_ends(gap: Array, shape: Array, spacing: float) -> tuple[float, float
     return float(ends[0]), float(ends[1])
 
 
-def slips_of(slips: Sequence[Mapping[str, float]]) -> xr.Dataset:
-    """Slips along dimension `event`; one of NaN where there is none."""
+def join_slips(slips: Sequence[Mapping[str, float]]) -> xr.Dataset:
+    """Return slips along dimension `event`; one of NaN where there is none."""
     rows = slips or [dict.fromkeys(EVENT, np.nan)]
-    found = {name: ("event", np.array([row[name] for row in rows], float)) for name in EVENT}
-    return xr.Dataset(found, {"event": np.arange(len(rows))})
+    columns = {name: ("event", np.array([row[name] for row in rows], float)) for name in EVENT}
+    return xr.Dataset(columns, {"event": np.arange(len(rows))})

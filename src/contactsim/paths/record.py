@@ -17,7 +17,7 @@ from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
-from contactsim.observables.sliding import slide_observables, slips_of
+from contactsim.observables.sliding import join_slips, slide_observables
 from contactsim.paths.increments import Increments
 from contactsim.paths.jumps import slip_numbers
 from contactsim.paths.state import PathState
@@ -97,7 +97,7 @@ def simulate_path(
             )
     data = _join_states(scene, problem, rows, fields)
     if scene.sliding:
-        data = dataset.describe(data.merge(slips_of(slips)))
+        data = dataset.describe(data.merge(join_slips(slips)))
     for words in status.describe_excess(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))

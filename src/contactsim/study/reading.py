@@ -1,4 +1,4 @@
-"""Reading settings strictly.
+"""Read settings strictly.
 
 Every mapping in a config file is read against a table of keys. An unknown, missing or ill-typed key is a `InputError`
 that names the file, the key, the value and what is allowed; nothing is ever silently ignored. A tier's overrides are
@@ -37,7 +37,7 @@ class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[mi
     """Safe YAML, read in C where that is installed, in which a key given twice is an error."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
-        """The mapping, unless a key stands in it twice."""
+        """Return the mapping; raise an error for a key that stands in it twice."""
         own = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:merge"]
         keys = [self.construct_object(key, deep=True) for key in own]
         for key in keys:
@@ -47,7 +47,7 @@ class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[mi
 
 
 def load_yaml(path: str | Path) -> dict:
-    """The mapping in a YAML file."""
+    """Return the mapping in a YAML file."""
     try:
         content = yaml.load(Path(path).read_text(encoding="utf-8"), _Loader)
     except OSError as error:
@@ -64,9 +64,9 @@ def load_yaml(path: str | Path) -> dict:
 
 
 def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
-    """The mapping in a file beside tiers.yaml, with what a tier changes in it, and what to name where it is wrong.
+    """Return the mapping in a file beside tiers.yaml with the overrides of a tier, and its name for messages.
 
-    None without that file; InputError where a tier changes what is not there.
+    None without that file; InputError where a tier overrides a file that does not exist.
     """
     tiers = file.with_name("tiers.yaml")
     if not file.exists():
@@ -77,12 +77,12 @@ def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
 
 
 def named(file: Path, over: dict, tier: str) -> str:
-    """What to name where a file beside tiers.yaml is wrong, with what a tier changes in it."""
+    """Return the name for messages of a file beside tiers.yaml, with the tier that overrides it."""
     return f"{file} with tier {tier} of {file.with_name('tiers.yaml')}" if over else str(file)
 
 
 def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:
-    """The section with every value checked and every default filled in."""
+    """Return the section with every value checked and every default filled in."""
     if not isinstance(section, dict):
         raise InputError(prefix or "top level", section, f"a mapping with keys {', '.join(keys)}", file)
     dotted = f"{prefix}." if prefix else ""
@@ -105,7 +105,7 @@ def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "
 
 
 def number(value: object) -> float:
-    """A finite number; text that only looks like one is refused."""
+    """Return a finite number; text that only looks like one is refused."""
     if isinstance(value, str):
         try:
             finite = np.isfinite(float(value))
@@ -122,23 +122,24 @@ def number(value: object) -> float:
 
 
 def _with_point(text: str) -> str:
+    """Return a number as YAML reads it: with a decimal point and a signed exponent."""
     mantissa, mark, exponent = text.lower().partition("e")
     mantissa = mantissa if "." in mantissa else f"{mantissa}.0"
     return f"{mantissa}{mark}{exponent if not mark or exponent[:1] in '+-' else '+' + exponent}"
 
 
 def positive(value: object) -> float:
-    """A number above zero."""
+    """Return a number above zero."""
     if number(value) <= 0:
         raise ValueError
     return number(value)
 
 
 def whole(least: int) -> Callable[[object], int]:
-    """A whole number of at least `least`."""
+    """Return a check for whole numbers of at least `least`."""
 
     def kind(value: object) -> int:
-        """The value, if it is such a number."""
+        """Return the value if it is such a number."""
         if isinstance(value, bool) or not isinstance(value, int) or value < least:
             raise ValueError
         return value
@@ -147,17 +148,17 @@ def whole(least: int) -> Callable[[object], int]:
 
 
 def text(value: object) -> str:
-    """A piece of text."""
+    """Return a piece of text."""
     if not isinstance(value, str):
         raise ValueError
     return value
 
 
 def choice(options: Mapping[str, object] | tuple[str, ...]) -> Callable[[object], str]:
-    """One of the names in `options`."""
+    """Return a check for one of the names in `options`."""
 
     def kind(value: object) -> str:
-        """The value, if it is one of the options."""
+        """Return the value if it is one of the options."""
         if value not in tuple(options):
             raise ValueError
         return value
@@ -166,17 +167,17 @@ def choice(options: Mapping[str, object] | tuple[str, ...]) -> Callable[[object]
 
 
 def mapping(value: object) -> dict:
-    """A mapping, read further by whoever knows its keys."""
+    """Return a mapping, which is read further where its keys are known."""
     if not isinstance(value, dict):
         raise ValueError
     return value
 
 
 def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
-    """A list with at least one entry, each of the given kind, none twice."""
+    """Return a check for lists with at least one entry, each of that kind, none twice."""
 
     def whole_list(value: object) -> list:
-        """The entries, each converted."""
+        """Return the entries, each converted."""
         if not isinstance(value, list) or not value:
             raise ValueError
         entries = [kind(entry) for entry in value]
@@ -188,19 +189,19 @@ def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
 
 
 def pair(value: object) -> list[float]:
-    """Two numbers."""
+    """Return two numbers."""
     if not isinstance(value, list) or len(value) != 2:
         raise ValueError
     return [number(entry) for entry in value]
 
 
 def size(value: object) -> list[float]:
-    """Two positive numbers."""
+    """Return two positive numbers."""
     return [positive(entry) for entry in pair(value)]
 
 
 def each_way(value: object) -> float | list[float]:
-    """A positive number for both directions, or one for each."""
+    """Return a positive number for both directions, or one for each."""
     return size(value) if isinstance(value, list) else positive(value)
 
 
@@ -217,7 +218,7 @@ _TYPES = {
 
 @functools.cache
 def keys_of(kind: type) -> Mapping[str, Key]:
-    """The keys of a dataclass: those of its fields that a config can give, with their types and defaults."""
+    """Return the keys of a dataclass: those of its fields that a config can give, with their types and defaults."""
     hints = typing.get_type_hints(kind)
     keys = {}
     for entry in dataclasses.fields(kind):
@@ -231,7 +232,7 @@ def keys_of(kind: type) -> Mapping[str, Key]:
 
 
 def overlaid(base: dict, over: dict) -> dict:
-    """`base` with the entries of `over` in their place; mappings are merged, null takes a key out, else replaced."""
+    """Return `base` with the entries of `over` in their place: mappings are merged, null removes a key."""
     merged = dict(base)
     for name, value in over.items():
         if value is None and name in merged:
