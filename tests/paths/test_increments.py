@@ -154,37 +154,16 @@ def test_a_load_beyond_pull_off_is_reported_and_the_path_ends(kind):
     assert here.gap(found.states[1].displacement)[0].min() > SEPARATION * here.interaction_range
 
 
-# ---- hard scenes and honest ends
+# ---- limits of bodies and grids, and honest ends
 
 
-def hard_scenes():
-    path = along(-10, 8, 0.5)
-    for name, law in LAWS.items():
-        yield f"half-space {name}", scene_of(law, path, HalfSpace(77.0, 0.3))
-        yield f"incompressible layer {name}", scene_of(law, path, Layer(93.0, 0.5, 5000.0))
-        yield f"auxetic layer {name}", scene_of(law, path, Layer(93.0, -0.5, 5000.0))
-        yield f"60 lengths beyond touch at once {name}", scene_of(law, approaches([60.0]))
-        yield f"the same of a half-space {name}", scene_of(law, approaches([60.0]), HalfSpace(77.0, 0.3))
-        for thickness in (10.0, 1e3, 1e5, 1e7):
-            yield f"thickness {thickness:g} {name}", scene_of(law, path, Layer(77.0, 0.3, thickness))
-    for work in (1e-200, 1e-8, 1e-3):
-        for ratio in (0.0, 1.0):
-            yield f"work {work:g}, ratio {ratio:g}", scene_of(CohesiveZone(work, ratio), path)
-    yield "work ratio 100", scene_of(CohesiveZone(2.0, 100.0), along(-6, -5, 0.5))
-
-
-HARD = dict(hard_scenes())
-
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "work ratio 100")) for name in HARD]
-)
-def test_scenes_of_extreme_stiffness_thickness_and_work_are_solved(name):
-    found = walk(HARD[name], points=128)
-    assert found.statuses == {"CONVERGED"}
-    assert np.isfinite(found.load).all()
-    for state in (found.states[0], found.states[-1]):
-        assert residual_of(found.problem.at(state.step), state.displacement) <= 1e-7
+@pytest.mark.parametrize("ratio", [-0.5, 0.5])
+@pytest.mark.parametrize("name", LAWS)
+def test_auxetic_and_incompressible_layers_are_solved(name, ratio):
+    result = walk(scene_of(LAWS[name], along(-10, 8, 0.5), Layer(93.0, ratio, 5000.0)), points=128)
+    assert result.statuses == {"CONVERGED"}
+    for state in (result.states[0], result.states[-1]):
+        assert residual_of(result.problem.at(state.step), state.displacement) <= 1e-7
 
 
 @pytest.mark.parametrize("points", [2, 3, 4, 7, 16, 31])

@@ -29,9 +29,8 @@ from contactsim.surfaces.preparation import prepare
 from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
-from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait
-from support.cases import ALL, FAST, ON_SURFACES, compliance, press, rough, wave
+from support.cases import ALL, ON_SURFACES, compliance, press, rough, wave
 
 
 def assert_solved(result, tolerance=1e-3):
@@ -84,47 +83,6 @@ def test_westergaard_area_is_right_to_one_and_a_half_points(name, ratio):
     result = press(wave(points), ratio * full, name, tolerance=1e-5)
     assert_solved(result, 1e-5)
     assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
-
-
-@pytest.mark.parametrize("points", [64, 255, 1009, 8192])
-def test_westergaard_area_holds_on_every_grid_from_a_touch_to_full_contact(points):
-    full = reference.full_contact_pressure(1.0, points, 1.0)
-    for ratio in np.geomspace(1e-4, 0.9999, 25):
-        # close to full contact the whole gap is below 1e-3 grid steps: the tolerance has to be tighter than that
-        result = press(wave(points), ratio * full, tolerance=1e-6)
-        assert_solved(result, 1e-6)
-        assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
-
-
-@pytest.mark.parametrize("name", FAST)
-def test_cylinder_area_and_kappa_r_are_within_one_percent(name):
-    points, length, radius = 8192, 4.0, 1.0
-    x = np.arange(points) * length / points - length / 2
-    heights = -(x**2) / (2 * radius)
-    for ratio in (0.05, 0.1, 0.15, 0.2, 0.25):
-        load = reference.cylinder_load(ratio * radius, radius, 1.0)
-        result = contactsim.press(
-            heights, spacing=length / points, contact_modulus=1.0, mean_pressure=load / length, solver=name
-        )
-        gradient = rms_gradient(heights, length / points, result.contact)
-        kappa = result.relative_contact_area * gradient * length / load
-        assert kappa == pytest.approx(reference.CYLINDER_KAPPA_R, rel=0.01)
-        peak = reference.cylinder_pressure(0.0, ratio, radius, 1.0)
-        assert result.pressure.max() == pytest.approx(peak, rel=0.01)
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_complete_contact_is_exact(name):
-    heights = rough(256)
-    flattened = reference.complete_contact(heights, 256.0, 1.0)
-    mean = -flattened.min() * 1.001
-    result = press(heights, mean, name, tolerance=1e-7)
-    assert_solved(result, 1e-7)
-    assert result.contact.all()
-    assert np.allclose(result.pressure, mean + flattened, rtol=0, atol=1e-6 * mean)
-    opened = press(heights, -flattened.min() * 0.999, name, tolerance=1e-7)
-    assert_solved(opened, 1e-7)
-    assert 0 < (~opened.contact).sum() < 5
 
 
 # ---- approach

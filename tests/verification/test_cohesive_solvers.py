@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.contact.loading import approaches, sliding
-from contactsim.contact.scene import Body, Scene
-from contactsim.interface.lattice import Lattice
-from contactsim.surfaces.shapes import Cylinder, Flat
-from support.smooth import LAWS, LAYER, LENGTH, RADIUS, scene_of, walk
+from contactsim.contact.loading import approaches
+from support.smooth import LAWS, scene_of, walk
 
 PATH = approaches([-2.0, 0.0, 2.0, -2.0, -4.0])
 
@@ -29,12 +26,3 @@ def test_the_thesis_scheme_and_energy_minimisation_find_the_states_of_newtons_me
         other = walk(scene, 64, method, tolerance=1e-4)
         assert other.load == pytest.approx(newton.load, rel=1e-3)
         assert np.abs(other.gap() - newton.gap()).max() < 1e-3
-
-
-def test_newtons_method_and_damped_dynamics_slide_alike_over_a_lattice():
-    surface = Cylinder(length=LENGTH, radius=RADIUS)
-    path = sliding([0.0, 3.0], 0.5, approach=2.0)
-    scene = Scene(Body(Flat.facing(surface)), Body(surface, LAYER), (LAWS["frictional"],), path, Lattice(2.5))
-    newton, verlet = (walk(scene, 128, method, tolerance=1e-6) for method in ("newton", "mass_weighted_verlet"))
-    for count in range(len(path.steps)):
-        assert np.abs(newton.gap(count) - verlet.gap(count)).max() < 1e-4

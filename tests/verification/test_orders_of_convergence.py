@@ -117,6 +117,8 @@ def test_gradient_in_the_contact_of_a_cylinder_converges_at_first_order():
             result = contactsim.press(heights, mean_pressure=load, **body)
             gradient = rms_gradient(heights, length / points, result.contact)
             found.append(gradient / reference.cylinder_rms_gradient(half_width, 1.0) - 1)
+            peak = reference.cylinder_pressure(0.0, half_width, 1.0, 1.0)
+            assert result.pressure.max() == pytest.approx(peak, rel=10 / points + 2e-3)  # and the neighbours
         errors.append(np.sqrt(np.mean(np.square(found))))
     assert orders(errors) / 2 == pytest.approx([1, 1], abs=0.15)
 
