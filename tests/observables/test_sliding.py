@@ -220,19 +220,6 @@ def test_a_half_space_slides_by_its_mean():
     assert force[-1] > 0
 
 
-def test_without_tangential_work_there_is_no_shear_traction():
-    _, states, _, _ = walked_frictionless()
-    assert {len(state.fields()[1]) for state in states} == {1}
-
-
-@cache
-def walked_frictionless() -> tuple:
-    scene = probe(path_of(0.0, [0.0, 3.0], 0.25), CohesiveZone(2.0))
-    problem = pose_cohesive(scene, scene.heights(256), 1e-7)
-    states = list(Requested().follow(problem, make_solver("newton"), scene.path.steps))
-    return problem, [state for state in states if state.step.control is Trait.SLIDE], None, None
-
-
 @cache
 def dataset_of(increment: float) -> xr.Dataset:
     """Of the slide up to its first slip, and a little on."""
@@ -404,6 +391,7 @@ def test_a_frictionless_slide_has_no_force():
     data = friction.summarise_slides(simulate(scene, solver="newton", points=128, tolerance=1e-7))
     assert (data.friction_force == 0).all()
     assert np.isnan(data.static_friction)
+    assert not [name for name in data if str(name).startswith("tangential_traction")]
 
 
 @cache

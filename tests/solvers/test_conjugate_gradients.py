@@ -62,9 +62,7 @@ def wavenumber(shape, spacing=UNIT):
 
 def compliance(shape, spacing=(1.0, 1.0), body=None):
     """The dense compliance matrix, by numpy alone."""
-    q = np.hypot(
-        *np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(shape, spacing, strict=True)), indexing="ij")
-    )
+    q = wavenumber(shape, spacing)
     symbol = np.divide(2.0, q, out=np.zeros(shape), where=q > 0) if body is None else body.compliance(q)
     first = np.fft.ifft2(symbol).real
     rows = np.indices(shape).reshape(2, -1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 import mpmath
@@ -13,6 +13,7 @@ import contactsim
 from contactsim.errors import InputError
 from contactsim.solvers.base import Result
 from contactsim.solvers.registry import REQUIRED_PACKAGES, SOLVERS, solver_class
+from contactsim.status import Status
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.traits import Trait
 
@@ -51,6 +52,19 @@ def wave(points: int) -> np.ndarray:
 def press(heights: np.ndarray, pressure: float, solver: str = "active_set", **options: float) -> Result:
     """Press a profile of unit spacing into a half-space of unit modulus."""
     return contactsim.press(heights, spacing=1.0, contact_modulus=1.0, mean_pressure=pressure, solver=solver, **options)
+
+
+def orders(errors: Sequence) -> np.ndarray:
+    """Return the observed orders between errors on grids, or with increments, that halve each time."""
+    return np.log2(np.divide(errors[:-1], errors[1:]))
+
+
+def assert_certified(result: Result, tolerance: float = 1e-3) -> None:
+    """Assert that a result is converged and finite, pushes only, carries its load, and meets the tolerance."""
+    assert result.status is Status.CONVERGED
+    assert np.isfinite(result.pressure).all()
+    assert np.isfinite(result.gap).all()
+    assert result.record.certificate.met(tolerance)
 
 
 def compliance(points: int) -> np.ndarray:

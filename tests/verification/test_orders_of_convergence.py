@@ -9,11 +9,7 @@ import contactsim
 from contactsim import reference
 from contactsim.observables.contact import relative_contact_area_subgrid
 from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
-from support.cases import ALL, FAST, ON_SURFACES, press, wave
-
-
-def orders(errors):
-    return np.log2(np.divide(errors[:-1], errors[1:]))
+from support.cases import ALL, FAST, ON_SURFACES, orders, press, wave
 
 
 def half_contact(points: int) -> float:

@@ -18,6 +18,7 @@ from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import contact_length, pull_off
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
 from contactsim.traits import Trait
+from support.cases import orders
 from support.smooth import LAWS, Walked, along, scene_of, walk
 
 CYLINDER, WAVE = Cylinder(length=1000.0, radius=2500.0), Sinusoid(length=1000.0, amplitude=2.0)
@@ -30,10 +31,6 @@ WEAK = {"uncoupled": NormalCohesiveZone(0.2), "frictional": CohesiveZone(0.2, 1.
 """Laws too weak for a jump."""
 PARTS = (0.0, 0.2, 0.4, 0.6, 0.8)
 """Where paths begin, in increments: the worst of them counts, for by chance one may meet the largest pull."""
-
-
-def orders(errors):
-    return np.log2(np.divide(errors[:-1], errors[1:]))
 
 
 def pull_off_of(result: Walked) -> float:
