@@ -38,7 +38,10 @@ DRAWN = (".png", ".pdf", ".svg")
 
 
 def read_scene(path: str, accuracy: float | None = None) -> Study:
-    """The one-run study in a scene file; accuracy: one that it is asked for where it says nothing of its grid."""
+    """Return the one-run study in a scene file.
+
+    `accuracy` counts where the file has neither an accuracy nor a tolerance.
+    """
     section = load_yaml(path)
     if accuracy is not None and not {"accuracy", "tolerance"} & set(section):
         section["accuracy"] = accuracy
@@ -57,8 +60,8 @@ def read_scene(path: str, accuracy: float | None = None) -> Study:
         raise InputError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
 
 
-def named(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
-    """A study, from a scene file or by its name in ./config; accuracy: see `read_scene`."""
+def find_study(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
+    """Return a study, from a scene file or by its name in ./config; accuracy: see `read_scene`."""
     if accuracy is not None and not 0 < accuracy < 1:
         raise InputError("--accuracy", accuracy, "a relative error, above 0 and below 1")
     if Path(scene).suffix:
@@ -73,7 +76,7 @@ def named(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
     return studies[scene]
 
 
-SHOWN = (
+PRINTED_VARIABLES = (
     *(
         "mean_pressure",
         "relative_contact_area",
@@ -86,16 +89,16 @@ SHOWN = (
     *("approach", "sliding_distance", "line_load", "friction_force", "contact_length", "max_interpenetration", "slip"),
     *("residual", "jump", "validity_flags", "transforms", "status"),
 )
-"""What is printed of a simulation, as far as its scene has it."""
-NARROW = 17
-"""Letters of a column's name, and spaces where it is broken, in one line."""
+"""Variables of a simulation that are printed, as far as it has them."""
+MAX_HEAD_WIDTH = 17
+"""Most letters in a line of a column's name."""
 
 
 def explain_scene(options: argparse.Namespace) -> None:
     """Print what a scene does and costs; draw it if asked to."""
     if options.draw and Path(options.draw).suffix not in DRAWN:
         raise InputError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
-    study = named(options.scene, options.tier)
+    study = find_study(options.scene, options.tier)
     setup, runs = study.runs()[0].setup, len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
     sys.stdout.write(explain_setup(setup, study.settings["neglect"]).text + "\n")
@@ -111,13 +114,13 @@ def run_scene(options: argparse.Namespace) -> None:
     target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
     if Path(target).is_dir():
         raise InputError("--output", target, "the name of a file; this is a folder")
-    data, settings = _simulated(study, options.threads)
-    data = _as_of_a_study(data, settings)
+    data, settings = _simulate_study(study, options.threads)
+    data = _label_as_study(data, settings)
     source = study.runs()[0].source
     dataset.write(dataset.stamp(data, study.settings["title"], settings, source), target)
     sys.stdout.write(f"{_table(data)}\n")
     if "accuracy" in data:
-        sys.stdout.write(f"{_reached(data)}\n")
+        sys.stdout.write(f"{_describe_accuracy(data)}\n")
     sys.stdout.write(f"written to {target}\n")
     failed = int((~is_solved(data.status)).sum())
     if failed:
@@ -125,14 +128,14 @@ def run_scene(options: argparse.Namespace) -> None:
 
 
 def _table(data: xr.Dataset) -> str:
-    """A line for each load; above it the names of variables, broken after underscores, and their units."""
+    """Return a line for each load, below the names of variables, broken after underscores, and their units."""
     names = {status.value[0]: status.name.lower() for status in Status}
-    rows = data[[name for name in SHOWN if name in data]].to_dataframe().reset_index()
+    rows = data[[name for name in PRINTED_VARIABLES if name in data]].to_dataframe().reset_index()
     rows["status"] = [names[status] for status in rows.status]
     columns = []
     for name, values in rows.items():
         unit = data[name].attrs["units"]
-        head = [*textwrap.wrap(name.replace("_", "_ "), NARROW), "" if unit == "1" else unit]
+        head = [*textwrap.wrap(name.replace("_", "_ "), MAX_HEAD_WIDTH), "" if unit == "1" else unit]
         columns.append([part.replace("_ ", "_") for part in head] + [_cell(value) for value in values])
     tall, widths = max(map(len, columns)), [max(map(len, column)) for column in columns]
     lines = zip(*([""] * (tall - len(column)) + column for column in columns), strict=True)
@@ -140,23 +143,22 @@ def _table(data: xr.Dataset) -> str:
 
 
 def _cell(value: object) -> str:
+    """Return a value as text."""
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def _reached(data: xr.Dataset) -> str:
-    """What came of an accuracy that was asked for: errors relative to what was found."""
+def _describe_accuracy(data: xr.Dataset) -> str:
+    """Return the estimated relative errors of a run to an accuracy, in words."""
     ending = "_estimated_error"
     names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
     whole = form_of(data).derive(combine_runs([(data, {"member": 0})])) if form_of(data).is_path else data
     errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
-    met, found = (
-        "reached" if data.accuracy_reached else "not reached",
-        ", ".join(f"{name} to {one:.2g}" for name, one in errors.items()),
-    )
-    return f"relative error {float(data.accuracy):g} {met} on {int(data.points)} points: {found}, as estimated"
+    reached = "reached" if data.accuracy_reached else "not reached"
+    estimates = ", ".join(f"{name} to {error:.2g}" for name, error in errors.items())
+    return f"relative error {float(data.accuracy):g} {reached} on {int(data.points)} points: {estimates}, as estimated"
 
 
-def _simulated(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
+def _simulate_study(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
     """Return the simulation of a study's first run, and its settings with what was neglected and chosen."""
     settings = study.runs()[0].settings
     setup = build_setup(settings, threads)
@@ -178,7 +180,7 @@ def estimate_cost(options: argparse.Namespace) -> None:
             raise InputError("--accuracy", options.accuracy, "none without a scene or a study")
         sys.stdout.write(estimate.cost_table("config", Plan.read("config", options.tier)))
         return
-    study = named(options.scene, options.tier, options.accuracy)
+    study = find_study(options.scene, options.tier, options.accuracy)
     runs = [run for run in study.runs() if not run.measures_error]
     setups = [run.setup for run in runs]
     try:
@@ -220,8 +222,8 @@ def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -
     return "\n".join(lines) + "\n"
 
 
-def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
-    """A simulation as a study's dataset has it: by its own load, with what follows from its numbers."""
+def _label_as_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
+    """Return a simulation with its own load as dimension and the numbers that follow from it, as in a study."""
     data = label_run(data, settings, [""] * data.step.size).drop_vars("point_digest")
     form = form_of(data)
     return data if form.is_path else dataset.describe(form.derive(data))
@@ -229,8 +231,8 @@ def _as_of_a_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
 
 def compare_tiers(options: argparse.Namespace) -> None:
     """Print how far the figures of two tiers differ; exit code 1 where one is beyond the limit."""
-    found = tier_comparison.compare_tiers(Plan.read("config", options.first), Plan.read("config", options.second))
+    tables = tier_comparison.compare_tiers(Plan.read("config", options.first), Plan.read("config", options.second))
     sys.stdout.write(f"{options.first} beside {options.second}: differences relative to {options.second}\n")
-    sys.stdout.write(difference_text(found, options.within))
-    if not all(table is None or is_within(table, options.within) for table in found.values()):
+    sys.stdout.write(difference_text(tables, options.within))
+    if not all(table is None or is_within(table, options.within) for table in tables.values()):
         sys.exit(1)

@@ -1,4 +1,4 @@
-"""What is done to a scene: a list of load steps.
+"""Load paths: lists of the steps that are done to a scene.
 
 A step prescribes the mean pressure (GPa) or the approach (nm). Approach is measured from the position in which the
 undeformed mean plane of the elastic surface and height zero of the counter-body coincide; the approach of first touch

@@ -30,7 +30,7 @@ TIMINGS, UNIT_POINTS, BATCH = 7, 4096, 100
 
 @dataclass(frozen=True)
 class Forecast:
-    """What is expected of a run.
+    """Expected work, time, memory and error of a run.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""What acts between surfaces: traction from gap."""
+"""Effects between surfaces: traction from gap."""

@@ -1,4 +1,4 @@
-"""What acts at an interface, as protocols: effects, laws, laws with a coupling, laws with an energy.
+"""Protocols of what acts at an interface: effects, laws, laws with a coupling, laws with an energy.
 
 Effects add: a scene lists them, and the traction is their sum. A law gives the traction at each point from the gap at
 that point. Normal traction is positive where it pulls the bodies together; tangential traction is positive where it
@@ -74,12 +74,12 @@ class ConservativeLaw(Law, Protocol):
 
 
 def is_law(effect: Effect) -> TypeGuard[Law]:
-    """Return whether an effect is a smooth function of the gap."""
+    """Return True if an effect is a smooth function of the gap."""
     return Trait.SMOOTH in effect.traits
 
 
 def is_coupled(effect: Effect) -> TypeGuard[CoupledLaw]:
-    """Return whether an effect reads the tangential gap."""
+    """Return True if an effect reads the tangential gap."""
     return "t" in effect.reads
 
 

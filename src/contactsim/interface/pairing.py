@@ -1,4 +1,4 @@
-"""Which points of two surfaces face each other: the protocol, and the pairing of points that stay aligned."""
+"""Pairing of the points of two surfaces: the protocol, and the pairing of points that stay aligned."""
 
 from __future__ import annotations
 

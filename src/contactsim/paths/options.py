@@ -1,4 +1,4 @@
-"""How a scene is simulated: grid, tolerance, solver, increments, and what is kept."""
+"""Options of a simulation: grid, tolerance, solver, increments, and what is kept."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A figure as the config gives it: what it shows and how, checked against the function that draws it."""
+"""Figures of the config, checked against the functions that draw them."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Figure:
 
     @property
     def studies(self) -> list[str]:
-        """The studies whose data it shows; none where it shows a law by itself."""
+        """Studies whose data it shows; none where it shows a law by itself."""
         return [study for study in (self.settings["study"], *self.settings["datasets"]) if study is not None]
 
 
@@ -74,8 +74,8 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
     dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
     settings["select"] = read_selection(settings["select"], dims, file, f"{prefix}.select")
     if settings["film"] is not None:
-        shown = studies[settings["study"]].settings if dims else {}
-        if not (shown.get("slide") and shown["snapshots"]) or shown["vary"]:
+        study_settings = studies[settings["study"]].settings if dims else {}
+        if not (study_settings.get("slide") and study_settings["snapshots"]) or study_settings["vary"]:
             allowed = "left out, but for one slide, nothing of it varied, with snapshots"
             raise InputError(f"{prefix}.film", settings["film"], allowed, file)
     _check_function(name, settings, studies, file, prefix)
@@ -85,19 +85,19 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
 
 def _check_function(name: str, settings: dict, studies: dict[str, Study], file: Path, prefix: str) -> None:
     """Refuse a figure without a function, or whose function wants other datasets or other values of the thesis."""
-    known = _functions(f"contactsim.figures.{file.stem}")
-    if name not in known:
-        raise InputError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(known)}", file)
-    wanted = [argument.arg for argument in known[name].args[:-1]]  # the last are the axes
-    given = [settings["study"] or "a law", *settings["datasets"]]
-    if len(given) != len(wanted):
-        allowed = f"so many that with {given[0]} they are those that the function draws: {', '.join(wanted)}"
+    functions = _functions(f"contactsim.figures.{file.stem}")
+    if name not in functions:
+        raise InputError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(functions)}", file)
+    parameters = [argument.arg for argument in functions[name].args[:-1]]  # the last are the axes
+    datasets = [settings["study"] or "a law", *settings["datasets"]]
+    if len(datasets) != len(parameters):
+        allowed = f"so many that with {datasets[0]} they are those that the function draws: {', '.join(parameters)}"
         raise InputError(f"{prefix}.datasets", settings["datasets"], allowed, file)
-    if wanted[0] == FIELDS and settings["study"] is None:
+    if parameters[0] == FIELDS and settings["study"] is None:
         raise InputError(f"{prefix}.law", settings["law"], "a study, whose fields the function draws", file)
-    if wanted[0] == FIELDS:
+    if parameters[0] == FIELDS:
         _check_map(settings, studies[settings["study"]], file, prefix)
-    keywords = [argument.arg for argument in known[name].kwonlyargs]
+    keywords = [argument.arg for argument in functions[name].kwonlyargs]
     numbers = dict.fromkeys(keywords, Key(number, "a value of the thesis, a number"))
     read(settings["reference"], numbers, file, f"{prefix}.reference")
 
@@ -121,7 +121,7 @@ def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:
 
 @cache
 def _functions(module: str) -> dict[str, ast.arguments]:
-    """The public functions of a module, with their arguments; read, not imported, since matplotlib takes a second."""
+    """Return the public functions of a module with their arguments; it is parsed, since imports take a second."""
     path = module_path(module)
     tree = ast.parse(path.read_text(encoding="utf-8")) if path else ast.Module([], [])
     public = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
