@@ -47,7 +47,7 @@ def test_running_a_study_uses_its_direct_and_indirect_imports_but_no_figure_and_
     assert {
         "contactsim.study.execute",
         "contactsim.grid",
-        "contactsim.surfaces.profile",
+        "contactsim.surfaces.topography",
         "contactsim.solvers.base",
     } <= set(used)
     assert not [name for name in used if "figures" in name]

@@ -17,8 +17,6 @@ from contactsim.errors import InputError, check_option_names
 from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import HardWallSolver, Result, check_solver, solve
 from contactsim.solvers.registry import default_solver, make_solver
-from contactsim.surfaces.measured import Sampled
-from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
 
@@ -78,24 +76,21 @@ def press(
     InputError
         For an input that cannot be used.
     """
-    surface = Sampled(_read_heights(heights, spacing))
+    surface = _read_heights(heights, spacing)
     step = load_step(approach, mean_pressure, "load")
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
     method: Any = make_solver(solver) if isinstance(solver, str) else solver or default_solver(scene)
     check_solver(method, scene)
-    return solve(method, *pose_hard_wall(scene, step, surface.profile.heights, tolerance, threads))
+    return solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads))
 
 
-def _read_heights(heights: ArrayLike, spacing: float | tuple[float, float]) -> Profile | Topography:
+def _read_heights(heights: ArrayLike, spacing: float | tuple[float, float]) -> Topography:
     """Return checked heights, of a line or of a surface."""
     if np.ma.is_masked(heights):
         raise InputError("heights", heights, "finite numbers, none missing; these are masked in part")
     try:
-        values = np.asarray(heights)
-        if values.ndim > 1:
-            return Topography(values, cast("tuple[float, float]", spacing), None)  # it reads one number as both
-        return Profile(values, cast(float, spacing), None)
+        return Topography(np.asarray(heights), cast("tuple[float, ...]", spacing))  # it reads one number as all
     except InputError:
         raise
     except ValueError as error:

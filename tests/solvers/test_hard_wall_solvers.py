@@ -26,9 +26,9 @@ from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffn
 from contactsim.solvers.registry import SOLVERS, make_solver
 from contactsim.status import Status
 from contactsim.surfaces.preparation import prepare
-from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
+from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
 from support.cases import ALL, ON_SURFACES, assert_certified, compliance, press, rough, wave
 
@@ -283,7 +283,7 @@ def test_a_load_far_below_the_rounding_of_the_gaps_stands_on_one_point(load):
 
 @pytest.mark.parametrize("name", ALL)
 def test_a_profile_that_is_flat_but_for_rounding_is_in_full_contact(name):
-    plane = prepare(Profile(np.linspace(0.0, 50.0, 1000), 2.0, None), detrend="linear")
+    plane = prepare(Topography(np.linspace(0.0, 50.0, 1000), 2.0), detrend="linear")
     assert 0 < np.ptp(plane.heights) < 1e-12
     result = contactsim.press(plane.heights, spacing=2.0, contact_modulus=70.0, mean_pressure=0.1, solver=name)
     assert result.status is Status.CONVERGED

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from contactsim.errors import InputError
-from contactsim.surfaces.measured import Measured, Sampled
-from contactsim.surfaces.profile import Profile
+from contactsim.surfaces.measured import MeasuredLine
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
 from contactsim.surfaces.statistics import rms_gradient, rms_height
+from contactsim.surfaces.topography import Topography
 
 THESIS = {"length": 160000.0, "long_cutoff": 20000.0, "short_cutoff": 39.0625, "rms_gradient": 1e-3}
 
@@ -146,8 +146,8 @@ def test_smooth_surfaces_have_their_shape():
         (lambda: Sinusoid(1.0, 1.0, 0), "periods"),
         (lambda: Sinusoid(1.0, 1.0, 2.5), "periods"),
         (lambda: Sinusoid(1.0, 1.0, True), "periods"),
-        (lambda: Sampled(Profile(np.arange(3.0), 1.0, None)).heights(4), "points"),
-        (lambda: Measured("no_such_file.npy"), "path"),
+        (lambda: Topography(np.arange(3.0), 1.0).heights(4), "points"),
+        (lambda: MeasuredLine("no_such_file.npy"), "path"),
     ],
 )
 def test_an_impossible_surface_is_refused_by_key(build, key):
@@ -158,10 +158,10 @@ def test_an_impossible_surface_is_refused_by_key(build, key):
 
 def test_a_measured_profile_is_detrended_and_made_periodic_by_the_named_options(tmp_path):
     np.save(tmp_path / "profile.npy", np.array([0.0, 2.0, 1.0, 5.0]))
-    as_read = Measured(str(tmp_path / "profile.npy"), "none", "none", 2.0, "um")
+    as_read = MeasuredLine(str(tmp_path / "profile.npy"), "none", "none", 2.0, "um")
     assert np.array_equal(as_read.heights(4), [0.0, 2000.0, 1000.0, 5000.0])
     assert as_read.lengths == (8.0,)
-    mirrored = Measured(str(tmp_path / "profile.npy"), "mean", "mirror", 2.0)
+    mirrored = MeasuredLine(str(tmp_path / "profile.npy"), "mean", "mirror", 2.0)
     assert mirrored.points == 6
     assert mirrored.heights(6) == pytest.approx([-2, 0, -1, 3, -1, 0])
 

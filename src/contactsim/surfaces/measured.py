@@ -1,74 +1,83 @@
-"""Surfaces by the name of their kind; those given as numbers, and read from files, among them."""
+"""Surfaces by the name of their kind, and those that a config reads from files of measured heights."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
-from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.surfaces.preparation import prepare
-from contactsim.surfaces.profile import Profile, read_profile
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from contactsim.surfaces.topography import Topography, read_topography
 
 
 @dataclass(frozen=True)
-class Sampled:
-    """Heights given as numbers: a checked profile (n,) or topography (ny, nx), at equal spacing, nm."""
+class _Measured:
+    """The prepared heights of a file as a surface."""
 
-    profile: Profile | Topography
+    topography: Topography = field(init=False, repr=False)
     modes = None
 
     @property
     def points(self) -> int:
         """Number of heights along x."""
-        return self.profile.heights.shape[-1]
+        return self.topography.points
 
     @property
     def lengths(self) -> tuple[float, ...]:
-        """Period: number of points times spacing, nm."""
-        return tuple(np.atleast_1d(self.profile.spacing) * self.profile.heights.shape)
+        """Period in each direction, x last, nm."""
+        return self.topography.lengths
 
     def shape(self, points: int) -> tuple[int, ...]:
-        """Shape of the heights, whatever `points` says."""
-        return self.profile.heights.shape
+        """Return the shape of the heights."""
+        return self.topography.shape(points)
 
     def check(self, points: int) -> None:
-        """Refuse another number of points than there are: a measurement is not resampled."""
-        if points != self.points:
-            raise InputError("points", points, f"{self.points}, the number of points of the measurement")
+        """Raise an InputError for another number of points along x than that of the heights."""
+        self.topography.check(points)
 
     def heights(self, points: int) -> Array:
-        """The heights as given; `points` must be their number along x."""
-        self.check(points)
-        return self.profile.heights
+        """Return the heights in nm; `points` must be their number along x."""
+        return self.topography.heights(points)
 
 
 @dataclass(frozen=True)
-class Measured(Sampled):
-    """A profile read from a file, detrended and made periodic (options as in `contactsim.surfaces.preparation`)."""
+class MeasuredLine(_Measured):
+    """Heights along a line, read from a file and prepared.
 
-    profile: Profile = field(init=False, repr=False)
+    Parameters
+    ----------
+    file, spacing, unit, variable
+        As `path` and the options of `contactsim.read_topography`.
+    detrend, periodic
+        As in `contactsim.surfaces.preparation.prepare`.
+    """
+
     file: str
     detrend: str = "linear"
     periodic: str = "mirror"
     spacing: float | None = None
     unit: str | None = None
     variable: str | None = None
+    dimensions = 1
 
     def __post_init__(self) -> None:
-        raw = read_profile(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "profile", prepare(raw, self.detrend, self.periodic))
+        raw = read_topography(self.file, dimensions=1, spacing=self.spacing, unit=self.unit, variable=self.variable)
+        object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
 
 
 @dataclass(frozen=True)
-class MeasuredSurface(Sampled):
-    """A topography read from a file, detrended and made periodic (options as in `contactsim.surfaces.preparation`)."""
+class MeasuredSurface(_Measured):
+    """Heights over an area, read from a file and prepared.
 
-    profile: Topography = field(init=False, repr=False)
+    Parameters
+    ----------
+    file, spacing, unit, variable
+        As `path` and the options of `contactsim.read_topography`.
+    detrend, periodic
+        As in `contactsim.surfaces.preparation.prepare`.
+    """
+
     file: str
     detrend: str = "plane"
     periodic: str = "mirror"
@@ -78,8 +87,8 @@ class MeasuredSurface(Sampled):
     dimensions = 2
 
     def __post_init__(self) -> None:
-        raw = read_topography(self.file, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "profile", prepare(raw, self.detrend, self.periodic))
+        raw = read_topography(self.file, dimensions=2, spacing=self.spacing, unit=self.unit, variable=self.variable)
+        object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
 
 
 SURFACES = {
@@ -88,6 +97,7 @@ SURFACES = {
     "sphere": Sphere,
     "sinusoid": Sinusoid,
     "self_affine": SelfAffine,
-    "measured": Measured,
+    "measured": MeasuredLine,
     "measured_surface": MeasuredSurface,
 }
+"""Classes of surfaces by the name of their kind in a config."""

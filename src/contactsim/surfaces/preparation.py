@@ -8,18 +8,15 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import TypeVar
 
 import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.surfaces import io
-from contactsim.surfaces.profile import Profile
 from contactsim.surfaces.topography import Topography
 
 Operations = Mapping[str, Callable[[Array], Array]]
-Measurement = TypeVar("Measurement", Profile, Topography)
 
 TAPER = 0.1
 """Length of the taper of a window at each end, over the length of the heights."""
@@ -38,8 +35,8 @@ def _subtract_fit(degree: int, heights: Array) -> Array:
     fit = np.where(sum(np.indices(fit.shape)) <= degree, fit, 0.0)
     for basis in bases:
         fit = np.tensordot(fit, basis, (0, 1))
-    level: Array = heights - fit
-    return level
+    remainder: Array = heights - fit
+    return remainder
 
 
 def _apply_window(heights: Array) -> Array:
@@ -82,27 +79,27 @@ PERIODIC: Mapping[int, Operations] = {
 """Ways to close the seams, for a line and for an area."""
 
 
-def prepare(measurement: Measurement, detrend: str | None = None, periodic: str = "mirror") -> Measurement:
+def prepare(topography: Topography, detrend: str | None = None, periodic: str = "mirror") -> Topography:
     """Return measured heights less their least-squares fit, then made periodic.
 
     Parameters
     ----------
-    measurement : Profile or Topography
+    topography : Topography
         Heights (n,) or (ny, nx), in nm.
     detrend : str, optional
-        "none", "mean", "quadratic", or the fit of first degree, which is the default: "linear" for a profile, "plane"
-        for a topography. A quadratic fit of a topography has all of 1, x, y, x², xy and y².
+        "none", "mean", "quadratic", or the fit of first degree, which is the default: "linear" for a line, "plane"
+        for an area. A quadratic fit of an area has all of 1, x, y, x², xy and y².
     periodic : {"mirror", "window", "tilt", "none"}
         - "mirror": the heights are followed by their mirror image in each direction, n become 2n-2. Slopes are kept.
         - "window": mean-free heights are tapered to zero over 10 % at each end. The rms slope of roughness much
           shorter than the length falls by about 6 % along a line (mean square times 0.875).
-        - "tilt", for a profile only: the line through both ends is subtracted. The mean square of the n-1 slopes falls
+        - "tilt", for a line only: the line through both ends is subtracted. The mean square of the n-1 slopes falls
           by that of the line. No plane closes a seam along which heights vary.
         - "none": a step at the seam stays. Along a line it adds step²/(n spacing²) to the mean square slope.
 
     Returns
     -------
-    Profile or Topography
+    Topography
         The prepared heights, with the same spacing and source.
 
     Raises
@@ -110,13 +107,13 @@ def prepare(measurement: Measurement, detrend: str | None = None, periodic: str 
     InputError
         If `detrend` or `periodic` is not one of these names.
     """
-    dimensions = measurement.heights.ndim
+    dimensions = topography.values.ndim
     if detrend is None:
         detrend = "linear" if dimensions == 1 else "plane"
-    heights = measurement.heights
+    heights = topography.values
     for key, name, operations in (("detrend", detrend, DETREND), ("periodic", periodic, PERIODIC)):
-        known = operations[dimensions]
-        if not isinstance(name, str) or name not in known:
-            raise InputError(key, name, f"one of {', '.join(known)}", measurement.source)
-        heights = known[name](io.finite_numbers(heights, "heights", measurement.source, dims=dimensions))
-    return dataclasses.replace(measurement, heights=heights)
+        ways = operations[dimensions]
+        if not isinstance(name, str) or name not in ways:
+            raise InputError(key, name, f"one of {', '.join(ways)}", topography.source)
+        heights = ways[name](io.finite_numbers(heights, "heights", topography.source, dims=dimensions))
+    return dataclasses.replace(topography, values=heights)

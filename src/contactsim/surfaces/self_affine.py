@@ -169,9 +169,10 @@ class SelfAffine(Smooth):
         )
         if y:  # along x = 0 waves of both signs of y are kept
             half[:, 0] += np.conj(np.roll(half[::-1, 0], 1))
-        if self.rms_height is None:
-            return half * (self.rms_gradient / _rms(half, q))
-        return half * (self.rms_height / _rms(half))
+        if self.rms_height is not None:
+            return half * (self.rms_height / _rms(half))
+        assert self.rms_gradient is not None  # exactly one of the two was checked to be there
+        return half * (self.rms_gradient / _rms(half, q))
 
     def _mode_numbers(self, modes: int) -> list[Array]:
         """Return the number of waves in the period of each coefficient, along y first."""

@@ -1,0 +1,71 @@
+"""Heights in netCDF files: a variable along a line or over an area, with coordinates where the file has them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+from contactsim.errors import InputError
+from contactsim.grid import Array
+from contactsim.surfaces import io
+from contactsim.surfaces.io import RawHeights
+
+
+def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: str | None) -> RawHeights:
+    """Return the heights of a netCDF file and their spacing.
+
+    Without `dimensions`, those of the named variable count, and else an area is preferred. The dimensions of an area
+    are y and x, in any order, or else rows and columns.
+    """
+    with netCDF4.Dataset(str(file)) as data:
+        if dimensions is None:
+            candidates = [data.variables[variable]] if variable in data.variables else data.variables.values()
+            dimensions = 2 if any(entry.ndim == 2 for entry in candidates) else 1
+        field = _find_heights(data, dimensions, variable, file)
+        steps: list[float | None] = []
+        for name in field.dimensions:
+            places = _positions_along(name, data, field, unit, file)
+            steps.append(None if places is None else io.mean_step(places, name, file))
+        scale = io.unit_factor(field.name, _stated_unit(field), unit, file)
+        heights = io.finite_numbers(field[:], field.name, file, scale, dimensions)
+        heights = heights[tuple(slice(None, None, -1 if step and step < 0 else 1) for step in steps)]
+        spacing = tuple(step and abs(step) for step in steps)
+        return (heights.T, spacing[::-1]) if field.dimensions == ("x", "y") else (heights, spacing)
+
+
+def _find_heights(data: netCDF4.Dataset, dimensions: int, variable: str | None, file: Path) -> netCDF4.Variable[Any]:
+    """Return the heights in a netCDF file: `variable`, or the one named like heights, or the only floats."""
+    fields = {name: entry for name, entry in data.variables.items() if entry.ndim == dimensions}
+    coordinates = {name for entry in data.variables.values() for name in _coordinate_names(entry)}
+    free = [name for name in fields if name not in coordinates]
+    named = [name for name in free if name in ("heights", "height", "z")]
+    floats = [name for name in free if np.dtype(fields[name].dtype).kind == "f"]
+    names = [str(variable)] if variable is not None else named if len(named) == 1 else floats
+    if len(names) != 1 or names[0] not in fields:
+        raise InputError("variable", variable, f"the name of the {dimensions}D heights, of those: {list(fields)}", file)
+    return fields[names[0]]
+
+
+def _positions_along(
+    dimension: str, data: netCDF4.Dataset, heights: netCDF4.Variable[Any], unit: str | None, file: Path
+) -> Array | None:
+    """Return the coordinate (n,) of the heights along a dimension, in nm, or None."""
+    names = [name for name in _coordinate_names(heights) if name in data.variables and name != heights.name]
+    for place in (data.variables[name] for name in names):
+        if place.dimensions == (dimension,):
+            scale = io.unit_factor(place.name, _stated_unit(place) or unit, None, file)
+            return io.finite_numbers(place[:], place.name, file, scale)
+    return None
+
+
+def _stated_unit(variable: netCDF4.Variable[Any]) -> str:
+    """Return the unit that a netCDF variable states as `units` or, as some writers do, `unit`; empty if none."""
+    return str(getattr(variable, "units", getattr(variable, "unit", "")))
+
+
+def _coordinate_names(variable: netCDF4.Variable[Any]) -> list[str]:
+    """Return the names that coordinates of a variable may have."""
+    return [*variable.dimensions, *str(getattr(variable, "coordinates", "")).split()]

@@ -1,0 +1,125 @@
+"""Preparing measured heights: a fit leaves what least squares leave, and the seams of lines and areas close."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
+
+from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.topography import Topography
+from support.cases import refusal
+
+KINDS = {1: ["mean", "linear", "quadratic"], 2: ["mean", "plane", "quadratic"]}
+shapes = array_shapes(min_dims=1, max_dims=2, min_side=2, max_side=60)
+fields = arrays(np.float64, array_shapes(min_dims=1, max_dims=2, min_side=2, max_side=9), elements=st.floats(-1e6, 1e6))
+lines = arrays(np.float64, st.integers(2, 40), elements=st.floats(-1e6, 1e6))
+
+
+def prepared(heights: np.ndarray, detrend: str = "none", periodic: str = "none") -> np.ndarray:
+    """Return prepared heights, at a spacing that must not matter."""
+    return prepare(Topography(heights, 2.5), detrend, periodic).values
+
+
+def polynomials(shape: tuple[int, ...], degree: int) -> np.ndarray:
+    """Return all products of powers up to a total degree on a grid, (terms, *shape)."""
+    axes = np.meshgrid(*(np.linspace(-1, 1, size) for size in shape), indexing="ij")
+    powers = [power for power in np.ndindex(*(degree + 1,) * len(shape)) if sum(power) <= degree]
+    return np.array([np.prod([x**n for x, n in zip(axes, power, strict=True)], axis=0) for power in powers])
+
+
+def mean_square_slope(heights: np.ndarray, *, periodic: bool) -> float:
+    """Return the mean square of the steps at spacing one."""
+    return float(np.mean(np.diff(heights, append=heights[:1] if periodic else heights[:0]) ** 2))
+
+
+@given(shapes, st.integers(0, 2), st.integers(0, 99))
+def test_detrending_removes_any_polynomial_of_its_degree(shape: tuple[int, ...], degree: int, seed: int) -> None:
+    terms = polynomials(shape, degree)
+    form = 1e3 * np.tensordot(np.random.default_rng(seed).uniform(-1, 1, len(terms)), terms, 1)
+    assert np.abs(prepared(form, KINDS[len(shape)][degree])).max() <= 1e-13 * 1e3 * len(terms)
+
+
+@given(fields, st.integers(0, 2))
+def test_detrending_leaves_what_a_least_squares_fit_leaves(heights: np.ndarray, degree: int) -> None:
+    terms = polynomials(heights.shape, degree)
+    matrix = terms.reshape(len(terms), -1).T
+    fit = (matrix @ np.linalg.lstsq(matrix, heights.ravel(), rcond=None)[0]).reshape(heights.shape)
+    rounding = 1e-12 * np.abs(heights).max() + np.finfo(float).tiny  # below it numbers have fewer digits
+    np.testing.assert_allclose(prepared(heights, KINDS[heights.ndim][degree]), heights - fit, rtol=0, atol=rounding)
+
+
+@given(fields)
+def test_none_changes_nothing_and_gives_a_copy(heights: np.ndarray) -> None:
+    topography = Topography(heights, 1.0)
+    copy = prepare(topography, "none", "none").values
+    assert copy.tolist() == heights.tolist()
+    assert not np.shares_memory(copy, topography.values)
+
+
+@given(fields)
+def test_mirror_keeps_every_height_and_is_periodic_and_even(heights: np.ndarray) -> None:
+    mirrored = prepared(heights, periodic="mirror")
+    assert mirrored.shape == tuple(2 * size - 2 for size in heights.shape)
+    assert mirrored[tuple(slice(size) for size in heights.shape)].tolist() == heights.tolist()
+    for axis in range(heights.ndim):  # even about point 0 of the period
+        assert np.roll(np.flip(mirrored, axis), 1, axis).tolist() == mirrored.tolist()
+
+
+@given(lines)
+def test_mirror_keeps_the_rms_slope_of_a_line(heights: np.ndarray) -> None:
+    slope = mean_square_slope(prepared(heights, periodic="mirror"), periodic=True)
+    assert slope == pytest.approx(mean_square_slope(heights, periodic=False), rel=1e-9)
+
+
+@given(lines)
+def test_tilt_subtracts_a_line_and_closes_the_seam(heights: np.ndarray) -> None:
+    tilted = prepared(heights, periodic="tilt")
+    assert tilted[0] == tilted[-1] == 0
+    assert np.abs(np.diff(heights - tilted, n=2)).max(initial=0) <= 1e-14 * 8 * np.abs(heights).max()
+
+
+@given(fields)
+def test_window_keeps_the_shape_and_is_zero_at_all_edges(heights: np.ndarray) -> None:
+    tapered = prepared(heights, periodic="window")
+    assert tapered.shape == heights.shape
+    for axis in range(heights.ndim):
+        assert not tapered.take([0, -1], axis).any()
+
+
+def test_window_leaves_the_middle_and_halves_halfway_up_the_taper() -> None:
+    heights = 5.0 + np.array([1.0, -1.0] * 100 + [0.0])
+    tapered = prepared(heights, periodic="window")
+    np.testing.assert_allclose(tapered[20:181], (heights - 5)[20:181], rtol=1e-12)
+    assert tapered[10] == pytest.approx(0.5)
+
+
+def test_window_of_an_area_is_the_product_of_those_of_lines() -> None:
+    y, x = (np.where(np.arange(size) % 2, 1.0, -1.0) for size in (200, 50))
+    expected = np.outer(*(prepared(line, periodic="window") for line in (y, x)))
+    np.testing.assert_allclose(prepared(np.outer(y, x), periodic="window"), expected, atol=1e-13)
+
+
+def test_window_lowers_the_mean_square_slope_of_short_waves_by_an_eighth() -> None:
+    heights = np.random.default_rng(1).standard_normal(200_000)
+    after = mean_square_slope(prepared(heights, periodic="window"), periodic=True)
+    assert after / mean_square_slope(heights, periodic=True) == pytest.approx(0.875, abs=0.005)
+
+
+@given(fields)
+def test_heights_are_detrended_by_their_dimension_then_mirrored_by_default(heights: np.ndarray) -> None:
+    first_degree = KINDS[heights.ndim][1]
+    topography = prepare(Topography(heights, 2.0, "mine"))
+    assert topography.values.tolist() == prepared(prepared(heights, first_degree), periodic="mirror").tolist()
+    assert (topography.spacing, topography.source) == ((2.0,) * heights.ndim, "mine")
+
+
+@pytest.mark.parametrize("setting", ["detrend", "periodic"])
+@pytest.mark.parametrize(("size", "names"), [(1, ["plane", "", 2, ["none"], "Mirror"]), (2, ["tilt", "linear", "", 2])])
+def test_an_unknown_name_is_refused_with_the_names_that_exist(setting: str, size: int, names: list) -> None:
+    topography = Topography(np.ones((3,) * size), 1.0, "mine")
+    for name in names:
+        error = refusal(setting, "mine", lambda name=name: prepare(topography, **{setting: name}))
+        assert error.value == name and error.allowed.startswith("one of none, ")
