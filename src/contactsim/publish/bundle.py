@@ -1,9 +1,8 @@
-"""All results of a tier as one folder, ready to deposit.
+"""Bundle: all results of a tier in one folder, ready to deposit.
 
-It holds the files themselves, a README.md written from the datasets, the sums by which each file can be checked, and
-an RO-Crate, that is, what the folder holds in a form that archives read. Nothing in it says when or where it was made,
-so two bundles of the same results are the same byte for byte. It appears under its name only when it is complete; an
-older one is taken away first.
+It holds the files, a README.md written from the datasets, checksums, and an RO-Crate, which describes the folder in a
+form that archives read. It contains no date and no place, so two bundles of the same results agree byte for byte. It
+appears under its name only when it is complete; an older one is removed first.
 """
 
 from __future__ import annotations
@@ -25,22 +24,22 @@ from contactsim.publish.ro_crate import CITATION, RO_CRATE, author_name, crate, 
 
 README, SUMS, METADATA = "README.md", "SHA256SUMS", "ro-crate-metadata.json"
 
-KINDS = {
+FILE_KINDS = {
     "datasets": "results, netCDF-4",
-    "costs": "what every solution took",
+    "costs": "times and memory of every solution",
     "figures": "figure; csv: the numbers in it",
-    "claims": "what the thesis states, each with its verdict",
+    "claims": "statements of the thesis, each with its verdict",
     "config": "the settings",
     "examples": "how to use the datasets without contactsim",
     "report.html": "all figures and verdicts on one page",
     "environment.txt": "all packages, with their versions",
-    CITATION: "how to cite this",
-    "LICENSE": "what may be done with this",
-    README: "what there is",
-    SUMS: "the sums of all other files",
-    METADATA: "what there is, for machines",
+    CITATION: "citation",
+    "LICENSE": "licence",
+    README: "description of the folder",
+    SUMS: "checksums of all other files",
+    METADATA: "description of the folder, for machines",
 }
-"""What a file or the files of a folder are."""
+"""Description of a file, or of the files of a folder."""
 
 WITHOUT_VALUES = {
     "x": ("nm", "position along x: as many points as `points`, evenly over `length`, from 0"),
@@ -50,7 +49,7 @@ WITHOUT_VALUES = {
 
 
 @dataclass(frozen=True)
-class Held:
+class Contents:
     """Contents of a dataset: title, digest of settings, versions, sizes; dimensions, unit and meaning of variables."""
 
     title: str
@@ -61,12 +60,12 @@ class Held:
     words: dict[str, tuple[str, str]]
 
     @classmethod
-    def of(cls, data: xr.Dataset) -> Held:
-        """Of a dataset as it was read."""
+    def of(cls, data: xr.Dataset) -> Contents:
+        """Return the contents of a dataset."""
         dims = {str(name): tuple(map(str, item.dims)) for name, item in data.variables.items()}
         words = {str(name): _words(item) for name, item in data.variables.items()}
-        settings, made = digest(dataset.settings_of(data)), json.loads(data.attrs["versions"])
-        return cls(data.attrs["title"], settings, made, dict(data.sizes), dims, words)
+        settings, versions = digest(dataset.settings_of(data)), json.loads(data.attrs["versions"])
+        return cls(data.attrs["title"], settings, versions, dict(data.sizes), dims, words)
 
 
 def _words(item: xr.Variable) -> tuple[str, str]:
@@ -80,10 +79,21 @@ def _words(item: xr.Variable) -> tuple[str, str]:
 
 
 def write_bundle(plan: Mapping, files: Mapping[str, str | Path], target: str | Path) -> None:
-    """Write the bundle `target`; it appears under its name when it is complete.
+    """Write a bundle; it appears under its name when it is complete.
 
-    plan: tier, titles by name of a dataset, figure or chapter, and digests of what made each dataset; files: by their
-    place in the bundle, where they lie now.
+    Parameters
+    ----------
+    plan : mapping
+        Tier, titles by name of a dataset, figure or chapter, and digests of the code and settings of each dataset.
+    files : mapping
+        Present path of each file by its path in the bundle.
+    target : path
+        Folder to write.
+
+    Raises
+    ------
+    InputError
+        For a file that cannot be read.
     """
     target = Path(target)
     unfinished = target.with_name(f".{target.name}.tmp")
@@ -101,6 +111,7 @@ def write_bundle(plan: Mapping, files: Mapping[str, str | Path], target: str | P
 
 
 def _copy(path: Path, place: Path) -> None:
+    """Copy a file into the bundle."""
     place.parent.mkdir(parents=True, exist_ok=True)
     try:
         shutil.copyfile(path, place)
@@ -109,23 +120,24 @@ def _copy(path: Path, place: Path) -> None:
 
 
 def _describe(plan: Mapping, places: Sequence[str], folder: Path) -> None:
-    """Write README, metadata and sums into a folder that holds all else."""
+    """Write README, metadata and checksums into a folder that has all other files."""
     citation = read_citation(folder / CITATION)
-    held = {place: Held.of(dataset.load_dataset(folder / place)) for place in places if place.endswith(".nc")}
+    contents = {place: Contents.of(dataset.load_dataset(folder / place)) for place in places if place.endswith(".nc")}
     about = {place: about_file(place, plan["titles"]) for place in [*places, README, SUMS, METADATA]}
-    (folder / README).write_text(readme(plan, citation, held, about), encoding="utf-8")
+    (folder / README).write_text(readme(plan, citation, contents, about), encoding="utf-8")
     sums = {place: _sum(folder / place) for place in [*places, README]}
     listed = {place: {"description": text} for place, text in about.items() if place != METADATA}
     for place, value in sums.items():
         listed[place] |= {"sha256": value, "contentSize": str((folder / place).stat().st_size)}
-    for place, one in held.items():
-        listed[place] |= {"variableMeasured": sorted(one.dims)}
+    for place, item in contents.items():
+        listed[place] |= {"variableMeasured": sorted(item.dims)}
     crate(citation, f"tier {plan['tier']}", digest(plan), listed).metadata.write(folder)
     sums[METADATA] = _sum(folder / METADATA)
     (folder / SUMS).write_text("".join(f"{sums[place]}  {place}\n" for place in sorted(sums)), encoding="utf-8")
 
 
 def _sum(path: Path) -> str:
+    """Return the SHA-256 of a file."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
@@ -134,14 +146,14 @@ def about_file(place: str, titles: Mapping[str, str]) -> str:
     """Return the description of a file: its title, if it has one, and its kind."""
     path = Path(place)
     title = titles.get(path.stem.removesuffix("_at_equal_error"))
-    kind = KINDS[path.parts[0]]
+    kind = FILE_KINDS[path.parts[0]]
     return f"{title} ({kind})" if title and len(path.parts) > 1 else kind
 
 
-def readme(plan: Mapping, citation: Mapping, held: Mapping[str, Held], about: Mapping[str, str]) -> str:
+def readme(plan: Mapping, citation: Mapping, contents: Mapping[str, Contents], about: Mapping[str, str]) -> str:
     """Return the README.md of a bundle: how to check, cite and make it, and its datasets, variables and files."""
     tier, names = plan["tier"], ", ".join(map(author_name, citation["authors"]))
-    made = sorted({f"{name} {version}" for one in held.values() for name, version in one.versions.items()})
+    packages = sorted({f"{name} {version}" for item in contents.values() for name, version in item.versions.items()})
     parts = [
         f"# {citation['title']}: results of the tier {tier}",
         f"By {names}; version {citation['version']}, {citation['date-released']}; licence {citation['license']}. "
@@ -159,43 +171,46 @@ def readme(plan: Mapping, citation: Mapping, held: Mapping[str, Held], about: Ma
         f"```sh\nmake bundle TIER={tier}\n```",
         "Datasets then come out byte for byte the same, at one number of threads; `costs/` holds times, which do not, "
         "and names the single runs, which are not here. The digest of code and settings is "
-        f"`{digest(plan)}`; that of each dataset stands with it. Made with {', '.join(made)}.",
+        f"`{digest(plan)}`; that of each dataset stands with it. Made with {', '.join(packages)}.",
         "## Datasets",
-        *(_dataset(place, one, plan["data"][Path(place).stem]) for place, one in sorted(held.items())),
+        *(_dataset(place, item, plan["data"][Path(place).stem]) for place, item in sorted(contents.items())),
         "## Dimensions",
-        _table(("dimension", "unit", "meaning"), _dimensions(held.values())),
+        _table(("dimension", "unit", "meaning"), _dimensions(contents.values())),
         "## Variables",
-        _table(("variable", "unit", "meaning"), _variables(held.values())),
+        _table(("variable", "unit", "meaning"), _variables(contents.values())),
         "## Files",
         _table(("file", "what it is"), [(f"`{place}`", text) for place, text in sorted(about.items())]),
     ]
     return "\n\n".join(parts) + "\n"
 
 
-def _dataset(place: str, held: Held, made: str) -> str:
+def _dataset(place: str, contents: Contents, code_digest: str) -> str:
     """Return the section of a dataset: title, digests, sizes, and variables by their dimensions."""
     by_dims: dict[tuple[str, ...], list[str]] = {}
-    for name, dims in held.dims.items():
+    for name, dims in contents.dims.items():
         by_dims.setdefault(dims, []).append(f"`{name}`")
     rows = [(", ".join(dims) or "–", ", ".join(names)) for dims, names in sorted(by_dims.items())]
-    sizes = ", ".join(f"{name} {count}" for name, count in held.sizes.items())
-    words = f"{held.title}. Code and settings: `{made}`; settings alone: `{held.settings}`. Sizes: {sizes}."
+    sizes = ", ".join(f"{name} {count}" for name, count in contents.sizes.items())
+    words = (
+        f"{contents.title}. Code and settings: `{code_digest}`; settings alone: `{contents.settings}`. Sizes: {sizes}."
+    )
     return f"### `{place}`\n\n{words}\n\n{_table(('dimensions', 'variables'), rows)}"
 
 
-def _dimensions(held: Iterable[Held]) -> list[tuple[str, ...]]:
+def _dimensions(contents: Iterable[Contents]) -> list[tuple[str, ...]]:
     """Return each dimension with unit and meaning."""
-    known = WITHOUT_VALUES | {"": ("1", "number")}
-    found = {(name, *one.words.get(name, known.get(name, known[""]))) for one in held for name in one.sizes}
-    return [(f"`{name}`", *words) for name, *words in sorted(found)]
+    defaults = WITHOUT_VALUES | {"": ("1", "number")}
+    rows = {(name, *item.words.get(name, defaults.get(name, defaults[""]))) for item in contents for name in item.sizes}
+    return [(f"`{name}`", *words) for name, *words in sorted(rows)]
 
 
-def _variables(held: Iterable[Held]) -> list[tuple[str, ...]]:
+def _variables(contents: Iterable[Contents]) -> list[tuple[str, ...]]:
     """Return each variable with unit and meaning; several rows if datasets differ in it."""
-    found = {(name, *words) for one in held for name, words in one.words.items()}
-    return [(f"`{name}`", *words) for name, *words in sorted(found)]
+    rows = {(name, *words) for item in contents for name, words in item.words.items()}
+    return [(f"`{name}`", *words) for name, *words in sorted(rows)]
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)

@@ -1,4 +1,4 @@
-"""All figures on one page: what each shows, what came of the statements about it, with which error, at what cost.
+"""Gallery: all figures on one page, each with verdicts on statements about it, errors and costs.
 
 A statement belongs to the figures and tables that its source names. Errors and costs are those of the datasets that a
 figure shows; nothing here is typed twice.
@@ -22,11 +22,11 @@ from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
 
 VERDICTS = (REPRODUCED, CONDITION, NOT_REPRODUCED, NOT_DECIDABLE)
-ACROSS = 3
+COLUMNS = 3
 """Pictures side by side."""
 WIDTH, COLOURS = 760, 128
-"""Of a small picture: pixels across, and colours."""
-NAMED = re.compile(r"(Fig|Table)s?\.? ((?:\d\.\d+[a-d]?(?:, | and )?)+)")
+"""Width of a small picture in pixels, and number of its colours."""
+FIGURE_LABELS = re.compile(r"(Fig|Table)s?\.? ((?:\d\.\d+[a-d]?(?:, | and )?)+)")
 """Figures and tables in the source of a statement."""
 
 
@@ -43,46 +43,48 @@ class Entry:
 
 def figure_entries(plan: Plan) -> dict[str, list[Entry]]:
     """Return the figures of each chapter in the order of the config."""
-    found: dict[str, list[Entry]] = {}
+    entries: dict[str, list[Entry]] = {}
     for name, figure in plan.figures.items():
         data = plan.figure_settings(name)["data"]
-        own = Entry(name, figure.settings["title"], figure.settings["caption"], tuple(figure.studies), data)
-        found.setdefault(figure.chapter, []).append(own)
-    return found
+        entry = Entry(name, figure.settings["title"], figure.settings["caption"], tuple(figure.studies), data)
+        entries.setdefault(figure.chapter, []).append(entry)
+    return entries
 
 
 def figures_in_source(source: str) -> set[str]:
     """Return the names of the figures and tables in the source of a claim."""
-    found = [(kind, number) for kind, numbers in NAMED.findall(source) for number in re.findall(r"\d\.\d+", numbers)]
-    return {f"{kind.lower()}_{number.replace('.', '_')}" for kind, number in found}
+    labels = [
+        (kind, number) for kind, numbers in FIGURE_LABELS.findall(source) for number in re.findall(r"\d\.\d+", numbers)
+    ]
+    return {f"{kind.lower()}_{number.replace('.', '_')}" for kind, number in labels}
 
 
 def read_verdicts(folder: Path, chapters: Sequence[str]) -> pd.DataFrame:
     """Return all claims with their verdicts; the first column is the chapter."""
     tables = [pd.DataFrame(columns=["chapter", "source", "verdict"])]
     tables += [pd.read_csv(folder / "claims" / f"{chapter}.csv").assign(chapter=chapter) for chapter in chapters]
-    every = pd.concat(tables[1:] or tables, ignore_index=True)
-    return every[["chapter", *every.columns.drop("chapter")]]
+    claims = pd.concat(tables[1:] or tables, ignore_index=True)
+    return claims[["chapter", *claims.columns.drop("chapter")]]
 
 
-def claims_of_figure(every: pd.DataFrame, name: str) -> pd.DataFrame:
+def claims_of_figure(claims: pd.DataFrame, name: str) -> pd.DataFrame:
     """Return the claims whose source names a figure or table."""
-    return every[every["source"].map(lambda source: name in figures_in_source(source)).astype(bool)]
+    return claims[claims["source"].map(lambda source: name in figures_in_source(source)).astype(bool)]
 
 
-def count_verdicts(own: pd.DataFrame) -> dict[str, int]:
+def count_verdicts(claims: pd.DataFrame) -> dict[str, int]:
     """Return the number of claims with each verdict."""
-    return {verdict: int((own.verdict == verdict).sum()) for verdict in VERDICTS}
+    return {verdict: int((claims.verdict == verdict).sum()) for verdict in VERDICTS}
 
 
-def gallery_table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
+def gallery_table(plan: Plan, folder: Path, claims: pd.DataFrame, others: Mapping[str, str]) -> pd.DataFrame:
     """Return one row a figure: chapter, title, numbers of verdicts, errors, CPU seconds and digest of its data.
 
     Parameters
     ----------
     plan : of the tier
     folder : of the tier's results
-    every : all claims, of `read_verdicts`
+    claims : all claims, of `read_verdicts`
     others : titles, by name, of the figures that belong to no chapter; they have no further columns
 
     Notes
@@ -90,14 +92,16 @@ def gallery_table(plan: Plan, folder: Path, every: pd.DataFrame, others: Mapping
     Errors are those of the first study of a figure.
     """
     rows = []
-    for chapter, own in figure_entries(plan).items():
-        for entry in own:
+    for chapter, entries in figure_entries(plan).items():
+        for entry in entries:
             paths = [plan.dataset_name(study) for study in entry.studies]
-            told = error_texts(dataset.load_dataset(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
+            errors = error_texts(dataset.load_dataset(folder / "datasets" / f"{paths[0]}.nc")) if paths else []
             seconds = sum(pd.read_csv(folder / "costs" / f"{path}.csv").seconds.sum() for path in paths)
             place = {"chapter": chapter, "figure": entry.name, "title": entry.title}
-            found = count_verdicts(claims_of_figure(every, entry.name))
-            rows.append(place | found | {"errors": "; ".join(told), "seconds": round(seconds, 1), "data": entry.data})
+            counts = count_verdicts(claims_of_figure(claims, entry.name))
+            rows.append(
+                place | counts | {"errors": "; ".join(errors), "seconds": round(seconds, 1), "data": entry.data}
+            )
     rows += [{"chapter": "", "figure": name, "title": title} for name, title in others.items()]
     return pd.DataFrame(rows)
 
@@ -108,22 +112,22 @@ def gallery_page(rows: pd.DataFrame) -> str:
     rows: of `gallery_table`; the small pictures lie beside the page.
     """
     cells = [_cell(row) for row in rows.to_dict("records")]
-    lines = [cells[place : place + ACROSS] for place in range(0, len(cells), ACROSS)]
+    lines = [cells[place : place + COLUMNS] for place in range(0, len(cells), COLUMNS)]
     return "\n".join(["<table>", *(f"<tr>{''.join(line)}</tr>" for line in lines), "</table>"]) + "\n"
 
 
-def counts_markdown(every: pd.DataFrame) -> str:
-    """Return the numbers of verdicts by chapter as a Markdown table; every: of `read_verdicts`."""
+def counts_markdown(claims: pd.DataFrame) -> str:
+    """Return the numbers of verdicts by chapter as a Markdown table; claims: of `read_verdicts`."""
     lines = [f"| chapter | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 1) + "|"]
-    for chapter, own in [*every.groupby("chapter"), ("all", every)]:
-        cells = map(str, count_verdicts(own).values())
+    for chapter, part in [*claims.groupby("chapter"), ("all", claims)]:
+        cells = map(str, count_verdicts(part).values())
         lines.append(f"| {str(chapter).removeprefix('ch')} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 
-def verdicts_markdown(every: pd.DataFrame, tier: str) -> str:
-    """Return all claims by verdict as a Markdown page, those not reproduced first; every: of `read_verdicts`."""
-    parts = [f"# Every statement, and what came of it at the {tier} tier\n", counts_markdown(every)]
+def verdicts_markdown(claims: pd.DataFrame, tier: str) -> str:
+    """Return all claims by verdict as a Markdown page, those not reproduced first; claims: of `read_verdicts`."""
+    parts = [f"# Verdicts on all statements at the {tier} tier\n", counts_markdown(claims)]
     parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
     for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED):
         parts += [
@@ -131,23 +135,24 @@ def verdicts_markdown(every: pd.DataFrame, tier: str) -> str:
             "| thesis | statement | compared | expected | found | why this band |",
         ]
         parts[-1] += "\n|---|---|---|---|---|---|"
-        parts += [_statement(row) for row in every[every.verdict == verdict].to_dict("records")]
+        parts += [_statement(row) for row in claims[claims.verdict == verdict].to_dict("records")]
         parts.append("")
     return "\n".join(parts)
 
 
 def _statement(row: Mapping) -> str:
+    """Return the row of a claim in a Markdown table."""
     texts = {key: "" if isinstance(value, float) else str(value).replace("|", "\\|") for key, value in row.items()}
-    found = " ± ".join(rounded_texts(row["value"], row["ensemble_error"], row["grid_error"]))
+    result = " ± ".join(rounded_texts(row["value"], row["ensemble_error"], row["grid_error"]))
     if texts["condition"]:
         numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
-        found += f"; {texts['condition']}: {' ± '.join(rounded_texts(*numbers))}"
+        result += f"; {texts['condition']}: {' ± '.join(rounded_texts(*numbers))}"
     cells = (
         texts["source"],
         texts["statement"],
         measure_text(texts["measure"]),
         texts["expected"],
-        found,
+        result,
         texts["rationale"],
     )
     return f"| {' | '.join(cells)} |"
@@ -156,12 +161,12 @@ def _statement(row: Mapping) -> str:
 def _cell(row: Mapping) -> str:
     """Return the cell of a figure."""
     name, title = row["figure"], row["title"]
-    counted = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
-    lines = ["; ".join(counted)] * bool(counted)
+    counts = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
+    lines = ["; ".join(counts)] * bool(counts)
     lines += [row["errors"]] * (isinstance(row["errors"], str) and row["errors"] != "")
     lines += [f"{duration_text(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
     picture = f'<a href="{name}.png"><img src="{name}.png" width="260" alt="{title}"></a>'
-    width = f"{100 // ACROSS}%"
+    width = f"{100 // COLUMNS}%"
     return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(lines)}</sub></td>'
 
 
@@ -171,7 +176,7 @@ def duration_text(seconds: float) -> str:
 
 
 def gallery_settings(plan: Plan, others: Mapping[str, str]) -> dict:
-    """Return what the gallery depends on beside its files; others: as in `gallery_table`."""
+    """Return the settings that the gallery depends on beside its files; others: as in `gallery_table`."""
     data = [plan.figure_settings(name) for name in plan.figures]
     data += [plan.claims_settings(chapter) for chapter in plan.claims]
     source = source_digest("contactsim.publish.gallery")
@@ -185,14 +190,14 @@ def write_gallery(plan: Plan, folder: Path, target: Path, others: Mapping[str, s
     """
     shutil.rmtree(target, ignore_errors=True)  # a figure that is gone leaves no picture
     target.mkdir(parents=True)
-    every = read_verdicts(folder, list(plan.claims))
-    rows = gallery_table(plan, folder, every, others)
+    claims = read_verdicts(folder, list(plan.claims))
+    rows = gallery_table(plan, folder, claims, others)
     for name in rows.figure:
         write_thumbnail(folder / "figures" / f"{name}.png", target / f"{name}.png")
-    every.to_csv(target / "verdicts.csv", index=False)
-    (target / "verdicts.md").write_text(verdicts_markdown(every, plan.tier), encoding="utf-8")
+    claims.to_csv(target / "verdicts.csv", index=False)
+    (target / "verdicts.md").write_text(verdicts_markdown(claims, plan.tier), encoding="utf-8")
     (target / "gallery.md").write_text(gallery_page(rows), encoding="utf-8")
-    (target / "counts.md").write_text(counts_markdown(every), encoding="utf-8")
+    (target / "counts.md").write_text(counts_markdown(claims), encoding="utf-8")
     rows.to_csv(target / "gallery.csv", index=False)  # last: with it the gallery is whole
 
 

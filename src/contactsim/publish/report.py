@@ -36,14 +36,14 @@ from contactsim.study.scenes import build_setup
 TEMPLATE, STAGES = Path(__file__).with_name("report.html"), Path(__file__).with_name("stages.svg")
 SKETCH = (4.6, 2.9), 160
 """Size in inches and dots an inch of a sketch."""
-COLOURS, FINE = 256, 2
-"""Colours of a picture on the page, and how many of its pixels go into one of the page's."""
-SECTION = 2000
-"""Points that show a section of a surface."""
+COLOURS, PIXEL_RATIO = 256, 2
+"""Colours of a picture on the page, and its pixels for each pixel of the page, along one side."""
+SECTION_POINTS = 2000
+"""Points of a drawn section of a surface."""
 MARKS = dict(zip(VERDICTS, ("yes", "condition", "no", "open"), strict=True))
-"""How a verdict is called in the style sheet."""
-HIDDEN = ("name", "title", "tier", "seed")
-"""Settings that a table of settings leaves out: they stand elsewhere."""
+"""Classes of the verdicts in the style sheet."""
+HIDDEN_SETTINGS = ("name", "title", "tier", "seed")
+"""Settings that stand elsewhere on the page."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Shown:
+class PageFigure:
     """A figure of the page: its entry, its picture, and the number of claims with each verdict."""
 
     entry: Entry
@@ -65,36 +65,37 @@ class Shown:
 
 
 @dataclass(frozen=True)
-class Solved:
-    """A study of the page: title, summary of its dataset (`told`), cost, settings, and a sketch of its scene."""
+class PageStudy:
+    """A study of the page: title, summary of its dataset, cost, settings, and a sketch of its scene."""
 
     title: str
-    told: str
+    summary: str
     cost: str
     settings: dict[str, str]
     sketch: Picture
 
 
 def report_settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]]) -> dict:
-    """Return what the page depends on, beside the files that it shows.
+    """Return the settings that the page depends on beside its files.
 
     others: settings of the figures that belong to no chapter, by group and name
     """
     data = [gallery.gallery_settings(plan, {}), {study: plan.study_settings(study) for study in plan.studies}]
-    shown = {group: {name: _titled(one) for name, one in figures.items()} for group, figures in others.items()}
+    titles = {group: {name: _titled(figure) for name, figure in figures.items()} for group, figures in others.items()}
     texts = [file.read_text(encoding="utf-8") for file in (TEMPLATE, STAGES)]
     source = digest(source_digest("contactsim.publish.report"), *texts)
-    made = {"tier": plan.tier, "others": shown, "order": list(shown), "data": digest(data), "source": source}
-    used = {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas")}
-    return made | {"versions": {"Python": platform.python_version()} | versions() | used}
+    settings = {"tier": plan.tier, "others": titles, "order": list(titles), "data": digest(data), "source": source}
+    tools = {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas")}
+    return settings | {"versions": {"Python": platform.python_version()} | versions() | tools}
 
 
 def _titled(settings: Mapping) -> dict[str, str]:
+    """Return title and caption of a figure."""
     return {key: settings[key] for key in ("title", "caption")}
 
 
 def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
-    """Return all that the page shows.
+    """Return the contents of the page.
 
     Parameters
     ----------
@@ -102,15 +103,15 @@ def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
     settings : of `report_settings`
     folder : of the tier's results
     """
-    every = gallery.read_verdicts(folder, list(plan.claims))
+    claims = gallery.read_verdicts(folder, list(plan.claims))
     return {
         "tier": plan.tier,
         "seed": plan.seed,
         "data": settings["data"],
         "marks": MARKS,
-        "counts": _counts(every),
-        "statements": _statements(every, plan),
-        "chapters": _chapters(plan, folder, every),
+        "counts": _counts(claims),
+        "statements": _statements(claims, plan),
+        "chapters": _chapters(plan, folder, claims),
         "studies": {name: _study(plan, folder, name) for name in plan.studies},
         "own": {_chapter(chapter): _studies_of(plan, chapter) for chapter in plan.chapters.values()},
         "others": _others(settings, folder),
@@ -126,25 +127,27 @@ def page_text(results: Mapping) -> str:
 
 
 def _chapter(name: str) -> str:
+    """Return the title of a chapter."""
     return f"Chapter {name.removeprefix('ch')}"
 
 
 def _studies_of(plan: Plan, chapter: str) -> list[str]:
-    return [study for study, own in plan.chapters.items() if own == chapter]
+    """Return the studies of a chapter."""
+    return [study for study, chapter_of_study in plan.chapters.items() if chapter_of_study == chapter]
 
 
-def _counts(every: pd.DataFrame) -> dict[str, dict[str, int]]:
+def _counts(claims: pd.DataFrame) -> dict[str, dict[str, int]]:
     """Return the number of claims with each verdict, by chapter and in all."""
-    if every.empty:
+    if claims.empty:
         return {}
-    parts = {_chapter(chapter): own for chapter, own in every.groupby("chapter")} | {"all": every}
-    return {name: gallery.count_verdicts(own) for name, own in parts.items()}
+    parts = {_chapter(chapter): part for chapter, part in claims.groupby("chapter")} | {"all": claims}
+    return {name: gallery.count_verdicts(part) for name, part in parts.items()}
 
 
-def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
+def _statements(claims: pd.DataFrame, plan: Plan) -> list[dict]:
     """Return the rows of the claims, with rounded numbers, figures and studies."""
     rows = []
-    for row in every.to_dict("records"):
+    for row in claims.to_dict("records"):
         numbers = ("value", "ensemble_error", "grid_error")
         texts = {key: "" if isinstance(value, float) else value for key, value in row.items()}
         texts |= dict(zip(("found", "ensemble", "grid"), rounded_texts(*(row[name] for name in numbers)), strict=True))
@@ -158,27 +161,28 @@ def _statements(every: pd.DataFrame, plan: Plan) -> list[dict]:
     return rows
 
 
-def _chapters(plan: Plan, folder: Path, every: pd.DataFrame) -> dict[str, list[Shown]]:
+def _chapters(plan: Plan, folder: Path, claims: pd.DataFrame) -> dict[str, list[PageFigure]]:
     """Return the figures of each chapter."""
-    found = {}
+    chapters = {}
     for chapter, entries in gallery.figure_entries(plan).items():
-        shown = []
+        figures = []
         for entry in entries:
-            verdicts = gallery.count_verdicts(gallery.claims_of_figure(every, entry.name))
-            shown.append(Shown(entry, _picture(folder, entry.name), verdicts))
-        found[_chapter(chapter)] = shown
-    return found
+            verdicts = gallery.count_verdicts(gallery.claims_of_figure(claims, entry.name))
+            figures.append(PageFigure(entry, _picture(folder, entry.name), verdicts))
+        chapters[_chapter(chapter)] = figures
+    return chapters
 
 
-def _study(plan: Plan, folder: Path, name: str) -> Solved:
-    """Return what the page shows of a study."""
+def _study(plan: Plan, folder: Path, name: str) -> PageStudy:
+    """Return the part of the page about a study."""
     data = dataset.load_dataset(folder / "datasets" / f"{plan.dataset_name(name)}.nc")
     costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(name)}.csv")
     drawn_scene = _sketch(plan.studies[name].runs()[0].settings)
-    return Solved(data.attrs["title"], dataset_summary(data, costs), _cost(costs), _settings(data), drawn_scene)
+    return PageStudy(data.attrs["title"], dataset_summary(data, costs), _cost(costs), _settings(data), drawn_scene)
 
 
 def _cost(costs: pd.DataFrame) -> str:
+    """Return the cost of a study in words."""
     runs, transforms, memory = costs.run.nunique(), costs.transforms.sum(), costs.memory_mib.max()
     time = duration_text(costs.seconds.sum())
     return f"{runs} runs, {transforms:.3g} transforms, {time} of CPU time, at most {memory:.0f} MiB"
@@ -186,12 +190,16 @@ def _cost(costs: pd.DataFrame) -> str:
 
 def _settings(data: xr.Dataset) -> dict[str, str]:
     """Return the settings of a dataset as text, without empty ones; long lists of loads are shortened."""
-    found = dataset.settings_of(data)
-    if len(found["load"]["values"]) > 20:
-        values = found["load"]["values"]
-        found["load"] |= {"values": f"{len(values)} from {values[0]:g} to {values[-1]:g}"}
-    kept = {key: value for key, value in found.items() if key not in HIDDEN and value not in (None, {}, [])}
-    return {key: json.dumps(value, ensure_ascii=False).replace('"', "") for key, value in sorted(kept.items())}
+    settings = dataset.settings_of(data)
+    if len(settings["load"]["values"]) > 20:
+        values = settings["load"]["values"]
+        settings["load"] |= {"values": f"{len(values)} from {values[0]:g} to {values[-1]:g}"}
+    shown_settings = {
+        key: value for key, value in settings.items() if key not in HIDDEN_SETTINGS and value not in (None, {}, [])
+    }
+    return {
+        key: json.dumps(value, ensure_ascii=False).replace('"', "") for key, value in sorted(shown_settings.items())
+    }
 
 
 @mpl.rc_context(style.RC_PARAMS)
@@ -202,7 +210,7 @@ def _sketch(run: dict) -> Picture:
     setup = build_setup(run)
     scene = setup.scene
     surface = scene.upper.surface
-    enough = max(SECTION, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
+    enough = max(SECTION_POINTS, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
     points = setup.points
     plot_sketch(scene, points if surface.points else min(points, enough), figure.subplots())
     figure.savefig(file, format="png", dpi=dots)
@@ -210,6 +218,7 @@ def _sketch(run: dict) -> Picture:
 
 
 def _picture(folder: Path, name: str) -> Picture:
+    """Return the picture of a figure."""
     return _embedded(folder / "figures" / f"{name}.png")
 
 
@@ -219,7 +228,7 @@ def _embedded(source: Path | io.BytesIO) -> Picture:
     with Image.open(source) as picture:
         few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
         few.save(file, format="png")
-        width, height = picture.width // FINE, picture.height // FINE
+        width, height = picture.width // PIXEL_RATIO, picture.height // PIXEL_RATIO
     return Picture("data:image/png;base64," + base64.b64encode(file.getvalue()).decode(), width, height)
 
 

@@ -60,17 +60,17 @@ def crate(citation: Mapping, part: str, identifier: str, files: Mapping[str, Map
 
     citation: of `read_citation`; part: which of all results these are; files: properties of each by its place.
     """
-    made = ROCrate(version=RO_CRATE)
+    archive = ROCrate(version=RO_CRATE)
 
     def entity(key: str, kind: str, **properties: object) -> ContextEntity:
-        """One that is no file, added."""
-        return made.add(ContextEntity(made, key, {"@type": kind, **properties}))
+        """Add an entity that is no file, and return it."""
+        return archive.add(ContextEntity(archive, key, {"@type": kind, **properties}))
 
     people = [
         entity(_id(author, number), "Organization" if "name" in author else "Person", name=author_name(author))
         for number, author in enumerate(citation["authors"], 1)
     ]
-    root, licence = made.root_dataset, citation["license"]
+    root, licence = archive.root_dataset, citation["license"]
     for key, value in {
         "name": f"{citation['title']}: results, {part}",
         "description": "Datasets, costs, figures and verdicts, with the settings that they were made from.",
@@ -83,9 +83,10 @@ def crate(citation: Mapping, part: str, identifier: str, files: Mapping[str, Map
         root[key] = value
     for place, properties in sorted(files.items()):
         form = FORMATS.get(Path(place).suffix, "text/plain")
-        made.add_file(dest_path=place, properties={"name": Path(place).name, "encodingFormat": form, **properties})
-    return made
+        archive.add_file(dest_path=place, properties={"name": Path(place).name, "encodingFormat": form, **properties})
+    return archive
 
 
 def _id(author: Mapping, number: int) -> str:
+    """Return the identifier of an author."""
     return author.get("orcid") or f"#author-{number}"
