@@ -213,9 +213,9 @@ def test_the_footer_says_where_each_knob_was_turned_its_reference_and_what_has_n
     text = footer_text(usual[1], PLAN)
     for part in (
         "quick tier · 12 settings, best of up to 2 timings",
-        "points turned at tolerance 0.001, reference 1024 points at tolerance 1e-06",
-        "tolerance turned at 32 points, reference tolerance 1e-06",
-        "members turned at 64 points of the study",
+        "points varied at tolerance 0.001, reference 1024 points at tolerance 1e-06",
+        "tolerance varied at 32 points, reference tolerance 1e-06",
+        "members varied at 64 points of the study",
         "without a ring: full, with grid points 1024",
     ):
         assert part in text
@@ -270,9 +270,9 @@ def test_a_path_has_a_column_for_its_increment_and_shows_its_first_quantity_agai
 def test_the_footer_of_a_path_says_where_three_knobs_were_turned_and_which_tiers_have_no_increment(usual, path):
     text = footer_text(path[1], PATH_PLAN)
     for part in (
-        "points turned at tolerance 0.001 and increment 0.5 nm, reference 1024 points at tolerance 1e-06 · tolerance",
-        "tolerance turned at 32 points and increment 0.5 nm, reference tolerance 1e-06 · increment",
-        "increment turned at 32 points and tolerance 0.001, reference increment 0.02 nm",
+        "points varied at tolerance 0.001 and increment 0.5 nm, reference 1024 points at tolerance 1e-06 · tolerance",
+        "tolerance varied at 32 points and increment 0.5 nm, reference tolerance 1e-06 · increment",
+        "increment varied at 32 points and tolerance 0.001, reference increment 0.02 nm",
         "without a ring: thesis, with increment 0.02 nm",
         "increments of their own, so without a ring: quick",
     ):

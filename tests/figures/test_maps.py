@@ -12,6 +12,7 @@ import contactsim
 from contactsim import dataset
 from contactsim.errors import InputError
 from contactsim.figures import ch3, maps
+from contactsim.figures.parts import scale_bar
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
 from contactsim.study.study import Study
@@ -112,7 +113,7 @@ def test_a_fine_grid_is_reduced_and_its_panels_end_where_the_surface_does():
     ("most", "length"), [(1.0, 1.0), (0.999, 0.5), (0.3, 0.2), (24000.0, 20000.0), (6e-9, 5e-9), (4.9, 2.0), (50, 50)]
 )
 def test_a_scale_bar_is_one_two_or_five_times_a_power_of_ten(most, length):
-    assert maps.round_length(most) == pytest.approx(length, rel=1e-12)
+    assert scale_bar.round_length(most) == pytest.approx(length, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -130,7 +131,7 @@ def test_the_scale_bar_is_as_long_on_the_page_as_it_says(width, unit, text, shar
     figure = Figure()
     axes = figure.subplots()
     axes.set_xlim(0, width)
-    bar = maps.add_scale_bar(axes, width, unit)
+    bar = scale_bar.add_scale_bar(axes, width, unit)
     assert bar.txt_label.get_text() == text
     figure.draw_without_rendering()
     (rectangle,) = bar.size_bar.get_children()
@@ -156,7 +157,7 @@ def test_the_scale_bar_is_as_long_on_the_page_as_it_says(width, unit, text, shar
     ],
 )
 def test_units_of_metres_and_pascals_get_the_prefix_that_fits_and_others_stay(value, unit, factor, shown):
-    found = maps.fitting_unit(value, unit)
+    found = scale_bar.fitting_unit(value, unit)
     assert found == (pytest.approx(factor, rel=1e-12), shown)
 
 

@@ -108,8 +108,8 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
         tables.append(asperities.plot_both_laws(axes[::2], coupled, other, colour, "a", **place))
     ratios = style.shades(uncoupled.poisson_ratio)
     for ratio, colour in ratios.items():
-        known = pulled.sel(work_ratio=0.0) if ratio in pulled.poisson_ratio else None
-        coupled = frictionless if known is None else known.sel(poisson_ratio=ratio)
+        at_ratio = pulled.sel(work_ratio=0.0) if ratio in pulled.poisson_ratio else None
+        coupled = frictionless if at_ratio is None else at_ratio.sel(poisson_ratio=ratio)
         other = uncoupled.sel(work_of_separation=WORK, poisson_ratio=ratio)
         place = {"work_of_separation": WORK, "poisson_ratio": ratio}
         coupled = coupled.sel(work_of_separation=WORK)

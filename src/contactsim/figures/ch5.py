@@ -5,9 +5,7 @@ Keyword arguments are values of the thesis, from `reference` in the config.
 
 from __future__ import annotations
 
-import textwrap
 from itertools import product
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,24 +16,18 @@ from matplotlib.ticker import MaxNLocator
 from contactsim.analysis.ensemble import relative_change
 from contactsim.analysis.rough_paths import (
     Saving,
-    member_mean,
-    on_full_grid,
     reduced_pressure,
-    relative_areas,
     with_indentation,
 )
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import style
-from contactsim.figures.parts import interfaces, thicknesses
+from contactsim.figures.parts import interfaces, savings, thicknesses
 from contactsim.figures.parts import rough_curves as rough
-from contactsim.observables.adhesion import CRITERION, INTERACTING, LEGS
+from contactsim.observables.adhesion import LEGS
 
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_pairs", "reduced_pressure_contact")
-AREA = "relative_interacting_area"
 PICTURE, COVER_PICTURE, CLOSE_UP = 0.12, 0.3, 0.05
 """Parts of the period that pictures of the interface show."""
-MANY_WAVES, FEW_WAVES = 512, 64
-"""Period over the shortest wavelength of the pictures of Fig. 5.7."""
 
 
 def fig_5_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
@@ -64,10 +56,10 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
     """
     data, wall, ends = with_indentation(data), with_indentation(wall), np.array([0.0, 2.0])
     for panel in axes:
-        tables = rough.plot_works(panel, data, wall, AREA, reduced_pressure)
+        tables = rough.plot_works(panel, data, wall, rough.AREA, reduced_pressure)
         thesis = {"color": style.EXACT, "lw": 0.8, "ls": style.THESIS, "label": f"thesis, {kappa_r:g}"}
         panel.plot(ends, kappa_r * ends, **thesis)
-        panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS[AREA])
+        panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS[rough.AREA])
     axes[0].set(xlim=rough.plotted_range(axes[0], -0.015, 0.06), ylim=(0, 1.02))
     axes[1].set(xlim=(-0.004, 0.012), ylim=(0, 0.5))
     axes[1].xaxis.set_major_locator(MaxNLocator(5))
@@ -79,7 +71,7 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
 def fig_5_4(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot pressure, gradient in contact and area against the approach (thesis Fig. 5.4)."""
     data, wall = with_indentation(data), with_indentation(wall)
-    names = ("normalised_pressure", "gradient_ratio_interacting", AREA)
+    names = ("normalised_pressure", "gradient_ratio_interacting", rough.AREA)
     tables = {}
     for panel, name in zip(axes, names, strict=True):
         tables[name] = pd.concat(rough.plot_works(panel, data, wall, name, rough.indentation))
@@ -146,35 +138,20 @@ def fig_5_7(
     tables = []
     for value, variant in whole.items():
         variants = {
-            MANY_WAVES: variant,
+            interfaces.MANY_WAVES: variant,
             128: coarse.sel(hurst_exponent=value),
-            FEW_WAVES: coarsest.sel(hurst_exponent=value),
+            interfaces.FEW_WAVES: coarsest.sel(hurst_exponent=value),
         }
         for (waves, paths), line in zip(variants.items(), ("-", "--", ":"), strict=True):
             look = {"color": style.hurst_colour(value), "ls": line, "marker": style.HURST_LOOKS[value][0]}
-            label = rf"$H={value:g}$, {_waves_label(waves)}"
+            label = rf"$H={value:g}$, {interfaces.waves_label(waves)}"
             tables.append(rough.plot_against_pressure(axes[0], with_indentation(paths), label, **look))
     rough.label_pressures(axes[0])
     for panel, (value, variant), share in zip(axes[1:], whole.items(), (PICTURE, CLOSE_UP), strict=True):
-        _plot_waves(panel, variant, coarsest.sel(hurst_exponent=value), share)
+        interfaces.plot_waves(panel, variant, coarsest.sel(hurst_exponent=value), share)
         panel.set_title(f"$H={value:g}$", fontsize=9)
     style.add_letters(axes)
     return pd.concat(tables)
-
-
-def _plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> None:
-    """Plot the interface around the highest point, with many and with few short waves."""
-    place = interfaces.highest_place(many)
-    for data, waves, colour in ((many, MANY_WAVES, style.CONTACT), (few, FEW_WAVES, style.WHOLE)):
-        nodes = interfaces.nodes_around(data, place, share)
-        look = {"colour": colour, "label": _waves_label(waves), "filled": data is many}
-        interfaces.plot_interface(axes, data, nodes, **look)
-    axes.legend(loc="lower right")
-
-
-def _waves_label(waves: int) -> str:
-    """Return the label of the shortest wavelength over the period."""
-    return rf"$\epsilon_f=1/{waves}$"
 
 
 def fig_5_8(data: xr.Dataset, normal: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -186,12 +163,12 @@ def fig_5_8(data: xr.Dataset, normal: xr.Dataset, axes: list[Axes]) -> pd.DataFr
         look = {"color": colours[float(ratio)], "ls": "-" if work else "--", "marker": "s" if work else "o"}
         label = _variant_label(ratio, work)
         tables.append(rough.plot_against_pressure(axes[0], variant, label, **look))
-        rough.plot_path(axes[1], variant, variant.indentation, AREA, label, lw=1.0, **look)
+        rough.plot_path(axes[1], variant, variant.indentation, rough.AREA, label, lw=1.0, **look)
     strong = with_indentation(_strongest(normal))
     look = {"color": style.EXACT, "ls": ":", "marker": "."}
     tables.append(rough.plot_against_pressure(axes[0], strong, "uncoupled", **look))
     rough.label_pressures(axes[0])
-    axes[1].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[AREA])
+    axes[1].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[rough.AREA])
     style.add_letters(axes)
     return pd.concat(tables)
 
@@ -209,7 +186,7 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         variants = (part.sel(poisson_ratio=ratio, work_ratio=work) for part in (data, whole))
         simplified, complete = map(with_indentation, variants)
         colour, label, saving = colours[float(ratio)], _variant_label(ratio, work), Saving.of(simplified, complete)
-        _plot_simplified(axes[0], simplified, complete, label, colour, work)
+        savings.plot_simplified(axes[0], simplified, complete, label, colour, work)
         for offset, value, alpha in ((0.2, saving.transforms, 1.0), (-0.2, saving.transforms_whole, style.FAINT)):
             axes[1].barh(-row + offset, value, 0.36, color=colour, alpha=alpha)
         share = saving.transforms / saving.transforms_whole
@@ -217,37 +194,16 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         place = {"poisson_ratio": ratio, "work_ratio": work, "change_of_mean": saving.change_of_mean}
         place |= {"saved": saving.factor, "transforms": saving.transforms}
         rows.append(place | {"transforms_whole": saving.transforms_whole, "decision": saving.decision})
-    axes[0].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[AREA])
+    axes[0].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[rough.AREA])
     axes[0].legend(loc="best", fontsize=6.5)
-    _label_savings(axes[1], lines)
+    savings.label_savings(axes[1], lines)
     style.add_letters(axes)
     return pd.DataFrame(rows)
 
 
-def _plot_simplified(
-    axes: Axes, simplified: xr.Dataset, complete: xr.Dataset, label: str, colour: str, work: float
-) -> None:
-    """Plot the area with all effects as a line, without the negligible ones as markers with standard errors."""
-    look: dict[str, Any] = {"color": colour, "ls": "-" if work else "--", "lw": 1.0, "marker": ""}
-    rough.plot_path(axes, complete, complete.indentation, AREA, label, **look)
-    full = on_full_grid(simplified)
-    mean, error = (simplified[f"{AREA}_{end}"][full] for end in ("mean", "standard_error"))
-    markers = style.marker_look(colour, "s" if work else "o") | {"ls": ""}
-    axes.errorbar(simplified.indentation[full], mean, error, **markers)
-
-
-def _label_savings(axes: Axes, lines: list[str]) -> None:
-    """Label the bars of work, and put the decisions as text below them."""
-    count = len(lines)
-    axes.set(ylim=(-2 * count, 0.6), xlabel="transforms of all members: full, what was done; faint, all effects")
-    axes.set(yticks=-np.arange(count), yticklabels=[line.partition(":")[0] for line in lines])
-    text = "\n".join("\n".join(textwrap.wrap(line, 100, subsequent_indent="   ")) for line in lines)
-    axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=5, va="bottom")
-
-
 def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot cycles of approach and retraction for rms heights, pull-off and dissipated energy (beyond the thesis)."""
-    panels = {"normalised_pressure": axes[0], AREA: axes[1]}
+    panels = {"normalised_pressure": axes[0], rough.AREA: axes[1]}
     tables = []
     for height, colour in style.shades(data.surface_rms_height).items():
         path = data.sel(surface_rms_height=height).isel(member=0)
@@ -277,27 +233,9 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     tables = []
     for panel, work, ratio_panel in ((axes[0], strongest, axes[2]), (axes[1], weakest, None)):
         variant = with_indentation(data.sel(work_of_separation=work))
-        tables.append(_plot_criteria(panel, variant, ratio_panel).assign(work_of_separation=work))
+        tables.append(rough.plot_criteria(panel, variant, ratio_panel).assign(work_of_separation=work))
         panel.set_title(rough.work_label(data, work), fontsize=9)
     axes[0].legend(loc="upper left")
     axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
     style.add_letters(axes)
-    return pd.concat(tables)
-
-
-def _plot_criteria(axes: Axes, data: xr.Dataset, ratio_axes: Axes | None) -> pd.DataFrame:
-    """Plot the mean area by every criterion, and on other axes over the area by the usual one."""
-    areas = relative_areas(data, ["contact_length", *INTERACTING])
-    usual, _ = member_mean(areas[CRITERION])
-    tables = []
-    for (name, area), colour in zip(areas.items(), style.shades(range(len(areas))).values(), strict=True):
-        mean, error = member_mean(area)
-        label = f"above {INTERACTING[name]:g} of the strength" if name in INTERACTING else "repulsive"
-        axes.plot(data.indentation, mean, color=colour, lw=1.0, label=label)
-        axes.errorbar(data.indentation[-1], mean[-1], error[-1], color=colour, **style.BARS)
-        if ratio_axes is not None:
-            ratio_axes.plot(data.indentation, mean / usual, color=colour, lw=1.0)
-        table = {"indentation": data.indentation, "area": mean, "standard_error": error}
-        tables.append(pd.DataFrame(table).assign(criterion=name))
-    axes.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[AREA], ylim=(0, 1))
     return pd.concat(tables)

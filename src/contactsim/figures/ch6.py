@@ -141,40 +141,40 @@ def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
 
 def fig_6_7(data: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the contact against the sliding distance, and its place at stages A to E (thesis Fig. 6.7)."""
-    left, right = axes
+    path_axes, stage_axes = axes
     tables = []
     colours = (style.CONTACT, style.EXACT, style.WHOLE)
     for number, ((name, (approach, study)), colour) in enumerate(zip(CASES.items(), colours, strict=True)):
         path = (data, slippery)[study].sel(slide_approach=approach).isel(member=0)
         label = f"{name}: {curves.approach_label(approach)}, {curves.work_ratio_label(path)}"
-        tables.append(curves.plot_stages(left, right, path, label, colour, number).assign(case=name))
-    curves.label_stages(right, len(CASES))
-    left.set(xlabel=curves.SLIDE, ylabel=curves.AREA)
-    style.add_headroom(left, 0.3)
-    left.legend(loc="upper right")
+        tables.append(curves.plot_stages(path_axes, stage_axes, path, label, colour, number).assign(case=name))
+    curves.label_stages(stage_axes, len(CASES))
+    path_axes.set(xlabel=curves.SLIDE, ylabel=curves.AREA)
+    style.add_headroom(path_axes, 0.3)
+    path_axes.legend(loc="upper right")
     style.add_letters(axes)
     return pd.concat(tables)[["case", "stage", "slide", "area", "force", "trailing", "leading"]]
 
 
 def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot contact against force to the onset with Eq. 6.8, and at the onset with Eq. 6.9 (thesis Fig. 6.8)."""
-    left, right = axes
+    path_axes, onset_axes = axes
     tables = []
     for approach, colour in style.shades(data.slide_approach).items():
         table = slide_tables.contact_to_onset(data.sel(slide_approach=approach).isel(member=0))
-        left.plot(table.force, table.area, ".", color=colour, ms=2.2, label=curves.approach_label(approach))
-        left.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=0.8)
-        left.plot(table.force.iloc[-1], table.area.iloc[-1], "o", color="black", ms=3.5)
+        path_axes.plot(table.force, table.area, ".", color=colour, ms=2.2, label=curves.approach_label(approach))
+        path_axes.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=0.8)
+        path_axes.plot(table.force.iloc[-1], table.area.iloc[-1], "o", color="black", ms=3.5)
         tables.append(table.assign(approach=approach, study="a"))
-    left.set(xlabel=curves.FORCE, ylabel=curves.AREA)
-    style.add_headroom(left, 0.3)
-    left.legend(loc="upper right", ncols=3, fontsize=6.5)
+    path_axes.set(xlabel=curves.FORCE, ylabel=curves.AREA)
+    style.add_headroom(path_axes, 0.3)
+    path_axes.legend(loc="upper right", ncols=3, fontsize=6.5)
     for study, colour, marker in ((data, "black", "o"), (weak, style.WHOLE, "s"), (slippery, style.CONTACT, "^")):
-        tables.append(_plot_onsets(right, study, colour, marker))
-    right.set(xlabel=r"$\bar A_s$", ylabel=r"$\bar F_s$")
-    right.legend(loc="upper left")
-    right.set_ylim(bottom=0.0)
-    style.add_headroom(right, 0.25)
+        tables.append(_plot_onsets(onset_axes, study, colour, marker))
+    onset_axes.set(xlabel=r"$\bar A_s$", ylabel=r"$\bar F_s$")
+    onset_axes.legend(loc="upper left")
+    onset_axes.set_ylim(bottom=0.0)
+    style.add_headroom(onset_axes, 0.25)
     style.add_letters(axes)
     columns = ["force", "area", "approach", "fit", "study", "shear_strength", "offset"]
     return pd.concat(tables)[columns]

@@ -36,16 +36,18 @@ def footer_text(table: pd.DataFrame, plan: Mapping[str, Any]) -> str:
         *(_knob_text(knob, plan) for knob in varied_knobs(table) if knob in settings["settled"]),
     ]
     ensembles = table[table.knob == "members"]
-    parts += [f"members turned at {points} points of the study" for points in ensembles.points.unique()]
+    parts += [f"members varied at {points} points of the study" for points in ensembles.points.unique()]
     return " · ".join([*parts, *_margin_texts(table, settings["quantities"][0]), *_ringless_texts(table, plan)])
 
 
 def _knob_text(knob: str, plan: Mapping[str, Any]) -> str:
     """Return the values of the other knobs while one was varied, and its reference."""
     settled, reference = (plan["settings"][part] for part in ("settled", "reference"))
-    others = " and ".join(_value_text(plan, name, settled) for name in KNOB_NAMES if name in settled and name != knob)
+    other_knobs = " and ".join(
+        _value_text(plan, name, settled) for name in KNOB_NAMES if name in settled and name != knob
+    )
     tight = f" at {_value_text(plan, 'tolerance', reference)}" if knob == "points" else ""
-    return f"{knob} turned at {others}, reference {_value_text(plan, knob, reference)}{tight}"
+    return f"{knob} varied at {other_knobs}, reference {_value_text(plan, knob, reference)}{tight}"
 
 
 def _value_text(plan: Mapping[str, Any], knob: str, values: Mapping[str, float]) -> str:

@@ -80,8 +80,8 @@ def claims_figure(verdicts: pd.DataFrame, title: str, footer: str) -> Figure:
 
 def _draw_row(axes: Axes, row: Mapping[str, str], top: float, height: float, colour: str) -> None:
     """Draw the cells of one row, that of the verdict on its colour."""
-    left = np.cumsum([0.1, *(width for _, width in COLUMNS.values())])
-    for x, (_, width), (name, cell) in zip(left, COLUMNS.values(), row.items(), strict=False):
+    edges = np.cumsum([0.1, *(width for _, width in COLUMNS.values())])
+    for x, (_, width), (name, cell) in zip(edges, COLUMNS.values(), row.items(), strict=False):
         if name == "verdict":
             axes.fill_between([x, x + width], top, top + height, color=colour, lw=0)
         axes.text(x + 0.04, top + PADDING / 2, cell, fontsize=7, va="top", linespacing=1.1)

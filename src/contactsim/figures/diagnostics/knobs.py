@@ -88,8 +88,8 @@ def _with_places(axes: Axes, part: pd.DataFrame, quantity: str) -> pd.DataFrame:
     zero, infinite = errors <= ROUNDING, np.isinf(errors)
     axes.set(xscale="log", yscale="log")
     edges = [low, high]
-    for side, (label, shown) in enumerate((("0", zero.any()), ("∞", infinite.any()))):
-        if shown:
+    for side, (label, has_points) in enumerate((("0", zero.any()), ("∞", infinite.any()))):
+        if has_points:
             inner, edges[side] = edges[side], edges[side] * margin ** (2 * side - 1)
             axes.axvspan(inner, edges[side], color="#efefef", lw=0, zorder=0)
             middle = (inner * edges[side]) ** 0.5

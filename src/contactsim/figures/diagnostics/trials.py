@@ -102,11 +102,11 @@ def plot_trials(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
 
 
 def _label_errors(axes: Axes, table: pd.DataFrame) -> None:
-    """Label the panel of errors, with the line on which the error is that asked for."""
-    asked = sorted(set(table.requested_error))
-    ends = np.array([asked[0] / 1.5, asked[-1] * 1.5])
+    """Label the panel of errors, with the line on which true and requested error agree."""
+    errors = sorted(set(table.requested_error))
+    ends = np.array([errors[0] / 1.5, errors[-1] * 1.5])
     axes.plot(ends, ends, **DIAGONAL)
-    axes.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="true relative error")
-    axes.set_xticks(asked, [f"{value:g}" for value in asked])
+    axes.set(xscale="log", yscale="log", xlabel="requested relative error", ylabel="true relative error")
+    axes.set_xticks(errors, [f"{value:g}" for value in errors])
     axes.minorticks_off()
     axes.legend(fontsize=6.5)

@@ -18,6 +18,8 @@ HORIZONTAL_TEXT: dict[str, Any] = {"ha": "center", "va": "bottom"}
 VERTICAL_TEXT: dict[str, Any] = {"ha": "right", "va": "center", "rotation": 90}
 BAR: dict[str, Any] = {"color": style.EXACT, "lw": 1.5, "solid_capstyle": "butt"}
 """Scale bars."""
+MANY_WAVES, FEW_WAVES = 512, 64
+"""Period over the shortest wavelength, of two profiles that are compared."""
 
 
 def plot_interface(
@@ -78,3 +80,17 @@ def nodes_around(data: xr.Dataset, place: float, share: float) -> slice:
     width = int(count * share)
     middle = int(np.clip(round(place * count), width // 2, count - width // 2))
     return slice(middle - width // 2, middle + width // 2)
+
+
+def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> None:
+    """Plot the interface around the highest point, with many and with few short waves."""
+    place = highest_place(many)
+    for data, waves, colour in ((many, MANY_WAVES, style.CONTACT), (few, FEW_WAVES, style.WHOLE)):
+        nodes = nodes_around(data, place, share)
+        plot_interface(axes, data, nodes, colour=colour, label=waves_label(waves), filled=data is many)
+    axes.legend(loc="lower right")
+
+
+def waves_label(waves: int) -> str:
+    """Return the label of the shortest wavelength over the period."""
+    return rf"$\epsilon_f=1/{waves}$"

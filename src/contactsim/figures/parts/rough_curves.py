@@ -11,10 +11,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim.analysis.ensemble import converged
-from contactsim.analysis.rough_paths import ENDS, mean_with_increments, on_full_grid
+from contactsim.analysis.rough_paths import ENDS, mean_with_increments, member_mean, on_full_grid, relative_areas
 from contactsim.analysis.scales import reduced_work
 from contactsim.figures import style
-from contactsim.observables.adhesion import LEGS, legs
+from contactsim.observables.adhesion import CRITERION, INTERACTING, LEGS, legs
 
 COLUMNS = (
     "normalised_pressure",
@@ -24,6 +24,8 @@ COLUMNS = (
     "gradient_ratio_interacting",
 )
 """Quantities whose means are columns of the tables."""
+AREA = "relative_interacting_area"
+"""Quantity that figures show as the contact area."""
 LABELS = {
     "normalised_pressure": r"$p/E^*$",
     "relative_interacting_area": r"relative contact area $a_{\mathrm{rel}}$",
@@ -145,3 +147,21 @@ def plotted_range(axes: Axes, low: float, high: float) -> tuple[float, float]:
     x = x[np.isfinite(x) & (x > low) & (x < high)]
     margin = 0.06 * np.ptp(x)
     return max(x.min() - margin, low), min(x.max() + margin, high)
+
+
+def plot_criteria(axes: Axes, data: xr.Dataset, ratio_axes: Axes | None) -> pd.DataFrame:
+    """Plot the mean area by every criterion, and on other axes over the area by the usual one."""
+    areas = relative_areas(data, ["contact_length", *INTERACTING])
+    usual, _ = member_mean(areas[CRITERION])
+    tables = []
+    for (name, area), colour in zip(areas.items(), style.shades(range(len(areas))).values(), strict=True):
+        mean, error = member_mean(area)
+        label = f"above {INTERACTING[name]:g} of the strength" if name in INTERACTING else "repulsive"
+        axes.plot(data.indentation, mean, color=colour, lw=1.0, label=label)
+        axes.errorbar(data.indentation[-1], mean[-1], error[-1], color=colour, **style.BARS)
+        if ratio_axes is not None:
+            ratio_axes.plot(data.indentation, mean / usual, color=colour, lw=1.0)
+        table = {"indentation": data.indentation, "area": mean, "standard_error": error}
+        tables.append(pd.DataFrame(table).assign(criterion=name))
+    axes.set(xlabel=LABELS["indentation"], ylabel=LABELS[AREA], ylim=(0, 1))
+    return pd.concat(tables)

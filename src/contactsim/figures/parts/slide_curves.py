@@ -48,24 +48,26 @@ def plot_gap(axes: Axes, x: Any, gap: Any, width: float, alpha: float | None = N
     axes.fill_between(x, gap, 0.0, where=gap < 0, **fill)
 
 
-def plot_stages(left: Axes, right: Axes, data: xr.Dataset, label: str, colour: str, case: int) -> pd.DataFrame:
+def plot_stages(
+    path_axes: Axes, stage_axes: Axes, data: xr.Dataset, label: str, colour: str, case: int
+) -> pd.DataFrame:
     """Plot the contact of one slide with its stages on one panel, where the contact is at each stage on another.
 
     case: number of the slide, from 0; returns one row a stage
     """
     table = slide_table(data)
     places = stages(data, table)
-    left.plot(table.relative_slide, table.area, color=colour, lw=1.1, label=label)
+    path_axes.plot(table.relative_slide, table.area, color=colour, lw=1.1, label=label)
     points = table.iloc[places]
-    left.plot(points.relative_slide, points.area, ls="none", **style.marker_look(colour, size=3.5))
+    path_axes.plot(points.relative_slide, points.area, ls="none", **style.marker_look(colour, size=3.5))
     for number, (stage, point) in enumerate(zip(STAGES, points.itertuples(), strict=True)):
         offset = (2, -9) if stage == "D" else (2, 3)
-        left.annotate(stage, (point.relative_slide, point.area), offset, textcoords="offset points", fontsize=6.5)
+        path_axes.annotate(stage, (point.relative_slide, point.area), offset, textcoords="offset points", fontsize=6.5)
         x = number + STAGE_SPACING * case
-        right.plot([x, x], [point.trailing, point.leading], color=colour, lw=5, solid_capstyle="butt")
+        stage_axes.plot([x, x], [point.trailing, point.leading], color=colour, lw=5, solid_capstyle="butt")
     ends = [STAGE_SPACING * case - 0.5, STAGE_SPACING * case + 4.5]
     for edge in (table.trailing.iloc[0], table.leading.iloc[0]):
-        right.plot(ends, [edge] * 2, color=colour, lw=0.6, ls=":")
+        stage_axes.plot(ends, [edge] * 2, color=colour, lw=0.6, ls=":")
     columns = ["slide", "area", "force", "trailing", "leading"]
     return points[columns].reset_index(drop=True).assign(stage=list(STAGES))
 
