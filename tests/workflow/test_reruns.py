@@ -215,6 +215,25 @@ def test_an_edit_of_code_runs_the_jobs_that_execute_it_and_what_follows(workshop
 
 
 @pytest.mark.parametrize(
+    ("before", "after", "expected"),
+    [
+        (r"$\kappa$", r"$K$", AGGREGATED | FIGURES),
+        (",relative contact area,", ",contact area over the whole,", ALL),
+        ("mean_gap,nm,", "mean_gap,m,", ALL),
+    ],
+    ids=["symbol", "long name", "unit"],
+)
+def test_an_edit_of_a_symbol_runs_no_simulation_and_one_of_a_unit_or_a_long_name_does(
+    workshop, before, after, expected
+):
+    jobs, table = workshop.jobs(), workshop.package / "variables.csv"
+    text = table.read_text(encoding="utf-8")
+    assert before in text
+    table.write_text(text.replace(before, after), encoding="utf-8")
+    assert changed(jobs, workshop.jobs()) == expected
+
+
+@pytest.mark.parametrize(
     ("file", "key", "value", "expected"),
     [
         ("ch3.yaml", "studies/wall/tolerance", 1e-4, everything_after("wall")),

@@ -6,7 +6,11 @@ modules named here are where that code begins; `contactsim.provenance` follows t
 
 from __future__ import annotations
 
-from contactsim.provenance import computing_digest, source_digest
+from pathlib import Path
+
+from contactsim import provenance
+from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim.variables import TABLE, read_table
 
 STAGES: dict[str, tuple[str, ...]] = {
     "run": ("contactsim.study.execute",),
@@ -33,10 +37,20 @@ STAGES: dict[str, tuple[str, ...]] = {
 
 
 def stage_digest(stage: str, *modules: str) -> str:
-    """Return a digest of the code of a stage and of further modules."""
-    return source_digest(*STAGES[stage], *modules)
+    """Return a digest of the code of a stage and of further modules, and of the table of variables."""
+    return digest(source_digest(*STAGES[stage], *modules), read_table(_table_of_variables()))
 
 
 def computing_stage_digest(stage: str, *modules: str) -> str:
-    """Return the same for a stage that computes results, with the versions of the libraries."""
-    return computing_digest(*STAGES[stage], *modules)
+    """Return a digest of the code of a stage that computes results, of the libraries, and of units and long names.
+
+    Symbols of variables do not enter: they change figures, and no result.
+    """
+    tables = read_table(_table_of_variables()).values()
+    stored = {name: (entry.unit, entry.long_name) for table in tables for name, entry in table.items()}
+    return digest(computing_digest(*STAGES[stage], *modules), stored)
+
+
+def _table_of_variables() -> Path:
+    """Return the table of variables of the package whose code the digests are of."""
+    return provenance.package_root() / TABLE.name
