@@ -33,7 +33,7 @@ HONEST = {
     ("energy_minimisation", "deep_step"): "number of iterations",
     ("energy_minimisation", "past_pull_off"): "number of iterations",
     ("energy_minimisation", "soft_wall"): "number of iterations",
-    ("energy_minimisation", "steep_ridges"): "number of iterations",
+    ("energy_minimisation", "steep_ridges"): "number of iterations",  # the energy rounds; it depends on the BLAS kernel
     ("energy_minimisation", "jagged_line"): "number of iterations",
     ("mass_weighted_verlet", "frictionless_flow"): "number of iterations",
 }

@@ -111,7 +111,7 @@ class Scene:
             raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not self.effects:
             raise InputError("effects", self.effects, "at least one, which resists overlap")
-        for step in self.path.steps if Trait.WALL in self.traits else ():
+        for step in self.path.steps if self.kind is ProblemKind.HARD_WALL else ():
             if step.control is Trait.MEAN_PRESSURE and step.value < 0:
                 raise InputError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
 
@@ -192,7 +192,7 @@ class Scene:
     @cached_property
     def kind(self) -> ProblemKind:
         """Kind of problem that the scene poses."""
-        return ProblemKind.COHESIVE if Trait.SMOOTH in self.traits else ProblemKind.HARD_WALL
+        return ProblemKind.COHESIVE if self.acting_laws else ProblemKind.HARD_WALL
 
     @property
     def lengths(self) -> tuple[float, ...]:
