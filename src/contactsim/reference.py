@@ -39,6 +39,36 @@ def cylinder_rms_gradient(half_width: Array | float, radius: float) -> Array:
     return np.asarray(half_width) / (radius * np.sqrt(3))
 
 
+def cylinder_array_load(half_width: Array | float, radius: float, period: float, contact_modulus: float) -> Array:
+    """Return the line load per period, N/m, at which parallel cylinders touch over the half-width c.
+
+    Parameters
+    ----------
+    half_width
+        Half-width c of each contact, nm; less than half the period.
+    radius
+        Radius R of the parabolic cylinders, nm.
+    period
+        Distance L of their axes, nm.
+    contact_modulus
+        E*, GPa.
+
+    Notes
+    -----
+    P = E* L²/(2πR) ln sec(πc/L). For c ≪ L it is the load of one cylinder; at a given load the half-width is smaller
+    than that of one cylinder by the part π²c²/(12 L²) to the lowest order. It follows from the slope x/R over a contact
+    of a periodic half-space, whose kernel is the cotangent (Johnson 1985, Sec. 13.2, doi:10.1017/CBO9781139171731).
+    """
+    phase = np.pi * np.asarray(half_width) / period
+    return -contact_modulus * period**2 / (4 * np.pi * radius) * np.log1p(-(np.sin(phase) ** 2))
+
+
+def cylinder_array_half_width(load: Array | float, radius: float, period: float, contact_modulus: float) -> Array:
+    """Return the half-width, nm, at which parallel cylinders touch under a line load per period, N/m."""
+    decay = 2 * np.pi * radius * np.asarray(load) / (contact_modulus * period**2)
+    return period / np.pi * np.arctan(np.sqrt(np.expm1(2 * decay)))
+
+
 CYLINDER_KAPPA_R = 8 / (np.pi * np.sqrt(3))
 """Proportionality of area and reduced pressure for a cylinder, 1.470 (Eq. 3.7)."""
 

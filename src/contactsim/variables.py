@@ -58,6 +58,7 @@ SUFFIXES = {
     "_order_standard_error": ": standard error over members of the order of convergence",
     "_order": ": order of convergence of the mean with the grid, as observed",
     "_spread": ": the limit on finer grids less that of first order",
+    "_grid_change": ": mean on the finer grid minus that on the coarser one",
     "_change_standard_error": ": standard error of the change, member by member",
     "_change": ": change from a reference, as a part of it",
     "_mean": ": mean over members",

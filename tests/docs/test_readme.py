@@ -15,14 +15,15 @@ import pytest
 import yaml
 
 import contactsim
-from contactsim.analysis.reductions import FITTED, REDUCTIONS, reduction_inputs
+from contactsim.analysis.quantities import FITTED
+from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.evaluation.calibration import sampling
 from contactsim.evaluation.effects import survey
 from contactsim.evaluation.robustness.survey import ROBUSTNESS_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
-from contactsim.study.claim_plan import CLAIM_KEYS, CONDITION_KEYS
+from contactsim.study.claim_plan import CLAIM_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS
 from contactsim.study.keys import (
     ACCURACY_KEYS,
@@ -230,7 +231,7 @@ TABLES = [
         dict.fromkeys(LOADS),
     ),
     *(sampling.KEYS, sampling.DRAW_KEYS, survey.KEYS, survey.MAP_KEYS, survey.AXIS_KEYS, survey.PANEL_KEYS),
-    *(CLAIM_KEYS, CONDITION_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
+    *(CLAIM_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     *(keys for _, _, keys in ERROR_RUNS.values()),
     *sampling.RANGES.values(),
 ]
@@ -243,7 +244,7 @@ def test_every_key_is_explained(keys):
         assert f"`{name}`" in KEYS, name
 
 
-@pytest.mark.parametrize("reduction", REDUCTIONS)
+@pytest.mark.parametrize("reduction", [*REDUCTIONS, *ORDERS])
 def test_every_reduction_is_explained_with_what_it_uses(reduction):
     uses = ", ".join(f"`{name}`" for name in reduction_inputs(reduction))
     assert re.search(rf"^\| `{reduction}` \| .+ \| {uses} ?\|$", KEYS, re.MULTILINE)
@@ -275,7 +276,7 @@ def test_every_kind_and_its_keys_are_explained_with_their_defaults(section):
 
 
 def test_the_settings_reference_explains_no_key_that_is_gone():
-    known = {"kind", *REDUCTIONS, *EFFECTS, *MODULI, *(name for keys in TABLES for name in keys)}
+    known = {"kind", *REDUCTIONS, *ORDERS, *EFFECTS, *MODULI, *(name for keys in TABLES for name in keys)}
     known |= {name for law in EFFECTS.values() for name in keys_of(law)}
     for classes, class_of in SECTION_KINDS.values():
         for kind in classes:

@@ -285,13 +285,12 @@ def test_every_quantity_of_a_work_precision_study_has_a_symbol():
 
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
     rows = pd.read_csv(made / "results/quick/claims/ch3.csv", keep_default_na=False, na_values=["", "nan"])
-    rows = rows.fillna({"measure": "", "expected": "", "condition": ""})
+    rows = rows.fillna({"measure": "", "expected": "", "condition": "", "unknown": ""})
     texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
     assert not [text for text in texts if "_" in text]
     assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts
-    rows.loc[0, ["condition", "condition_value", "condition_ensemble_error", "condition_grid_error"]] = [
-        *("c/R up to 1", 0.995312, 0.0, 0.00471)
-    ]
+    numbers = ("condition_value", "condition_ensemble_error", "condition_grid_error", "condition_share")
+    rows.loc[0, ["condition", *numbers]] = ["c/R up to 1", 0.995312, 0.0, 0.00471, 0.75]
     texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
     assert any("0.9953_±_0_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
 

@@ -26,6 +26,9 @@ EXACT_CONTACTS = {
 }
 """Name of the exact contact size of a cylinder or a sphere, and the exact gradient in the contact."""
 
+GRID_ERROR, GRID_CHANGE = "_grid_error", "_grid_change"
+"""Ends of the names of the change on halving the grid: its size, and finer minus coarser with its sign."""
+
 
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     """Return the dataset of a study, with dimensions (varied keys, member, load).
@@ -53,6 +56,8 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
         size, gradient = EXACT_CONTACTS["surface" if "length_y" in fine else "line"]
         fine[size] = fine.contact_ratio * radius
         fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[size], radius)
+        if "length_y" not in fine:
+            fine = fine.assign(_exact_array(fine, radius))
     data = fine.merge(ensemble_means(fine, form.averaged))
     for suffix, other in _error_runs(runs):
         data = data.merge(_mean_changes(fine, form.derive(other), suffix, form.averaged))
@@ -63,6 +68,15 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
     return data
 
 
+def _exact_array(data: xr.Dataset, radius: xr.DataArray | float) -> dict[str, xr.DataArray]:
+    """Return the exact contact of parallel cylinders a period apart, each under the load of its dataset."""
+    load = data.mean_pressure * data.length
+    half_width = xr.apply_ufunc(reference.cylinder_array_half_width, load, radius, data.length, data.contact_modulus)
+    gradient = xr.apply_ufunc(reference.cylinder_rms_gradient, half_width, radius)
+    kappa_r = 2 * half_width * gradient * data.contact_modulus / load
+    return {"half_width_array": half_width, "rms_gradient_array": gradient, "kappa_r_array": kappa_r}
+
+
 def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> xr.Dataset:
     """Return paths with means of their states, and the errors of their summaries."""
     if data.member.size > 1:
@@ -71,7 +85,10 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> x
         other = form.derive(combined)
         same = data.sel(member=other.member)
         names = [name for name in PATH_SUMMARIES if name in other and name in same]
-        data = data.assign({f"{name}{suffix}": abs(same[name] - other[name]).max("member") for name in names})
+        changes = {name: same[name] - other[name] for name in names}
+        data = data.assign({f"{name}{suffix}": abs(change).max("member") for name, change in changes.items()})
+        if suffix == GRID_ERROR:
+            data = data.assign({f"{name}{GRID_CHANGE}": change.mean("member") for name, change in changes.items()})
         if data.member.size > 1 or form.compares_one_member:
             data = data.merge(_mean_changes(data, other, suffix, form.averaged))
     return data
@@ -108,13 +125,14 @@ def ensemble_means(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
 def _mean_changes(fine: xr.Dataset, other: xr.Dataset, suffix: str, names: Sequence[str]) -> xr.Dataset:
     """Return the changes of the means between two datasets, over the members that both have."""
     same = fine.sel(member=other.member)
-    return xr.Dataset(
-        {
-            f"{name}{suffix}": abs((converged(same[name], same) - converged(other[name], other)).mean("member"))
-            for name in names
-            if name in fine
-        }
-    )
+    changes = {
+        name: (converged(same[name], same) - converged(other[name], other)).mean("member")
+        for name in names
+        if name in fine
+    }
+    errors = {f"{name}{suffix}": abs(change) for name, change in changes.items()}
+    signed = {f"{name}{GRID_CHANGE}": change for name, change in changes.items() if suffix == GRID_ERROR}
+    return xr.Dataset(errors | signed)
 
 
 def finer_grid_limits(data: xr.Dataset) -> xr.Dataset:

@@ -66,6 +66,14 @@ def quantity_text(name: str) -> str:
     return REDUCTION_PHRASES.get(name) or variables.find_variable(name).phrase or name
 
 
+def range_text(dim: str, low: float, high: float) -> str:
+    """Return the range of a load or of a varied key in words, such as "p* from 0.001 to 0.01"."""
+    variable = variables.find_variable(dim)
+    unit = "" if variable.unit == "1" else f" {variable.unit}"
+    values = f"= {low:g}{unit}" if low == high else f"from {low:g} to {high:g}{unit}"
+    return f"{variable.phrase or dim.replace('_', ' ')} {values}"
+
+
 def measure_text(measure: str) -> str:
     """Return the measure of a claim with symbols in place of the names of quantities."""
     return " ".join(quantity_text(word).replace("_", " ") for word in measure.split())

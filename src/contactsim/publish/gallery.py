@@ -12,11 +12,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import error_texts, measure_text, rounded_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
@@ -129,7 +130,8 @@ def verdicts_markdown(claims: pd.DataFrame, tier: str) -> str:
     """Return all claims by verdict as a Markdown page, those not reproduced first; claims: of `read_verdicts`."""
     parts = [f"# Verdicts on all statements at the {tier} tier\n", counts_markdown(claims)]
     parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
-    for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED):
+    findings = [FINDING] if (claims.verdict == FINDING).any() else []
+    for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED, *findings):
         parts += [
             f"## {verdict.capitalize()}\n",
             "| thesis | statement | compared | expected | found | why this band |",
@@ -146,7 +148,12 @@ def _statement(row: Mapping) -> str:
     result = " ± ".join(rounded_texts(row["value"], row["ensemble_error"], row["grid_error"]))
     if texts["condition"]:
         numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
-        result += f"; {texts['condition']}: {' ± '.join(rounded_texts(*numbers))}"
+        share = row.get("condition_share", np.nan)
+        covered = "" if np.isnan(share) else f" ({share:.0%} of all)"
+        result += f"; {texts['condition']}{covered}: {' ± '.join(rounded_texts(*numbers))}"
+    for name, words in {"margin": "margin", "place": "place in the band"}.items():
+        if np.isfinite(row.get(name, np.nan)):
+            result += f"; {words} {row[name]:.2g}"
     cells = (
         texts["source"],
         texts["statement"],

@@ -24,6 +24,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from contactsim import dataset
+from contactsim.analysis.claims import FINDING
 from contactsim.analysis.wording import dataset_summary, measure_text, printed, rounded_texts
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
@@ -109,6 +110,7 @@ def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
         "seed": plan.seed,
         "data": settings["data"],
         "marks": MARKS,
+        "row_marks": MARKS | {FINDING: "finding"},
         "counts": _counts(claims),
         "statements": _statements(claims, plan),
         "chapters": _chapters(plan, folder, claims),

@@ -17,6 +17,7 @@ CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies", {}),
     "figures": Key(mapping, "a mapping from names to figures"),
     "claims": Key(mapping, "a mapping from names to claims", {}),
+    "findings": Key(mapping, "a mapping from names to findings, which are none of the claims' names", {}),
 }
 RESCALED_KEYS = ("hurst_exponent", "rms_height", "rms_gradient", "short_cutoff")
 """Keys that leave the random waves of a self-affine surface the same, but for their size and how many there are."""
@@ -24,7 +25,7 @@ RESCALED_KEYS = ("hurst_exponent", "rms_height", "rms_gradient", "short_cutoff")
 
 @dataclass(frozen=True)
 class Chapter:
-    """Studies, figures and claims of one file of the config, by name."""
+    """Studies, figures and claims of one file of the config, by name; findings are among the claims."""
 
     studies: dict[str, Study]
     figures: dict[str, Figure]
@@ -63,12 +64,18 @@ class ChapterReader:
         sections = read(load_yaml(file), CHAPTER_KEYS, file)
         for name in sections["studies"]:
             self._check_study_name(name, sections["figures"], file)
+        for name in set(sections["claims"]) & set(sections["findings"]):
+            raise InputError(f"findings.{name}", name, "a name that no claim has", file)
         studies = {name: self._read_study(name, section, file) for name, section in sections["studies"].items()}
         _check_shared_surfaces(studies)
         return Chapter(
             studies,
             {name: read_figure(name, section, file, studies) for name, section in sections["figures"].items()},
-            {name: read_claim(name, section, file, studies) for name, section in sections["claims"].items()},
+            {
+                name: read_claim(name, section, file, studies, part)
+                for part in ("claims", "findings")
+                for name, section in sections[part].items()
+            },
         )
 
     def _check_study_name(self, name: object, figures: Mapping[str, object], file: Path) -> None:

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from contactsim.analysis.grid_convergence import is_doubled
-from contactsim.analysis.reductions import FITTED, LIMIT, REDUCTIONS, reduction_inputs
+from contactsim.analysis.quantities import FITTED, LIMIT
+from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
@@ -34,14 +35,20 @@ def read_selection(section: Mapping, dims: Iterable[str], file: object, prefix: 
     return {dim: ends for dim, ends in read(section, keys, file, prefix).items() if ends is not None}
 
 
+GRIDS = {
+    "thesis": "the statement is about the thesis's own number of points, and not decidable on another",
+    "either": "the number on the thesis's own number of points answers too, without its grid error",
+}
+"""Grids that a statement may be about, and what each means."""
 CLAIM_KEYS = {
     "source": Key(text, "where the thesis says so"),
     "statement": Key(text, "what the thesis says"),
     "rationale": Key(text, "why that band, or why there is no answer"),
     "study": Key(text, "the name of a study of this chapter, or left out where there is no answer", None),
-    "relative_to": Key(text, "the name of a second study, or left out", None),
+    "relative_to": Key(text, "the name of a second study that divides, or left out", None),
+    "minus": Key(text, "the name of a second study that is subtracted, or left out", None),
     "quantity": Key(text, "the name of a quantity", None),
-    "reduce": Key(choice(REDUCTIONS), f"one of {', '.join(REDUCTIONS)}", None),
+    "reduce": Key(choice((*REDUCTIONS, *ORDERS)), f"one of {', '.join((*REDUCTIONS, *ORDERS))}", None),
     "against": Key(text, "the name of a quantity", None),
     "along": Key(text, "a dimension of the study", None),
     "across": Key(text, "another dimension of the study", None),
@@ -50,16 +57,14 @@ CLAIM_KEYS = {
     "tolerance": Key(positive, "a positive number, with `expect`", None),
     "at_least": Key(number, "a number", None),
     "at_most": Key(number, "a number", None),
-    "grid": Key(choice(("thesis",)), "thesis, where the statement is about its own number of points", None),
-    "condition": Key(mapping, "a mapping with `description` and `select` or `grid`", None),
-}
-CONDITION_KEYS = {
-    "description": Key(text, "the condition in words"),
-    "select": Key(mapping, "a mapping from a dimension to its least and largest value", {}),
-    "grid": Key(choice(("thesis",)), "thesis, for its own number of points", None),
+    "neutral": Key(number, "the value that the statement names, or that would mean no change", None),
+    "absent": Key(text, "what a variant lacks that has no such number", None),
+    "grid": Key(choice(GRIDS), f"one of {', '.join(GRIDS)}", None),
 }
 BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
 """Sets of keys that give a band."""
+SECOND_STUDIES = ("relative_to", "minus")
+"""Keys that name a second study."""
 INPUTS = ("against", "along", "across")
 """Keys that a reduction may need beside the quantity."""
 
@@ -73,23 +78,37 @@ class Claim:
 
     @property
     def studies(self) -> list[str]:
-        """Names of the studies that answer the claim: none, one, or two for a ratio."""
-        return [self.settings[key] for key in ("study", "relative_to") if self.settings[key] is not None]
+        """Names of the studies that answer the claim: none, one, or two for a comparison."""
+        return [self.settings[key] for key in ("study", *SECOND_STUDIES) if self.settings[key] is not None]
 
 
-def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study]) -> Claim:
-    """Return a claim of a chapter's config, checked against the studies of that chapter.
+def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study], part: str = "claims") -> Claim:
+    """Return a claim or a finding of a chapter's config, checked against the studies of that chapter.
+
+    Parameters
+    ----------
+    name
+        Name of the claim.
+    section
+        Its section of the config.
+    file
+        The file of the chapter.
+    studies
+        Studies of the chapter by name.
+    part
+        "claims", or "findings": numbers that no sentence of the thesis states, without a band.
 
     Raises
     ------
     InputError
         If a key is unknown, missing or of no use to the claim, or names what the studies do not have.
     """
-    prefix = f"claims.{name}"
-    settings = read(section, CLAIM_KEYS, file, prefix)
-    if settings["study"] is None:
+    prefix = f"{part}.{name}"
+    is_finding = part == "findings"
+    settings = read(section, CLAIM_KEYS, file, prefix) | {"is_finding": is_finding}
+    if settings["study"] is None and not is_finding:
         for key in settings:
-            if key not in ("source", "statement", "rationale") and settings[key] is not None:
+            if key not in ("source", "statement", "rationale", "is_finding") and settings[key] is not None:
                 raise InputError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
         return Claim(name, settings)
     _check_one_of(settings, "study", studies, file, prefix)
@@ -97,12 +116,12 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     dims = list(dict.fromkeys(dim for study in claim.studies for dim in _dimensions(studies, study)))
     _check_quantities(settings, studies, dims, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
-    if settings["condition"] is not None:
-        condition = read(settings["condition"], CONDITION_KEYS, file, f"{prefix}.condition")
-        condition["select"] = read_selection(condition["select"], dims, file, f"{prefix}.condition.select")
-        settings["condition"] = condition
     band = {key for key in set.union(*BANDS) if settings[key] is not None}
-    if band not in BANDS:
+    if is_finding and band:
+        raise InputError(prefix, sorted(band), "no band: a finding is a number without a verdict", file)
+    if settings["reduce"] in ORDERS and (band or is_finding):
+        raise InputError(prefix, sorted(band), f"no band: {settings['reduce']} has only a sense", file)
+    if not is_finding and settings["reduce"] not in ORDERS and band not in BANDS:
         raise InputError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
     return claim
 
@@ -116,9 +135,12 @@ def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[s
     """Raise InputError for a reduction, quantity or dimension that the claim's studies do not have."""
     study = studies[settings["study"]]
     own = quantities(study)
-    shared = own if settings["relative_to"] is None else _shared_quantities(settings, studies, file, prefix)
+    seconds = [key for key in SECOND_STUDIES if settings[key] is not None]
+    if len(seconds) > 1:
+        raise InputError(prefix, seconds, "one of them", file)
+    shared = _shared_quantities(settings, seconds[0], studies, file, prefix) if seconds else own
     allowed = {"quantity": shared, "against": own, "along": dims, "across": dims}
-    _check_one_of(settings, "reduce", list(REDUCTIONS), file, prefix)
+    _check_one_of(settings, "reduce", [*REDUCTIONS, *ORDERS], file, prefix)
     inputs = reduction_inputs(settings["reduce"])
     for key in ("quantity", *inputs):
         _check_one_of(settings, key, allowed[key], file, prefix)
@@ -126,19 +148,19 @@ def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[s
         if key not in inputs and settings[key] is not None:
             unused = f"left out: {settings['reduce']} does not use it"
             raise InputError(f"{prefix}.{key}", settings[key], unused, file)
-    if settings["relative_to"] is not None and settings["against"] is not None:
-        single = [name for name in REDUCTIONS if "against" not in reduction_inputs(name)]
-        message = f"with `relative_to`, one of {', '.join(single)}"
+    if seconds and settings["against"] is not None:
+        single = [name for name in (*REDUCTIONS, *ORDERS) if "against" not in reduction_inputs(name)]
+        message = f"with `{seconds[0]}`, one of {', '.join(single)}"
         raise InputError(f"{prefix}.reduce", settings["reduce"], message, file)
 
 
-def _shared_quantities(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
-    """Return the quantities that both studies of a ratio have; the second must be loaded in the same way."""
+def _shared_quantities(settings: dict, key: str, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
+    """Return the quantities that both studies of a comparison have; the second must be loaded in the same way."""
     study = studies[settings["study"]]
     alike = [name for name, other in studies.items() if other.dimensions[-1] == study.dimensions[-1]]
     others = [name for name in alike if name != settings["study"]]
-    _check_one_of(settings, "relative_to", others, file, prefix)
-    return sorted(set(quantities(study)) & set(quantities(studies[settings["relative_to"]])))
+    _check_one_of(settings, key, others, file, prefix)
+    return sorted(set(quantities(study)) & set(quantities(studies[settings[key]])))
 
 
 def _check_one_of(settings: dict, key: str, allowed: Iterable[str], file: object, prefix: str) -> None:
@@ -154,8 +176,10 @@ def quantities(study: Study) -> list[str]:
     load = study.settings["load"]["name"]
     names = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
     if load == "contact_ratio":
-        size = "contact_radius" if study.settings["surface"]["kind"] == "sphere" else "half_width"
-        names |= {size, f"{size}_exact", "rms_gradient_exact"}
+        is_sphere = study.settings["surface"]["kind"] == "sphere"
+        size = "contact_radius" if is_sphere else "half_width"
+        names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact"}
+        names |= set() if is_sphere else {"half_width_array", "rms_gradient_array", "kappa_r_array"}
     names |= _error_names(study, names & {*AVERAGED})
     if is_doubled(study.settings["vary"].get("points", [])):
         names |= {f"{name}{LIMIT}" for name in AVERAGED if name in names}

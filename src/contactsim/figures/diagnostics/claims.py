@@ -14,12 +14,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import measure_text, printed, rounded_texts, sample_texts
 from contactsim.figures import style
 from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save
 
-COLOURS = {REPRODUCED: "#cfe8d5", CONDITION: "#e9efc4", NOT_REPRODUCED: "#f3cfcb", NOT_DECIDABLE: "#e4e4e4"}
+COLOURS = {
+    REPRODUCED: "#cfe8d5",
+    CONDITION: "#e9efc4",
+    NOT_REPRODUCED: "#f3cfcb",
+    NOT_DECIDABLE: "#e4e4e4",
+    FINDING: "#ffffff",
+}
 COLUMNS = {
     "source": ("thesis", 1.3),
     "statement": ("statement", 2.6),
@@ -28,6 +34,8 @@ COLUMNS = {
     "value": ("found", 0.65),
     "ensemble_error": ("ensemble\nerror", 0.75),
     "grid_error": ("grid\nerror", 0.65),
+    "margin": ("margin,\nin errors", 0.6),
+    "place": ("place in\nthe band", 0.6),
     "verdict": ("verdict; on a condition: found\n± ensemble error ± grid error", 1.85),
     "rationale": ("why this band", 2.85),
 }
@@ -55,7 +63,7 @@ def write_claims(
     targets : paths of the files: csv, png and pdf
     """
     title = f"Chapter {chapter.removeprefix('ch')}: what it states, and what was found"
-    save(claims_figure(verdicts, title, footer_text(data)), verdicts, targets)
+    save(claims_figure(verdicts, title, footer_text(verdicts, data)), verdicts, targets)
 
 
 def claims_figure(verdicts: pd.DataFrame, title: str, footer: str) -> Figure:
@@ -94,17 +102,32 @@ def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
     texts |= dict(zip(NUMBERS, rounded_texts(*(row[name] for name in NUMBERS)), strict=True))
     if row["condition"]:
         values = rounded_texts(*(row[f"condition_{name}"] for name in NUMBERS))
-        texts["verdict"] += f": {row['condition']}; there {PLUS_MINUS.join(values)}"
+        texts["verdict"] += (
+            f": {row['condition']}, {row['condition_share']:.0%} of all; there {PLUS_MINUS.join(values)}"
+        )
+    if row["unknown"]:
+        texts["verdict"] += f": unknown is {row['unknown']}"
+    texts |= {name: f"{row[name]:.2g}" if np.isfinite(row[name]) else "–" for name in ("margin", "place")}
     widths = {name: int(width * CELL_LETTERS) for name, (_, width) in COLUMNS.items()}
     return {name: textwrap.fill(printed(texts[name]), width) for name, width in widths.items()}
 
 
-def footer_text(data: Mapping[str, xr.Dataset]) -> str:
-    """Return the tier, the sample of each dataset, and the meaning of the errors."""
+def footer_text(verdicts: pd.DataFrame, data: Mapping[str, xr.Dataset]) -> str:
+    """Return the tier, the sample of each dataset, the meaning of the errors, and how much the bands decide."""
     tiers = sorted({dataset.settings_of(part)["tier"] for part in data.values()})
     parts = [f"{tier} tier" for tier in tiers]
     parts += [f"{study}: {', '.join(sample_texts(part))}" for study, part in data.items()]
     parts.append("errors to two digits; ensemble error: one standard error over members")
     parts.append("grid error: change on halving the points, and what the increments of a path leave open")
-    parts.append("not decidable: an edge of the band is nearer than both errors in quadrature")
-    return " · ".join(parts)
+    parts.append("margin: distance to the edge of the band over both errors in quadrature; below 2 not decidable")
+    parts.append("place in the band: 0 at the value stated, or where nothing changes; 1 at the edge")
+    return " · ".join([*parts, *band_texts(verdicts)])
+
+
+def band_texts(verdicts: pd.DataFrame) -> list[str]:
+    """Return how many claims are reproduced, on a condition or not, with half, whole and double bands."""
+    columns = {"half": "verdict_half", "these": "verdict", "double": "verdict_double"}
+    counts = {name: int(verdicts[column].isin([REPRODUCED, CONDITION]).sum()) for name, column in columns.items()}
+    return [
+        f"reproduced, also on a condition: {', '.join(f'{count} with {name} bands' for name, count in counts.items())}"
+    ]

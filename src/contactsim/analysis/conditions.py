@@ -1,0 +1,93 @@
+"""Look for the condition under which a statement holds: the largest block of loads and variants that satisfies it.
+
+All statements that fail on their whole selection are searched in the same way (docs/judging.md).
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import xarray as xr
+
+from contactsim.analysis.uncertainty import Estimate, estimate, raw_number, select, varied_dimensions
+
+MIN_SHARE = 0.5
+"""Least share of a selection that a condition covers."""
+MAX_BLOCKS = 12
+"""Largest number of blocks whose errors are estimated for one claim."""
+
+Block = dict[str, list[float]]
+"""Least and largest value of each dimension that a block narrows."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A block of a selection in which a statement holds.
+
+    Attributes
+    ----------
+    block
+        Least and largest value of each dimension that it narrows.
+    share
+        Its share of the loads and variants of the selection.
+    number
+        The number there, with its errors.
+    """
+
+    block: Block
+    share: float
+    number: Estimate
+
+
+def find_condition(
+    claim: Mapping, data: Sequence[xr.Dataset], band: tuple[float, float], holds: Callable[[Estimate], bool]
+) -> Condition | None:
+    """Return the largest block in which a claim holds; None without one of at least `MIN_SHARE` of the selection.
+
+    Parameters
+    ----------
+    claim
+        Settings of the claim.
+    data
+        Datasets of its studies where the claim selects them.
+    band
+        Smallest and largest value that the statement allows.
+    holds
+        Function of a number with its errors that is True where the statement holds.
+    """
+    low, high = band
+    promising = (
+        (block, share, part)
+        for block, share in narrower_blocks(claim, data)
+        if low < raw_number(claim, part := select(data, block)) < high
+    )
+    for block, share, part in itertools.islice(promising, MAX_BLOCKS):
+        number = estimate(claim, part)
+        if holds(number):
+            return Condition(block, share, number)
+    return None
+
+
+def narrower_blocks(claim: Mapping, data: Sequence[xr.Dataset]) -> Iterator[tuple[Block, float]]:
+    """Yield the contiguous blocks of a selection that are smaller than it, with their shares; the largest first.
+
+    A dimension along which a claim compares values keeps at least two.
+    """
+    choices = []
+    for dim, values in varied_dimensions(claim, data).items():
+        least = 2 if dim in (claim["along"], claim["across"]) else 1
+        ranges = [
+            (dim, [float(values[first]), float(values[last])], (last - first + 1) / len(values))
+            for first, last in itertools.combinations_with_replacement(range(len(values)), 2)
+            if last - first + 1 >= least
+        ]
+        choices.append(ranges)
+    blocks = []
+    for parts in itertools.product(*choices):
+        share = math.prod(part for _, _, part in parts)
+        if MIN_SHARE <= share < 1:
+            blocks.append(({dim: ends for dim, ends, part in parts if part < 1}, share))
+    yield from sorted(blocks, key=lambda block: -block[1])

@@ -1,0 +1,107 @@
+"""Quantities that claims are about: means over members, limits on finer grids, and what is fitted to them.
+
+A mean is unknown where one of its members is. `absent` values, of paths that were solved and have no such number, are
+left out of a mean if the claim says so.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from contactsim import reference
+from contactsim.analysis import grid_convergence
+from contactsim.analysis.ensemble import on_all_grids
+from contactsim.analysis.fits import fit_line_area
+from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
+from contactsim.status import is_solved
+
+FITTED: dict[str, tuple[str, bool]] = {
+    "kappa_fit": ("area", False),
+    "kappa_fit_logarithm": ("logarithm", False),
+    "kappa_fit_all": ("area", True),
+}
+"""κ of Eq. 3.11 fitted to the selected loads: its weighting, and whether all Hurst exponents share one fit."""
+LIMIT = "_limit"
+"""End of the name of a quantity's limit on finer grids, from three grids."""
+SIZES = {
+    "half_width": "relative_contact_area",
+    "half_width_subgrid": "relative_contact_area_subgrid",
+    "contact_radius": "relative_contact_area",
+    "contact_radius_subgrid": "relative_contact_area_subgrid",
+}
+"""Sizes of a contact, and the area that each follows from."""
+
+
+def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:
+    """Return a quantity as the mean over members, or as the limit of that mean on finer grids.
+
+    Parameters
+    ----------
+    data
+        Dataset of a study.
+    name
+        A variable, a variable with `LIMIT`, one of `FITTED` or one of `SIZES`.
+    leave_out_absent
+        If True, members whose path was solved and has no such number are left out of the mean.
+
+    Returns
+    -------
+    The mean, NaN where it is unknown. If one of the means has no limit, all limits are NaN.
+    """
+    if name.removesuffix(LIMIT) in AVERAGED and name.endswith(LIMIT):
+        means = on_all_grids(data, name.removesuffix(LIMIT)).mean("member", skipna=False)
+        limit = grid_convergence.extrapolate(means).limit
+        return limit.where(limit.notnull().all())
+    if name in FITTED:
+        return _fitted_kappa(data, *FITTED[name])
+    if name in SIZES:
+        area = mean_quantity(data, SIZES[name])
+        return np.sqrt(area * data.length * data.length_y / np.pi) if "length_y" in data else area * data.length / 2
+    values = data[name]
+    if "member" not in values.dims:
+        return values
+    if set(data.status.dims) <= set(values.dims):  # numbers of a state
+        values = values.where(is_solved(data.status))
+    if not leave_out_absent:
+        return values.mean("member", skipna=False)
+    return values.mean("member").where(~unknown(data, name).any("member"))
+
+
+def unknown(data: xr.Dataset, name: str) -> xr.DataArray:
+    """Return True where a number of a member is unknown because a state was not solved.
+
+    A number of a state is unknown where that state is; a summary of a path where it is missing and a state failed.
+    """
+    failed = data.status.notnull() & ~is_solved(data.status)
+    others = [dim for dim in failed.dims if dim not in data[name].dims]
+    return data[name].isnull() & failed.any(others) if others else failed
+
+
+def number_exists(data: xr.Dataset, name: str) -> xr.DataArray:
+    """Return True where a member has a number, or may have one that is unknown."""
+    return (data[name].notnull() | unknown(data, name)).any("member")
+
+
+def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
+    """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure)."""
+    area = data.relative_contact_area.where(is_solved(data.status))
+    samples = area.transpose("hurst_exponent", "member", "reduced_pressure").values
+    pressure = data.reduced_pressure.values
+    parts = [samples] * len(samples) if together else samples
+    kappa = [reference.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in parts]
+    return xr.DataArray(kappa, dims=("hurst_exponent", "reduced_pressure"))
+
+
+def source_quantity(name: str) -> str | None:
+    """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
+    source = "relative_contact_area" if name in FITTED else SIZES.get(name, name.removesuffix(LIMIT))
+    return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
+
+
+def grid_change_name(name: str) -> str | None:
+    """Return the variable that holds the change of a quantity's source on halving the grid; None if it is exact."""
+    source = source_quantity(name)
+    if source is None:
+        return None
+    return f"{source}_spread" if name.endswith(LIMIT) else f"{source}_grid_change"

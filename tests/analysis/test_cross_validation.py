@@ -1,0 +1,61 @@
+"""Extremes are found where they are, and none where there is only noise."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contactsim.analysis.cross_validation import MAX_SPLITS, half_splits, joint_splits
+
+LOADS = np.log(np.geomspace(1e-3, 1e-1, 12))
+SCALED = (LOADS - LOADS[0]) / np.ptp(LOADS)
+SCATTER = 0.015
+"""Standard deviation of κ_r of one member, as rough lines have it."""
+
+
+def ensembles(level, members=10, count=150, seed=1):
+    """Ensembles of members whose neighbouring loads scatter alike around a level, (count, members, loads)."""
+    factor = np.linalg.cholesky(np.exp(-np.abs(LOADS[:, None] - LOADS) / 1.5))
+    noise = np.random.default_rng(seed).standard_normal((count, members, LOADS.size)) @ factor.T
+    return level + SCATTER * noise
+
+
+def split_range(samples):
+    """The range of the means, its places from one half of the members and its size from the other."""
+    ranges = []
+    for (searched,), (measured,) in joint_splits([len(samples)]):
+        order = np.argsort(samples[searched].mean(axis=0))
+        means = samples[measured].mean(axis=0)
+        ranges.append(means[order[-1]] - means[order[0]])
+    return np.mean(ranges)
+
+
+@pytest.mark.parametrize("members", [4, 10, 40])
+def test_where_nothing_varies_the_split_range_is_zero_on_average_and_the_range_of_the_means_is_not(members):
+    samples = ensembles(1.75, members)
+    ranges = np.array([split_range(sample) for sample in samples])
+    assert abs(ranges.mean()) < 3 * ranges.std() / np.sqrt(len(ranges))
+    assert np.ptp(samples.mean(axis=1), axis=1).mean() > 1.5 * SCATTER / np.sqrt(members)
+
+
+@pytest.mark.parametrize("level", [1.75 - 0.05 * SCALED, 1.75 + 0.2 * SCALED * (1 - SCALED)], ids=["slope", "hump"])
+def test_a_range_that_is_there_stays(level):
+    assert np.mean([split_range(sample) for sample in ensembles(level)]) == pytest.approx(0.05, rel=0.1)
+
+
+@pytest.mark.parametrize("members", [2, 3, 5, 10, 41])
+def test_halves_are_disjoint_and_leave_no_member_out(members):
+    splits = half_splits(members)
+    for first, second in splits:
+        assert sorted([*first, *second]) == list(range(members))
+        assert abs(len(first) - len(second)) <= 1
+    assert len(splits) <= MAX_SPLITS
+
+
+def test_ensembles_of_different_sizes_are_split_at_once_and_each_half_has_both_roles():
+    splits = list(joint_splits([3, 10, 1]))
+    assert len(splits) == 2 * MAX_SPLITS
+    for (searched, measured), (other_searched, other_measured) in zip(splits[::2], splits[1::2], strict=True):
+        for left, right in zip([*searched, *measured], [*other_measured, *other_searched], strict=True):
+            assert np.array_equal(left, right)
+    assert all(half[2].tolist() == [0] for roles in splits for half in roles)  # one member is both halves

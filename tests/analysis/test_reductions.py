@@ -1,0 +1,78 @@
+"""Every reduction gives what a hand would, and leaves unknown what is unknown."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactsim.analysis.reductions import ORDERS, REDUCTIONS
+
+LOADS = [0.001, 0.01, 0.1]
+WORKS, RATIOS = [1.0, 2.0], [0.0, 0.5, 1.0]
+
+
+def array(values, **places):
+    return xr.DataArray(values, places, dims=tuple(places))
+
+
+BOTH = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst_exponent=[0.2, 0.8], reduced_pressure=LOADS)
+GRID = array([[10.0, 12.0, 11.0], [20.0, 21.0, 30.0]], work_of_separation=WORKS, work_ratio=RATIOS)
+LOAD = array([1.0, 10.0, 100.0], reduced_pressure=LOADS)
+ALONG_LOAD, ALONG_RATIO = {"along": "reduced_pressure"}, {"along": "work_ratio"}
+CASES = [
+    ("mean", BOTH, {}, 2.0),
+    ("spread", BOTH, ALONG_LOAD, (2 / 3 + 0) / 2),
+    ("spread", BOTH, {"along": "hurst_exponent"}, (1 / 1.5 + 3 / 2.5 + 2 / 2) / 3),
+    ("spread", -BOTH, ALONG_LOAD, (2 / 3 + 0) / 2),
+    ("largest_spread", GRID, ALONG_RATIO, 10 / (71 / 3)),
+    ("largest_spread", array([[1, 2], [3, 4], [5, 6.0]], poisson_ratio=[0, 1, 2], work_ratio=[0, 1]),
+     {"along": "poisson_ratio"}, 4 / 3),
+    ("spread_ratio", BOTH, {"against": 2 * BOTH} | ALONG_LOAD, 1.0),
+    ("trend", BOTH, ALONG_LOAD, (1 / 3 + 0) / 2),
+    ("trend", array([3.0, 2.0, 1.0], hurst_exponent=[0.2, 0.5, 0.8]), {"along": "hurst_exponent"}, -1.0),
+    ("slope", LOAD**0.5, {"against": LOAD} | ALONG_LOAD, 0.5),
+    ("slope", GRID, {"against": GRID.work_of_separation, "along": "work_of_separation"},
+     np.log2([2, 21 / 12, 30 / 11]).mean()),
+    ("fall", BOTH, ALONG_LOAD, (-0.5 + 0) / 2),
+    ("rise", GRID, ALONG_RATIO, (0.1 + 0.5) / 2),
+    ("least_rise", GRID, ALONG_RATIO, 0.1),
+    ("largest_rise", GRID, ALONG_RATIO, 0.5),
+    ("rise_gain", GRID, {"across": "work_of_separation"} | ALONG_RATIO, 0.4),
+    ("shortfall", GRID, ALONG_RATIO, (1 / 11 + 1 / 3) / 2),
+    ("departure", BOTH, {"against": array([2.0, 2.0, 2.0], reduced_pressure=LOADS)}, 1.0),
+    ("departure", -BOTH, {"against": -4 + 0 * BOTH}, 0.75),
+    ("ratio", BOTH, {"against": LOAD}, 2.0),
+    ("least", GRID, {}, 10.0),
+    ("largest", GRID, {}, 30.0),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "values", "inputs", "expected"), CASES, ids=[case[0] for case in CASES])
+def test_each_reduction_equals_a_calculation_by_hand(name, values, inputs, expected):
+    assert REDUCTIONS[name](values, **inputs) == pytest.approx(expected)
+
+
+def test_every_reduction_is_tried_by_hand():
+    assert {case[0] for case in CASES} == set(REDUCTIONS)
+
+
+@pytest.mark.parametrize(("name", "values", "inputs", "expected"), CASES, ids=[case[0] for case in CASES])
+def test_one_unknown_value_makes_every_reduction_unknown(name, values, inputs, expected):
+    for place in (dict.fromkeys(values.dims, 0), dict.fromkeys(values.dims, -1)):
+        gap = values.copy()
+        gap[place] = np.nan
+        assert np.isnan(REDUCTIONS[name](gap, **inputs))
+
+
+@pytest.mark.parametrize(("name", "sign"), [("rising_steps", 1), ("falling_steps", -1)])
+def test_steps_of_an_order_are_positive_in_its_sense_and_unknown_beside_an_unknown_value(name, sign):
+    steps = ORDERS[name](array([1.0, 3.0, np.nan, 2.0], hurst_exponent=[0.2, 0.4, 0.6, 0.8]), "hurst_exponent")
+    assert np.array_equal(steps, [2.0 * sign, np.nan, np.nan], equal_nan=True)
+
+
+def test_places_of_extremes_can_come_from_other_data():
+    spread = REDUCTIONS["spread"]
+    places = spread.places(array([1.0, 2.0, 3.0], reduced_pressure=LOADS), along="reduced_pressure")
+    measured = spread.measure_at(places, array([3.0, 2.0, 1.0], reduced_pressure=LOADS), along="reduced_pressure")
+    assert measured == pytest.approx(-1.0)  # a range whose order does not repeat is negative

@@ -1,0 +1,221 @@
+"""The number of a claim and its errors: members, grids, increments, two studies, and what is unknown or absent."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from contactsim import dataset, reference
+from contactsim.analysis.quantities import mean_quantity
+from contactsim.analysis.uncertainty import estimate, estimate_steps, select, unknown_places
+from support.claims import BANDLESS, claim, made_up, on_grids, path_claim, paths
+
+RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
+
+
+def number(settings, *data):
+    """The number of a claim where its studies are selected."""
+    return estimate(settings, select(data, settings["select"]))
+
+
+def noisy(members=10, seed=0, scatter=0.05):
+    """Rough lines whose κ does not depend on the load, with noise of its own at each load and member."""
+    data = made_up(members=members)
+    noise = np.random.default_rng(seed).standard_normal(data.kappa.shape)
+    return data.assign(kappa=data.kappa + scatter * noise)
+
+
+# --- members ------------------------------------------------------------------------------------------------------
+
+
+def test_the_range_of_a_constant_is_zero_on_average_over_ensembles_and_its_error_is_not_too_small():
+    settings = claim(reduce="spread", along="reduced_pressure", **BANDLESS, at_most=0.1)
+    ranges = [number(settings, noisy(members=4, seed=seed)) for seed in range(24)]
+    values = np.array([each.value for each in ranges])
+    assert abs(values.mean()) < 3 * values.std() / np.sqrt(len(values))
+    assert np.median([each.ensemble_error for each in ranges]) > 0.7 * values.std()
+
+
+def test_a_trend_is_found_in_noise():
+    settings = claim(reduce="trend", along="reduced_pressure", **BANDLESS, at_most=0.1)
+    tilted = noisy(seed=3)
+    tilted = tilted.assign(kappa=tilted.kappa + 0.2 * np.log10(tilted.reduced_pressure / 0.01))
+    result = number(settings, tilted)
+    assert result.value == pytest.approx(0.2, abs=3 * result.ensemble_error)
+    assert 0 < result.ensemble_error < 0.05
+
+
+def test_one_member_of_a_random_surface_has_no_known_error_and_a_cylinder_has_none():
+    alone = made_up(members=1)
+    assert np.isnan(number(claim(), alone).ensemble_error)
+    alone.attrs["settings"] = json.dumps({"surface": {"kind": "cylinder"}, "thesis_points": None})
+    assert number(claim(), alone).ensemble_error == 0
+
+
+def test_the_ensembles_of_a_ratio_are_independent():
+    one, two = made_up(1.8, scatter=0.02, members=4), made_up(2.0, scatter=0.05, members=9)
+    relative = [number(claim(), data).ensemble_error / level for data, level in ((one, 1.8), (two, 2.0))]
+    assert number(claim(**RATIO), one, two).ensemble_error == pytest.approx(0.9 * np.hypot(*relative), rel=1e-3)
+    assert np.isnan(number(claim(**RATIO), one, made_up(2.0, members=1)).ensemble_error)
+
+
+# --- unknown and absent -------------------------------------------------------------------------------------------
+
+
+def test_one_unconverged_solution_makes_a_mean_unknown_and_is_named():
+    data = made_up()
+    data["status"][1, 2, 0] = 1
+    assert np.isnan(number(claim(), data).value)
+    words = unknown_places(claim(), [data])
+    assert words == "κ at H = 0.8, member = 2, p* = 0.001"
+    elsewhere = claim(select={"reduced_pressure": [0.01, 0.1]})
+    assert number(elsewhere, data).value == pytest.approx(2.0)
+    assert unknown_places(elsewhere, select([data], elsewhere["select"])) == ""
+
+
+def test_what_does_not_exist_is_left_out_only_where_the_claim_says_so():
+    data = paths([np.nan, 14.0, 16.0], work_ratio=[0.0, 0.5, 1.0])
+    assert np.isnan(number(path_claim(), data).value)
+    assert "φt/φn = 0" in unknown_places(path_claim(), [data])
+    without = path_claim(absent="no pull-off")
+    assert number(without, data).value == pytest.approx(15.0)
+    assert unknown_places(without, [data]) == ""
+
+
+@pytest.mark.parametrize("reduce", ["mean", "least", "largest"])
+def test_where_nothing_exists_there_is_no_number(reduce):
+    data = paths([np.nan, np.nan], work_ratio=[0.0, 0.5])
+    assert np.isnan(number(path_claim(reduce=reduce, absent="no pull-off"), data).value)
+
+
+def test_what_is_unknown_stays_so_where_something_may_be_absent():
+    data = paths([np.nan, 14.0, 16.0], work_ratio=[0.0, 0.5, 1.0])
+    data["status"][0, 0, 3] = 1
+    without = path_claim(absent="no pull-off")
+    assert np.isnan(number(without, data).value)
+    assert "φt/φn = 0" in unknown_places(without, [data])
+
+
+def test_an_empty_selection_has_no_number():
+    assert np.isnan(number(claim(select={"reduced_pressure": [0.5, 1.0]}), made_up()).value)
+
+
+# --- grids and increments -----------------------------------------------------------------------------------------
+
+
+def test_the_grid_error_is_the_change_of_the_number_on_the_coarser_grid():
+    assert number(claim(), made_up(grid=-0.2)).grid_error == pytest.approx(0.2)
+    share = claim(quantity="relative_contact_area", against="kappa", reduce="ratio", expect=0.1, tolerance=0.05)
+    assert number(share, made_up(grid=0.2)).grid_error == pytest.approx(0, abs=1e-12)  # both move alike
+    data = made_up(2.0).assign(kappa_grid_change=made_up(grid=0.2).kappa_grid_change)
+    assert number(share, data).grid_error == pytest.approx(0.1 * (1 / 0.9 - 1))  # κ alone is smaller
+
+
+def test_both_grids_of_a_ratio_are_halved_together():
+    one, two = made_up(1.8, grid=0.09), made_up(2.0, grid=0.2)
+    assert number(claim(**RATIO), one, two).grid_error == pytest.approx(1.71 / 1.8 - 0.9)
+    assert number(claim(**RATIO), one, made_up(2.0, grid=0.1)).grid_error == pytest.approx(0, abs=1e-12)
+    assert np.isnan(number(claim(**RATIO), one, two.drop_vars("kappa_grid_change")).grid_error)
+
+
+def test_without_a_coarse_run_the_grid_error_is_unknown():
+    assert np.isnan(number(claim(), made_up().drop_vars("kappa_grid_change")).grid_error)
+
+
+def test_increments_of_variants_err_independently_and_count_with_the_grid():
+    data = paths([[10.0, 20.0]], grid=0.2, increment=0.3, work_of_separation=[1.0], work_ratio=[0.0, 1.0])
+    result = number(path_claim(), data)
+    assert (result.ensemble_error, result.grid_error) == (0, pytest.approx(np.sqrt(0.2**2 + 2 * 0.15**2)))
+
+
+def test_on_the_grid_of_the_thesis_a_number_has_no_grid_error_and_on_another_an_unknown_one():
+    def on_thesis_grid(points):
+        return estimate(claim(), [made_up(grid=0.5, points=points)], on_thesis_grid=True).grid_error
+
+    assert on_thesis_grid(262144) == 0
+    assert np.isnan(on_thesis_grid(1024))
+
+
+def test_a_limit_on_finer_grids_has_the_distance_from_that_of_first_order_as_its_error():
+    settings = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.88, tolerance=0.02)
+    first = number(settings, on_grids([0.4, 0.2, 0.1]))
+    assert (first.value, first.grid_error) == pytest.approx((1.9, 0.0), abs=1e-12)
+    assert first.ensemble_error == pytest.approx(0.001 / np.sqrt(3), rel=1e-6)
+    second = number(settings, on_grids([0.32, 0.08, 0.02]))  # first order would end at 1.86
+    assert (second.value, second.grid_error) == pytest.approx((1.9, 0.04), rel=1e-9)
+    turning = on_grids([[0.4, 0.4, 0.1], [0.2, 0.2, 0.2], [0.1, 0.1, 0.1]])  # at the largest load it turns back
+    assert np.isnan(number(settings, turning).value)
+
+
+# --- two studies --------------------------------------------------------------------------------------------------
+
+
+def test_over_a_second_study_the_number_is_the_ratio_of_the_means():
+    two = [made_up(1.8, scatter=0.1), made_up(2.0, scatter=0.3, members=7)]
+    assert number(claim(**RATIO), *two).value == pytest.approx(0.9)
+    assert number(claim(**RATIO), *two[::-1]).value == pytest.approx(1 / 0.9)
+
+
+def test_minus_a_second_study_the_number_is_the_difference_of_the_means():
+    settings = claim(minus="rough_surface", expect=-0.2, tolerance=0.05)
+    assert number(settings, made_up(1.8), made_up(2.0)).value == pytest.approx(-0.2)
+
+
+def test_a_comparison_is_made_where_both_studies_have_loads_and_variants():
+    lines = made_up(1.8, tilt=0.3)  # κ of 1.5, 1.8 and 2.1
+    surfaces = made_up(2.0).isel(reduced_pressure=[0, 2], hurst_exponent=[1])
+    common = surfaces.assign_coords(reduced_pressure=[0.001, 0.2])
+    assert number(claim(**RATIO), lines, common).value == pytest.approx(0.75)  # the first load alone
+    apart = surfaces.assign_coords(reduced_pressure=[0.002, 0.2])
+    assert np.isnan(number(claim(**RATIO), lines, apart).value)
+    below = claim(**RATIO, select={"reduced_pressure": [0.05, 0.1]})
+    assert number(below, lines, surfaces).value == pytest.approx(2.1 / 2)
+
+
+def test_a_ratio_of_two_studies_is_taken_at_each_value_that_one_of_them_varies():
+    grid = paths([[10.0, 12.0, 11.0], [20.0, 21.0, 30.0]], work_of_separation=[1.0, 2.0], work_ratio=[0.0, 0.5, 1.0])
+    uncoupled = paths([[5.0, 4.0], [10.0, 8.0]], poisson_ratio=[0.1, 0.3], work_of_separation=[2.0, 3.0])
+    over = {"relative_to": "indentation_uncoupled", "reduce": "largest"} | BANDLESS | {"at_least": 1.0}
+    assert number(path_claim(**over), grid, uncoupled).value == pytest.approx(30 / 5)
+    place = path_claim(**over, select={"poisson_ratio": [0.3, 0.3], "work_ratio": [0.0, 0.0]})
+    assert number(place, grid, uncoupled).value == pytest.approx(20 / 10)
+
+
+# --- steps of an order --------------------------------------------------------------------------------------------
+
+
+def test_each_step_of_an_order_has_its_own_error():
+    data = paths([1.0, 3.0, 3.0], increment=0.1, work_ratio=[0.0, 0.5, 1.0])
+    settings = path_claim(reduce="rising_steps", along="work_ratio", **BANDLESS)
+    steps, errors = estimate_steps(settings, [data])
+    assert steps.tolist() == [2.0, 0.0]
+    assert errors == pytest.approx(np.full(2, 0.1 * np.sqrt(2)))
+
+
+# --- against what is stored ---------------------------------------------------------------------------------------
+
+
+def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the_grid_error(made):
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
+    settings = claim(select={"hurst_exponent": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
+    result, stored = number(settings, data), data.sel(hurst_exponent=0.5, reduced_pressure=0.1)
+    assert result.value == pytest.approx(float(stored.kappa_mean))
+    assert result.ensemble_error == pytest.approx(float(stored.kappa_standard_error))
+    assert result.grid_error == pytest.approx(float(stored.kappa_grid_error))
+
+
+def test_the_fits_are_those_of_the_dataset(made):
+    data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
+    below = data.sel(reduced_pressure=slice(0, 0.1001))
+    pressure = below.reduced_pressure.values
+    for name, weighting, fitted in (
+        ("kappa_fit", "area", ["0.2", "0.5", "0.8"]),
+        ("kappa_fit_logarithm", "logarithm", ["0.2", "0.5", "0.8"]),
+        ("kappa_fit_all", "area", ["all"] * 3),
+    ):
+        for row, sample in zip(mean_quantity(below, name).values, fitted, strict=True):
+            fit = data.sel(weighting=weighting, fit_limit=0.1, fitted=sample)
+            expected = reference.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
+            assert np.allclose(row, expected)
