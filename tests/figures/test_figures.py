@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset
 from contactsim.analysis import wording
-from contactsim.analysis.reductions import mean_quantity
+from contactsim.analysis.quantities import mean_quantity
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
