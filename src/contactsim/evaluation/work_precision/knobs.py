@@ -13,7 +13,6 @@ from pathlib import Path
 
 import xarray as xr
 
-from contactsim.contact.scene import ProblemKind
 from contactsim.errors import InputError
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
@@ -22,7 +21,7 @@ from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET
 from contactsim.status import is_solved
-from contactsim.study.kinds import problem_kind
+from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, listed, positive, read, whole
 from contactsim.study.study import Study
 from contactsim.variables import RESULTS
@@ -121,7 +120,7 @@ class WholePath:
 
     def accepts(self, study: Study) -> bool:
         """Return True where the study follows a path of cohesive laws."""
-        return problem_kind(study.settings["effects"]) is ProblemKind.COHESIVE
+        return study_kind(study.settings).needs_path
 
     def loads(self, study: Study, loads: None) -> dict[str, list[float]]:
         """Return no selection: the path counts whole."""
