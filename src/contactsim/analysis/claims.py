@@ -108,7 +108,7 @@ def band_text(claim: Mapping) -> str:
     if claim["expect"] is not None:
         return f"{claim['expect']:g} ± {claim['tolerance']:g}"
     if claim["reduce"] in ORDERS:
-        return "no step of the other sign by two errors; found: the worst step in its errors"
+        return "each step; found: the worst in its errors"
     signs = (("at_least", "≥"), ("at_most", "≤"))
     return " ".join(f"{sign} {claim[key]:g}" for key, sign in signs if claim[key] is not None)
 

@@ -24,7 +24,7 @@ COLOURS = {
     CONDITION: "#e9efc4",
     NOT_REPRODUCED: "#f3cfcb",
     NOT_DECIDABLE: "#e4e4e4",
-    FINDING: "#ffffff",
+    FINDING: "#eef2f8",
 }
 COLUMNS = {
     "source": ("thesis", 1.3),
@@ -47,6 +47,8 @@ PADDING = 0.07
 TITLE_HEIGHT = 0.35
 PLUS_MINUS = "\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}"
 NUMBERS = ("value", "ensemble_error", "grid_error")
+LARGE = 99
+"""Margins above it are not told apart."""
 
 
 @mpl.rc_context(style.RC_PARAMS)
@@ -107,9 +109,14 @@ def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
         )
     if row["unknown"]:
         texts["verdict"] += f": unknown is {row['unknown']}"
-    texts |= {name: f"{row[name]:.2g}" if np.isfinite(row[name]) else "–" for name in ("margin", "place")}
+    texts |= {name: _short_number(row[name]) for name in ("margin", "place")}
     widths = {name: int(width * CELL_LETTERS) for name, (_, width) in COLUMNS.items()}
     return {name: textwrap.fill(printed(texts[name]), width) for name, width in widths.items()}
+
+
+def _short_number(value: float) -> str:
+    """Return a number in two digits; large ones only as large, and a dash for none."""
+    return "–" if np.isnan(value) else f"{value:.2g}" if value < LARGE else f"> {LARGE:g}"
 
 
 def footer_text(verdicts: pd.DataFrame, data: Mapping[str, xr.Dataset]) -> str:
