@@ -285,7 +285,7 @@ def test_every_quantity_of_a_work_precision_study_has_a_symbol():
 
 def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
     rows = pd.read_csv(made / "results/quick/claims/ch3.csv", keep_default_na=False, na_values=["", "nan"])
-    rows = rows.fillna({"measure": "", "expected": "", "condition": "", "unknown": ""})
+    rows = rows.astype({"unknown": object}).fillna({"measure": "", "expected": "", "condition": "", "unknown": ""})
     texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
     assert not [text for text in texts if "_" in text]
     assert "slope of aᵣₑₗ against pᵣ*\nalong p*" in texts

@@ -107,7 +107,7 @@ def test_every_statement_stands_there_once_with_its_verdict_value_and_errors(pag
     rows = re.findall(r'<tr class="row-(\w+)">(.*?)</tr>', table, re.DOTALL)
     assert len(rows) == len(every) > 100
     for (mark, text), claim in zip(rows, every.to_dict("records"), strict=True):
-        assert mark == report.MARKS[claim["verdict"]]
+        assert mark == report.ROW_MARKS[claim["verdict"]]
         cells = [html.unescape(cell) for cell in re.findall(r"<td.*?>(.*?)</td>", text, re.DOTALL)]
         assert cells[0] == claim["source"]
         assert cells[1] == claim["statement"].replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*")

@@ -43,6 +43,8 @@ SECTION_POINTS = 2000
 """Points of a drawn section of a surface."""
 MARKS = dict(zip(VERDICTS, ("yes", "condition", "no", "open"), strict=True))
 """Classes of the verdicts in the style sheet."""
+ROW_MARKS = MARKS | {FINDING: "finding"}
+"""Classes of the rows of statements and findings."""
 HIDDEN_SETTINGS = ("name", "title", "tier", "seed")
 """Settings that stand elsewhere on the page."""
 
@@ -110,7 +112,7 @@ def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
         "seed": plan.seed,
         "data": settings["data"],
         "marks": MARKS,
-        "row_marks": MARKS | {FINDING: "finding"},
+        "row_marks": ROW_MARKS,
         "counts": _counts(claims),
         "statements": _statements(claims, plan),
         "chapters": _chapters(plan, folder, claims),
