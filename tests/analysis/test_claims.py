@@ -16,6 +16,7 @@ from contactsim.analysis.claims import (
     judge,
     judge_number,
 )
+from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.conditions import narrower_blocks
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import Estimate
@@ -159,10 +160,10 @@ def test_a_claim_that_holds_or_is_open_needs_no_condition():
 
 def test_what_a_claim_compares_is_never_narrowed_to_a_single_value():
     settings = claim(reduce="spread", along="hurst_exponent", **BANDLESS, at_most=0.1)
-    blocks = [block for block, _ in narrower_blocks(settings, [made_up()])]
+    blocks = [block for block, _ in narrower_blocks(Comparison(settings, [made_up()]))]
     assert blocks
     assert not any("hurst_exponent" in block for block in blocks)  # it has two values, both are needed
-    shares = [share for _, share in narrower_blocks(claim(), [made_up()])]
+    shares = [share for _, share in narrower_blocks(Comparison(claim(), [made_up()]))]
     assert shares == sorted(shares, reverse=True)
     assert 0.5 <= min(shares) <= max(shares) < 1
 
@@ -303,6 +304,8 @@ BAD = [
     ({"grid": "ours"}, "grid", "ours", "thesis, either"),
     ({"relative_to": "rough_surface", "minus": "rough_line_coarse"}, None, ["relative_to", "minus"], "one of them"),
     ({"reduce": "rising_steps", "along": "hurst_exponent"}, None, ["expect", "tolerance"], "only a sense"),
+    (BANDLESS | {"reduce": "rising_steps", "along": "hurst_exponent", "neutral": 0.0}, None, ["neutral"], "a sense"),
+    ({"absent": "no slip", "reduce": "spread", "along": "hurst_exponent"}, "absent", "no slip", "with mean, least"),
     ({"study": None, "quantity": None, "reduce": None}, "expect", 2.0, "left out"),  # no data, no expectation
 ]
 
@@ -315,6 +318,29 @@ def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes,
     assert (error.file, error.value) == ("ch3.yaml", value)
     assert error.key == (f"claims.test.{key}" if key else "claims.test")
     assert allowed in error.allowed
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "value"),
+    [
+        ({}, "", ["expect", "tolerance"]),
+        (BANDLESS | {"neutral": 1.0}, "", ["neutral"]),
+        (BANDLESS | {"grid": "either"}, "", ["grid"]),
+        (BANDLESS | {"reduce": "rising_steps", "along": "hurst_exponent"}, ".reduce", "rising_steps"),
+        (BANDLESS | {"study": None}, ".study", None),
+    ],
+)
+def test_a_finding_with_a_band_or_without_a_study_is_refused(changes, key, value):
+    section = {name: entry for name, entry in (VALUE | changes).items() if entry is not None}
+    with pytest.raises(InputError) as caught:
+        read_claim("test", section, "ch3.yaml", STUDIES, "findings")
+    assert (caught.value.key, caught.value.value) == (f"findings.test{key}", value)
+
+
+def test_a_finding_has_a_number_and_no_verdict():
+    section = {name: entry for name, entry in (VALUE | BANDLESS).items() if entry is not None}
+    row = judge(read_claim("test", section, "ch3.yaml", STUDIES, "findings").settings, [made_up()])
+    assert (row["verdict"], row["value"]) == (FINDING, pytest.approx(2.0))
 
 
 def test_the_plan_refuses_a_bad_claim(tmp_path):

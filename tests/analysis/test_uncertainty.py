@@ -8,16 +8,22 @@ import numpy as np
 import pytest
 
 from contactsim import dataset, reference
+from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.quantities import mean_quantity
-from contactsim.analysis.uncertainty import estimate, estimate_steps, select, unknown_places
+from contactsim.analysis.uncertainty import estimate, estimate_on_thesis_grid, estimate_steps
 from support.claims import BANDLESS, claim, made_up, on_grids, path_claim, paths
 
 RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
 
 
+def selected(settings, *data):
+    """What a claim compares where it selects it."""
+    return Comparison(settings, data).select(settings["select"])
+
+
 def number(settings, *data):
     """The number of a claim where its studies are selected."""
-    return estimate(settings, select(data, settings["select"]))
+    return estimate(selected(settings, *data))
 
 
 def noisy(members=10, seed=0, scatter=0.05):
@@ -68,20 +74,20 @@ def test_one_unconverged_solution_makes_a_mean_unknown_and_is_named():
     data = made_up()
     data["status"][1, 2, 0] = 1
     assert np.isnan(number(claim(), data).value)
-    words = unknown_places(claim(), [data])
+    words = selected(claim(), data).unknown_places()
     assert words == "κ at H = 0.8, member = 2, p* = 0.001"
     elsewhere = claim(select={"reduced_pressure": [0.01, 0.1]})
     assert number(elsewhere, data).value == pytest.approx(2.0)
-    assert unknown_places(elsewhere, select([data], elsewhere["select"])) == ""
+    assert selected(elsewhere, data).unknown_places() == ""
 
 
 def test_what_does_not_exist_is_left_out_only_where_the_claim_says_so():
     data = paths([np.nan, 14.0, 16.0], work_ratio=[0.0, 0.5, 1.0])
     assert np.isnan(number(path_claim(), data).value)
-    assert "φt/φn = 0" in unknown_places(path_claim(), [data])
+    assert "φt/φn = 0" in selected(path_claim(), data).unknown_places()
     without = path_claim(absent="no pull-off")
     assert number(without, data).value == pytest.approx(15.0)
-    assert unknown_places(without, [data]) == ""
+    assert selected(without, data).unknown_places() == ""
 
 
 @pytest.mark.parametrize("reduce", ["mean", "least", "largest"])
@@ -95,7 +101,7 @@ def test_what_is_unknown_stays_so_where_something_may_be_absent():
     data["status"][0, 0, 3] = 1
     without = path_claim(absent="no pull-off")
     assert np.isnan(number(without, data).value)
-    assert "φt/φn = 0" in unknown_places(without, [data])
+    assert "φt/φn = 0" in selected(without, data).unknown_places()
 
 
 def test_an_empty_selection_has_no_number():
@@ -132,7 +138,7 @@ def test_increments_of_variants_err_independently_and_count_with_the_grid():
 
 def test_on_the_grid_of_the_thesis_a_number_has_no_grid_error_and_on_another_an_unknown_one():
     def on_thesis_grid(points):
-        return estimate(claim(), [made_up(grid=0.5, points=points)], on_thesis_grid=True).grid_error
+        return estimate_on_thesis_grid(selected(claim(), made_up(grid=0.5, points=points))).grid_error
 
     assert on_thesis_grid(262144) == 0
     assert np.isnan(on_thesis_grid(1024))
@@ -189,7 +195,7 @@ def test_a_ratio_of_two_studies_is_taken_at_each_value_that_one_of_them_varies()
 def test_each_step_of_an_order_has_its_own_error():
     data = paths([1.0, 3.0, 3.0], increment=0.1, work_ratio=[0.0, 0.5, 1.0])
     settings = path_claim(reduce="rising_steps", along="work_ratio", **BANDLESS)
-    steps, errors = estimate_steps(settings, [data])
+    steps, errors = estimate_steps(selected(settings, data))
     assert steps.tolist() == [2.0, 0.0]
     assert errors == pytest.approx(np.full(2, 0.1 * np.sqrt(2)))
 

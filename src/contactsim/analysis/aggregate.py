@@ -16,6 +16,7 @@ from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fit_line_areas
+from contactsim.observables.contact import proportionality
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.variables import ERRORS
@@ -73,7 +74,8 @@ def _exact_array(data: xr.Dataset, radius: xr.DataArray | float) -> dict[str, xr
     load = data.mean_pressure * data.length
     half_width = xr.apply_ufunc(reference.cylinder_array_half_width, load, radius, data.length, data.contact_modulus)
     gradient = xr.apply_ufunc(reference.cylinder_rms_gradient, half_width, radius)
-    kappa_r = 2 * half_width * gradient * data.contact_modulus / load
+    area = 2 * half_width / data.length
+    kappa_r = xr.apply_ufunc(proportionality, area, data.mean_pressure, gradient, data.contact_modulus)
     return {"half_width_array": half_width, "rms_gradient_array": gradient, "kappa_r_array": kappa_r}
 
 

@@ -7,22 +7,16 @@ decided only where the number is at least `MIN_MARGIN` errors away from the edge
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
-from contactsim.analysis.uncertainty import (
-    NAN,
-    Estimate,
-    estimate,
-    estimate_steps,
-    select,
-    unknown_places,
-)
+from contactsim.analysis.uncertainty import NAN, Estimate, estimate, estimate_on_thesis_grid, estimate_steps
 from contactsim.analysis.wording import range_text
 
 REPRODUCED, CONDITION = "reproduced", "reproduced with a condition"
@@ -31,8 +25,6 @@ FINDING = "finding"
 """In place of a verdict: a number that no sentence of the thesis states."""
 MIN_MARGIN = 2.0
 """Least distance from the edge of a band, in errors, at which a claim is decided."""
-SECOND_STUDY = {"relative_to": "over", "minus": "minus"}
-"""Keys that name a second study, and the words of the comparison."""
 SCALES = {"half": 0.5, "double": 2.0}
 """Factors of the band with which each verdict is given again."""
 CONDITION_NUMBERS = ("condition_value", "condition_ensemble_error", "condition_grid_error", "condition_share")
@@ -62,7 +54,9 @@ def comparison_text(claim: Mapping) -> str:
     if claim["study"] is None:
         return ""
     inputs = [f" {name} {claim[name]}" for name in ("against", "along", "across") if claim[name] is not None]
-    second = "".join(f" in {claim['study']} {sign} {claim[key]}" for key, sign in SECOND_STUDY.items() if claim[key])
+    second = "".join(
+        f" in {claim['study']} {word} {claim[key]}" for key, (word, _) in SECOND_STUDY.items() if claim[key]
+    )
     return f"{claim['reduce']} of {claim['quantity']}{second}{''.join(inputs)}"
 
 
@@ -72,8 +66,6 @@ def neutral_value(claim: Mapping) -> float | None:
         return float(claim["neutral"])
     if claim["expect"] is not None:
         return float(claim["expect"])
-    if claim["reduce"] in ORDERS:
-        return 0.0
     reduction = REDUCTIONS[claim["reduce"]]
     if reduction.neutral is not None:
         return reduction.neutral
@@ -156,53 +148,49 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
     """
     row: dict[str, object] = {"condition": "", "unknown": ""} | dict.fromkeys(CONDITION_NUMBERS, NAN)
     if not data:
-        return vars(Verdict()) | vars(Estimate()) | row | {f"verdict_{name}": NOT_DECIDABLE for name in SCALES}
-    selected = select(data, claim["select"])
-    row["unknown"] = unknown_places(claim, selected)
+        return row | _entries([Verdict()] * 3, Estimate())
+    comparison = Comparison(claim, data).select(claim["select"])
+    row["unknown"] = comparison.unknown_places()
     if claim["reduce"] in ORDERS:
-        steps, errors = estimate_steps(claim, selected)
-        result, worst = judge_steps(steps, errors)
-        return vars(result) | vars(Estimate(worst)) | row | {f"verdict_{name}": result.verdict for name in SCALES}
-    number = estimate(claim, selected)
+        result, worst = judge_steps(*estimate_steps(comparison))
+        return row | _entries([result] * 3, Estimate(worst))
+    number = estimate(comparison)
     if claim["is_finding"]:
-        return vars(Verdict(FINDING)) | vars(number) | row | {f"verdict_{name}": FINDING for name in SCALES}
-    row |= {f"verdict_{name}": _decide(claim, selected, number, scale)["verdict"] for name, scale in SCALES.items()}
-    return row | vars(number) | _decide(claim, selected, number)
+        return row | _entries([Verdict(FINDING)] * 3, number)
+    on_thesis_grid = estimate_on_thesis_grid(comparison) if claim["grid"] == "either" else None
+    decisions = [_decide(comparison, number, on_thesis_grid, scale) for scale in (1.0, *SCALES.values())]
+    return row | _entries([result for result, _ in decisions], number) | decisions[0][1]
 
 
-def _decide(claim: Mapping, data: Sequence[xr.Dataset], number: Estimate, scale: float = 1.0) -> dict[str, object]:
-    """Return verdict, margin and place of a claim, and the entries of its condition where there is one."""
-    result = judge_number(claim, number, scale)
-    row: dict[str, object] = dict(vars(result))
-    if claim["grid"] == "either" and result.verdict != REPRODUCED:
-        row |= _decide_on_thesis_grid(claim, data, result.verdict, scale)
-    if row["verdict"] == NOT_REPRODUCED and "condition" not in row:
-        row |= _decide_with_condition(claim, data, scale)
-    return row
+def _entries(results: Sequence[Verdict], number: Estimate) -> dict[str, object]:
+    """Return the entries of a row: a verdict, its margin and its number, and the verdicts with other bands."""
+    others = {f"verdict_{name}": other.verdict for name, other in zip(SCALES, results[1:], strict=True)}
+    return vars(results[0]) | vars(number) | others
 
 
-def _decide_on_thesis_grid(claim: Mapping, data: Sequence[xr.Dataset], verdict: str, scale: float) -> dict[str, object]:
-    """Return the verdict on the thesis's own number of points, as a condition; empty where it decides nothing."""
-    number = estimate(claim, data, on_thesis_grid=True)
-    there = judge_number(claim, number, scale).verdict
-    if there == REPRODUCED or (there == NOT_REPRODUCED and verdict == NOT_DECIDABLE):
-        decided = CONDITION if there == REPRODUCED else NOT_REPRODUCED
-        return {"verdict": decided} | _condition_entries("on the thesis's own grid", number, 1.0)
-    return {}
+def _decide(
+    comparison: Comparison, number: Estimate, on_thesis_grid: Estimate | None, scale: float
+) -> tuple[Verdict, dict[str, object]]:
+    """Return the verdict on a number with a scaled band, and the entries of the condition under which it holds."""
+    claim = comparison.claim
 
-
-def _decide_with_condition(claim: Mapping, data: Sequence[xr.Dataset], scale: float) -> dict[str, object]:
-    """Return the verdict under the condition in which a claim holds; empty if there is none."""
-
-    def holds(number: Estimate) -> bool:
+    def holds(candidate: Estimate) -> bool:
         """Return True where the claim holds."""
-        return judge_number(claim, number, scale).verdict == REPRODUCED
+        return judge_number(claim, candidate, scale).verdict == REPRODUCED
 
-    condition = find_condition(claim, data, band(claim, scale), holds)
+    result = judge_number(claim, number, scale)
+    if on_thesis_grid is not None and result.verdict != REPRODUCED:
+        there = judge_number(claim, on_thesis_grid, scale).verdict
+        if there == REPRODUCED or (there == NOT_REPRODUCED and result.verdict == NOT_DECIDABLE):
+            decided = CONDITION if there == REPRODUCED else NOT_REPRODUCED
+            return replace(result, verdict=decided), _condition_entries("on the thesis's own grid", on_thesis_grid, 1.0)
+    if result.verdict != NOT_REPRODUCED:
+        return result, {}
+    condition = find_condition(comparison, band(claim, scale), holds)
     if condition is None:
-        return {}
+        return result, {}
     words = ", ".join(range_text(dim, *ends) for dim, ends in condition.block.items())
-    return {"verdict": CONDITION} | _condition_entries(words, condition.number, condition.share)
+    return replace(result, verdict=CONDITION), _condition_entries(words, condition.number, condition.share)
 
 
 def _condition_entries(words: str, number: Estimate, share: float) -> dict[str, object]:

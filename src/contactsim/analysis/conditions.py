@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-import xarray as xr
-
-from contactsim.analysis.uncertainty import Estimate, estimate, raw_number, select, varied_dimensions
+from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.uncertainty import Estimate, estimate
 
 MIN_SHARE = 0.5
 """Least share of a selection that a condition covers."""
@@ -43,16 +42,14 @@ class Condition:
 
 
 def find_condition(
-    claim: Mapping, data: Sequence[xr.Dataset], band: tuple[float, float], holds: Callable[[Estimate], bool]
+    comparison: Comparison, band: tuple[float, float], holds: Callable[[Estimate], bool]
 ) -> Condition | None:
     """Return the largest block in which a claim holds; None without one of at least `MIN_SHARE` of the selection.
 
     Parameters
     ----------
-    claim
-        Settings of the claim.
-    data
-        Datasets of its studies where the claim selects them.
+    comparison
+        What the claim compares, where it selects it.
     band
         Smallest and largest value that the statement allows.
     holds
@@ -61,24 +58,24 @@ def find_condition(
     low, high = band
     promising = (
         (block, share, part)
-        for block, share in narrower_blocks(claim, data)
-        if low < raw_number(claim, part := select(data, block)) < high
+        for block, share in narrower_blocks(comparison)
+        if not (part := comparison.select(block)).is_empty and low < part.number(part.data) < high
     )
     for block, share, part in itertools.islice(promising, MAX_BLOCKS):
-        number = estimate(claim, part)
+        number = estimate(part)
         if holds(number):
             return Condition(block, share, number)
     return None
 
 
-def narrower_blocks(claim: Mapping, data: Sequence[xr.Dataset]) -> Iterator[tuple[Block, float]]:
+def narrower_blocks(comparison: Comparison) -> Iterator[tuple[Block, float]]:
     """Yield the contiguous blocks of a selection that are smaller than it, with their shares; the largest first.
 
     A dimension along which a claim compares values keeps at least two.
     """
     choices = []
-    for dim, values in varied_dimensions(claim, data).items():
-        least = 2 if dim in (claim["along"], claim["across"]) else 1
+    for dim, values in comparison.varied_dimensions().items():
+        least = 2 if dim in (comparison.claim["along"], comparison.claim["across"]) else 1
         ranges = [
             (dim, [float(values[first]), float(values[last])], (last - first + 1) / len(values))
             for first, last in itertools.combinations_with_replacement(range(len(values)), 2)

@@ -11,7 +11,7 @@ import xarray as xr
 
 from contactsim import reference
 from contactsim.analysis import grid_convergence
-from contactsim.analysis.ensemble import on_all_grids
+from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fit_line_area
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
 from contactsim.status import is_solved
@@ -62,7 +62,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     if "member" not in values.dims:
         return values
     if set(data.status.dims) <= set(values.dims):  # numbers of a state
-        values = values.where(is_solved(data.status))
+        values = converged(values, data)
     if not leave_out_absent:
         return values.mean("member", skipna=False)
     return values.mean("member").where(~unknown(data, name).any("member"))
@@ -85,7 +85,7 @@ def number_exists(data: xr.Dataset, name: str) -> xr.DataArray:
 
 def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
     """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure)."""
-    area = data.relative_contact_area.where(is_solved(data.status))
+    area = converged(data.relative_contact_area, data)
     samples = area.transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
     parts = [samples] * len(samples) if together else samples

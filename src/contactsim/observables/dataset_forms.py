@@ -18,7 +18,6 @@ from contactsim.observables.derived import derive_contact_factors, summarise_app
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET, THRESHOLD
-from contactsim.status import is_solved
 from contactsim.variables import LOADS
 
 STEP = "step"
@@ -47,8 +46,6 @@ AVERAGED_STATES = (
 """Numbers of a state of a cohesive path that are averaged over members."""
 PATH_SUMMARIES = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET, *THRESHOLD)
 """Numbers that summarise a path."""
-UNREACHED = (*CYCLE, *AREA_LOAD, *ONSET)
-"""Summaries that a path may not reach; their mean is unknown if one member does not reach them."""
 
 
 class DatasetForm(Protocol):
@@ -73,10 +70,6 @@ class DatasetForm(Protocol):
         """Return the dataset with the numbers derived from its states."""
         ...
 
-    def member_mean(self, data: xr.Dataset, name: str) -> xr.DataArray:
-        """Return the mean of a variable over members, without solutions that did not converge."""
-        ...
-
 
 @dataclass(frozen=True)
 class SeparateLoads:
@@ -89,10 +82,6 @@ class SeparateLoads:
     def derive(self, data: xr.Dataset) -> xr.Dataset:
         """Return the dataset with its contact factors."""
         return derive_contact_factors(data)
-
-    def member_mean(self, data: xr.Dataset, name: str) -> xr.DataArray:
-        """Return the mean of a variable over members, without solutions that did not converge."""
-        return data[name].where(is_solved(data.status)).mean("member")
 
 
 @dataclass(frozen=True)
@@ -107,11 +96,6 @@ class Paths:
     def derive(self, data: xr.Dataset) -> xr.Dataset:
         """Return the dataset with normalised states and the summaries of its paths."""
         return self.summarise(data)
-
-    def member_mean(self, data: xr.Dataset, name: str) -> xr.DataArray:
-        """Return the mean of a variable over members; summaries leave out unconverged states already."""
-        values = data[name]
-        return values.mean("member", skipna=name not in UNREACHED) if "member" in values.dims else values
 
 
 FORMS: dict[tuple[str, str], DatasetForm] = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from contactsim.analysis.comparison import SECOND_STUDY
 from contactsim.analysis.grid_convergence import is_doubled
 from contactsim.analysis.quantities import FITTED, LIMIT
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
@@ -35,11 +36,10 @@ def read_selection(section: Mapping, dims: Iterable[str], file: object, prefix: 
     return {dim: ends for dim, ends in read(section, keys, file, prefix).items() if ends is not None}
 
 
-GRIDS = {
-    "thesis": "the statement is about the thesis's own number of points, and not decidable on another",
-    "either": "the number on the thesis's own number of points answers too, without its grid error",
-}
-"""Grids that a statement may be about, and what each means."""
+GRIDS = ("thesis", "either")
+"""Grids of a statement: the thesis's own number of points alone, or that one too, where it has no grid error."""
+WITHOUT_INPUTS = [name for name in REDUCTIONS if not reduction_inputs(name)]
+"""Reductions that look at one quantity, value by value."""
 CLAIM_KEYS = {
     "source": Key(text, "where the thesis says so"),
     "statement": Key(text, "what the thesis says"),
@@ -63,8 +63,6 @@ CLAIM_KEYS = {
 }
 BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
 """Sets of keys that give a band."""
-SECOND_STUDIES = ("relative_to", "minus")
-"""Keys that name a second study."""
 INPUTS = ("against", "along", "across")
 """Keys that a reduction may need beside the quantity."""
 
@@ -79,7 +77,7 @@ class Claim:
     @property
     def studies(self) -> list[str]:
         """Names of the studies that answer the claim: none, one, or two for a comparison."""
-        return [self.settings[key] for key in ("study", *SECOND_STUDIES) if self.settings[key] is not None]
+        return [self.settings[key] for key in ("study", *SECOND_STUDY) if self.settings[key] is not None]
 
 
 def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study], part: str = "claims") -> Claim:
@@ -116,14 +114,27 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     dims = list(dict.fromkeys(dim for study in claim.studies for dim in _dimensions(studies, study)))
     _check_quantities(settings, studies, dims, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
-    band = {key for key in set.union(*BANDS) if settings[key] is not None}
-    if is_finding and band:
-        raise InputError(prefix, sorted(band), "no band: a finding is a number without a verdict", file)
-    if settings["reduce"] in ORDERS and (band or is_finding):
-        raise InputError(prefix, sorted(band), f"no band: {settings['reduce']} has only a sense", file)
-    if not is_finding and settings["reduce"] not in ORDERS and band not in BANDS:
-        raise InputError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
+    _check_band(settings, file, prefix)
+    if settings["absent"] is not None and settings["reduce"] not in WITHOUT_INPUTS:
+        raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)
     return claim
+
+
+def _check_band(settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for a band where there is no verdict or only a sense, and for a claim without one."""
+    band = {key for key in set.union(*BANDS) if settings[key] is not None}
+    unused = sorted(band) + ["neutral"] * (settings["neutral"] is not None)
+    if settings["is_finding"]:
+        unused += ["grid"] * (settings["grid"] == "either")
+        if unused:
+            raise InputError(prefix, unused, "no band: a finding is a number without a verdict", file)
+        if settings["reduce"] in ORDERS:
+            raise InputError(f"{prefix}.reduce", settings["reduce"], f"one of {', '.join(REDUCTIONS)}", file)
+    elif settings["reduce"] in ORDERS:
+        if unused:
+            raise InputError(prefix, unused, f"no band: {settings['reduce']} has only a sense", file)
+    elif band not in BANDS:
+        raise InputError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
 
 
 def _dimensions(studies: Mapping[str, Study], name: str) -> list[str]:
@@ -135,7 +146,7 @@ def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[s
     """Raise InputError for a reduction, quantity or dimension that the claim's studies do not have."""
     study = studies[settings["study"]]
     own = quantities(study)
-    seconds = [key for key in SECOND_STUDIES if settings[key] is not None]
+    seconds = [key for key in SECOND_STUDY if settings[key] is not None]
     if len(seconds) > 1:
         raise InputError(prefix, seconds, "one of them", file)
     shared = _shared_quantities(settings, seconds[0], studies, file, prefix) if seconds else own

@@ -1,0 +1,171 @@
+"""What a claim compares: a quantity of one study, or its ratio or difference in two, reduced to one number.
+
+Two studies are compared at the loads and variants that both have. A key that only one of them varies is compared at
+each of its values.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import operator
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.analysis.cross_validation import joint_splits
+from contactsim.analysis.ensemble import widen_interval
+from contactsim.analysis.quantities import mean_quantity, number_exists, source_quantity, unknown
+from contactsim.analysis.reductions import ORDERS, REDUCTIONS
+from contactsim.analysis.wording import quantity_text, range_text
+from contactsim.grid import Array
+
+Datasets = Sequence[xr.Dataset]
+SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
+    "relative_to": ("over", operator.truediv),
+    "minus": ("minus", operator.sub),
+}
+"""Keys of a claim that name a second study: the word for what is done with it, and the operation."""
+PATH_DIMENSIONS = ("step", "snapshot", "x", "event")
+"""Dimensions along a path: two studies need not share them, as summaries of paths do not have them."""
+
+
+class Comparison:
+    """A claim's quantity in the datasets of its studies.
+
+    Parameters
+    ----------
+    claim
+        Settings of the claim.
+    data
+        Datasets of its studies: one, or two.
+    """
+
+    def __init__(self, claim: Mapping, data: Datasets) -> None:
+        self.claim = claim
+        self.data = list(xr.align(*data, join="inner", exclude={"member", *PATH_DIMENSIONS}))
+        self.is_empty = any(0 in study.sizes.values() for study in self.data)
+        self.groups = _groups_of_members(self.data)
+
+    def select(self, selection: Mapping[str, Sequence[float]]) -> Comparison:
+        """Return the comparison at selected loads and variants: the least and largest value of dimensions."""
+        data = self.data
+        for dim, ends in selection.items():
+            within = {dim: slice(*widen_interval(*ends))}
+            data = [study.sel(within) if dim in study.dims else study for study in data]
+        return Comparison(self.claim, data)
+
+    def number(self, data: Datasets, searched: Datasets | None = None) -> float:
+        """Return the quantity in some datasets reduced to one number.
+
+        Parameters
+        ----------
+        data
+            The datasets of the comparison, or such as have other members or values.
+        searched
+            Datasets in which extremes are located; None for the same.
+        """
+        reduction = REDUCTIONS[self.claim["reduce"]]
+        values, inputs = self._arguments(data)
+        if not values.size:  # nothing of what is selected exists
+            return float("nan")
+        where, where_inputs = (values, inputs) if searched is None else self._arguments(searched)
+        return reduction.measure_at(reduction.places(where, **where_inputs), values, **inputs)
+
+    def unbiased_number(self, data: Datasets) -> float:
+        """Return the number, with extremes located in one half of the members and measured in the other."""
+        sizes = [data[group[0]].member.size for group in self.groups]
+        if REDUCTIONS[self.claim["reduce"]].locate is None or max(sizes) == 1:
+            return self.number(data)
+        numbers = [
+            self.number(self._with_members(data, measured), self._with_members(data, searched))
+            for searched, measured in joint_splits(sizes)
+        ]
+        return math.fsum(numbers) / len(numbers)
+
+    def steps(self, data: Datasets) -> Array:
+        """Return the steps of an ordered quantity, positive in the claimed sense, flat."""
+        return ORDERS[self.claim["reduce"]](
+            self._values(data, self.claim["quantity"]), self.claim["along"]
+        ).values.ravel()
+
+    def varied_dimensions(self) -> dict[str, Array]:
+        """Return the loads and variants that the quantity depends on, by dimension."""
+        values = self._combine([mean_quantity(study, self.claim["quantity"]) for study in self.data])
+        return {str(dim): values[dim].values for dim in values.dims if values.sizes[dim] > 1}
+
+    def unknown_places(self) -> str:
+        """Return in words where the quantities are unknown: the first place, and the number of others; else nothing."""
+        for study in self.data:
+            for name in filter(None, (self.claim["quantity"], self.claim["against"])):
+                source = source_quantity(name)
+                if source is None or "member" not in study[source].dims:
+                    continue
+                is_unknown = unknown(study, source)
+                if self.claim["absent"] is None:
+                    is_unknown = is_unknown | study[source].isnull()
+                if words := _places_text(study, is_unknown.transpose(*study[source].dims)):
+                    return f"{quantity_text(source)} at {words}"
+        return ""
+
+    def _arguments(self, data: Datasets) -> tuple[xr.DataArray, dict[str, Any]]:
+        """Return the quantity and the further inputs of the reduction."""
+        inputs: dict[str, Any] = {name: self.claim[name] for name in REDUCTIONS[self.claim["reduce"]].inputs}
+        if "against" in inputs:
+            inputs["against"] = self._values(data, self.claim["against"])
+        return self._values(data, self.claim["quantity"]), inputs
+
+    def _values(self, data: Datasets, name: str) -> xr.DataArray:
+        """Return a quantity, or its ratio or difference in two studies, without what is absent."""
+        leave_out = self.claim["absent"] is not None
+        values = self._combine([mean_quantity(study, name, leave_out) for study in data])
+        if not leave_out or not values.ndim:
+            return values
+        exists, values = xr.broadcast(self._exists, values)
+        return values.stack(place=values.dims).isel(place=np.flatnonzero(exists.values))
+
+    @functools.cached_property
+    def _exists(self) -> xr.DataArray:
+        """True where the quantity exists in all studies, or should exist."""
+        return functools.reduce(operator.and_, [number_exists(study, self.claim["quantity"]) for study in self.data])
+
+    def _combine(self, values: Sequence[xr.DataArray]) -> xr.DataArray:
+        """Return the values of one study, or those of two combined."""
+        operations = [operation for key, (_, operation) in SECOND_STUDY.items() if self.claim[key] is not None]
+        return operations[0](*values) if operations else values[0]
+
+    def _with_members(self, data: Datasets, members: Sequence[Array]) -> list[xr.Dataset]:
+        """Return the datasets with these members of each group."""
+        parts = list(data)
+        for group, indices in zip(self.groups, members, strict=True):
+            for index in group:
+                parts[index] = parts[index].isel(member=indices)
+        return parts
+
+
+def _groups_of_members(data: Datasets) -> list[tuple[int, ...]]:
+    """Return the indices of the datasets in groups whose members have the same random waves."""
+    settings = [dataset.settings_of(study) for study in data]
+    waves = [(own.get("same_surfaces_as") or own.get("name", index)) for index, own in enumerate(settings)]
+    shared = len(set(waves)) == 1 and len({study.member.size for study in data}) == 1
+    indices = range(len(data))
+    return [tuple(indices)] if shared else [(index,) for index in indices]
+
+
+def _places_text(data: xr.Dataset, marks: xr.DataArray) -> str:
+    """Return the first marked place in words, and the number of others; nothing without a mark."""
+    places = np.argwhere(marks.values)
+    if not len(places):
+        return ""
+    coordinates = ((str(dim), data[dim].values[index]) for dim, index in zip(marks.dims, places[0], strict=True))
+    words = ", ".join(range_text(dim, value, value) for dim, value in coordinates)
+    return words + (f" and {len(places) - 1} more" if len(places) > 1 else "")
+
+
+def members_left_out(data: Datasets, group: Sequence[int]) -> Iterator[list[xr.Dataset]]:
+    """Yield the datasets without one member of a group after another."""
+    for member in range(data[group[0]].member.size):
+        yield [study.drop_isel(member=member) if index in group else study for index, study in enumerate(data)]
