@@ -12,6 +12,7 @@ import yaml
 
 from contactsim import provenance
 from contactsim.provenance import canonical
+from contactsim.study import stages
 from contactsim.study.execute import point_digests
 from contactsim.study.plan import Plan
 
@@ -106,7 +107,8 @@ class Workshop:
 
 
 def forget() -> None:
-    for cached in (provenance.source_of, provenance.imports_of, provenance.executed_imports, provenance.source_digest):
+    of_modules = (provenance.source_of, provenance.imports_of, provenance.executed_imports, provenance.source_digest)
+    for cached in (*of_modules, stages.stage_digest, stages.computing_stage_digest):
         cached.cache_clear()
 
 

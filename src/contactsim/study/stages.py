@@ -6,6 +6,7 @@ modules named here are where that code begins; `contactsim.provenance` follows t
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 from contactsim import provenance
@@ -36,11 +37,13 @@ STAGES: dict[str, tuple[str, ...]] = {
 """Modules by stage."""
 
 
+@cache
 def stage_digest(stage: str, *modules: str) -> str:
     """Return a digest of the code of a stage and of further modules, and of the table of variables."""
     return digest(source_digest(*STAGES[stage], *modules), read_table(_table_of_variables()))
 
 
+@cache
 def computing_stage_digest(stage: str, *modules: str) -> str:
     """Return a digest of the code of a stage that computes results, of the libraries, and of units and long names.
 
