@@ -61,13 +61,14 @@ def check_option_names(function: Callable[P, R]) -> Callable[P, R]:
     options = [name for name, parameter in parameters.items() if parameter.kind is parameter.KEYWORD_ONLY]
 
     @wraps(function)
-    def checked(*args: P.args, **kwargs: P.kwargs) -> R:
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        """Check the names of the options, then call the function."""
         for name, value in kwargs.items():
             if name not in parameters:
                 raise InputError(name, value, f"no such option, but {', '.join(options)}")
         return function(*args, **kwargs)
 
-    return checked
+    return call
 
 
 def is_number(value: object) -> TypeGuard[float]:

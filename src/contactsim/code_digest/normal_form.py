@@ -145,6 +145,7 @@ class _Normaliser:
         parts.append(")")
 
     def _list(self, values: Iterable[object], scopes: Scopes) -> None:
+        """Write the nodes and values of a list."""
         self.parts.append("[")
         for value in values:
             before = len(self.parts)
@@ -161,18 +162,19 @@ class _Normaliser:
         for depth in range(len(scopes) - 1, 0, -1):
             scope = scopes[depth]
             if name in scope and not (_CLASS in scope and depth < len(scopes) - 1):
-                found = scope[name]
-                if found == GLOBAL:
+                meaning = scope[name]
+                if meaning == GLOBAL:
                     break
-                if found is None:
-                    found = scope[name] = f"%{self.count}"
+                if meaning is None:
+                    meaning = scope[name] = f"%{self.count}"
                     self.count += 1
-                return found
+                return meaning
         if name in self.import_targets:
             self.used_imports |= self.import_targets[name]
         return self.module.get(name) or name
 
     def _body(self, node: ast.Module | ast.ClassDef | ast.FunctionDef, scopes: Scopes) -> None:
+        """Write the statements of a module, class or function, without its docstring."""
         docstring = ast.get_docstring(node, clean=False)
         if docstring is not None:
             self.docstrings.append(docstring)
@@ -191,18 +193,22 @@ class _Normaliser:
         return False
 
     def _note_imports(self, statement: ast.Import | ast.ImportFrom) -> set[str]:
+        """Add the modules of an import to those of the module; return them."""
         modules = {module for _, _, names in imported_names(statement) for module in names}
         self.imports |= modules
         return modules
 
     def write_name(self, node: ast.Name, scopes: Scopes) -> None:
+        """Write what a name stands for."""
         self.parts.append(self._name(node.id, scopes))
 
     def write_constant(self, node: ast.Constant, scopes: Scopes) -> None:
+        """Write a constant by its value."""
         self.parts.append(repr(node.value))
 
     def write_expression(self, node: ast.Expr, scopes: Scopes) -> None:
-        if not isinstance(node.value, ast.Constant):  # a text on its own does nothing
+        """Write an expression that is a statement; a text on its own does nothing."""
+        if not isinstance(node.value, ast.Constant):
             self.parts.append("Expr(")
             self.write(node.value, scopes)
             self.parts.append(")")
@@ -211,10 +217,12 @@ class _Normaliser:
         """Write nothing: the node does nothing."""
 
     def write_import(self, node: ast.Import | ast.ImportFrom, scopes: Scopes) -> None:
+        """Write an import as it is."""
         self.used_imports |= self._note_imports(node)
         self.parts.append(ast.dump(node))
 
     def write_if(self, node: ast.If, scopes: Scopes) -> None:
+        """Write a condition; imports for type checking alone are noted only."""
         if is_type_checking(node):
             for statement in node.body:
                 if isinstance(statement, (ast.Import, ast.ImportFrom)):
@@ -244,10 +252,12 @@ class _Normaliser:
         self.parts.append(",)")
 
     def _annotation(self, node: ast.expr, scopes: Scopes) -> None:
+        """Write an annotation of a class, also one that is a text."""
         text = node.value if isinstance(node, ast.Constant) else None
         self.write(ast.parse(text, mode="eval").body if isinstance(text, str) else node, scopes)
 
     def write_function(self, node: ast.FunctionDef, scopes: Scopes) -> None:
+        """Write a function without annotations, its local names by number."""
         self.parts.append(f"{node.__class__.__name__}({node.name},")
         self._list(node.decorator_list, scopes)
         typed = any(isinstance(part, ast.Attribute) and part.attr == "register" for part in node.decorator_list)
@@ -265,6 +275,7 @@ class _Normaliser:
         self.parts.append(")")
 
     def write_lambda(self, node: ast.Lambda, scopes: Scopes) -> None:
+        """Write a function without a name, its local names by number."""
         parameters: Scope = {part.arg: part.arg for part in parameters_of(node.args)}
         inner = (*scopes, self.uses.names[node].scope(self.uses.renamed) | parameters)
         self.parts.append("Lambda(")
@@ -273,6 +284,7 @@ class _Normaliser:
         self.parts.append(")")
 
     def _arguments(self, node: ast.arguments, outer: Scopes, inner: Scopes) -> None:
+        """Write the parameters of a function and their defaults."""
         for kind in ("posonlyargs", "args", "kwonlyargs"):
             self.parts.append(f"{[self._name(part.arg, inner) for part in getattr(node, kind)]}")
         for part in (node.vararg, node.kwarg):
@@ -281,6 +293,7 @@ class _Normaliser:
         self._list(node.kw_defaults, outer)
 
     def write_class(self, node: ast.ClassDef, scopes: Scopes) -> None:
+        """Write a class with its annotations, which may make fields."""
         self.parts.append(f"ClassDef({node.name},")
         for values in (node.decorator_list, node.bases, node.keywords):
             self._list(values, scopes)
@@ -289,6 +302,7 @@ class _Normaliser:
         self.parts.append(")")
 
     def write_comprehension(self, node: ast.ListComp, scopes: Scopes) -> None:
+        """Write a comprehension, its own names by number."""
         inner = (*scopes, self.uses.names[node].scope(self.uses.renamed))
         self.parts.append(f"{node.__class__.__name__}(")
         for place, item in enumerate(node.generators):
@@ -303,6 +317,7 @@ class _Normaliser:
         self.parts.append(")")
 
     def write_handler(self, node: ast.ExceptHandler, scopes: Scopes) -> None:
+        """Write a handler of exceptions."""
         self.parts.append("Except(")
         self._list([node.type], scopes)
         self.parts.append(f"{self._name(node.name, scopes) if node.name else None},")
@@ -310,11 +325,13 @@ class _Normaliser:
         self.parts.append(")")
 
     def write_capture(self, node: ast.MatchAs | ast.MatchStar, scopes: Scopes) -> None:
+        """Write a pattern that binds a name."""
         self.parts.append(f"{node.__class__.__name__}({self._name(node.name, scopes) if node.name else None},")
         self._list([getattr(node, "pattern", None)], scopes)
         self.parts.append(")")
 
     def write_mapping(self, node: ast.MatchMapping, scopes: Scopes) -> None:
+        """Write a pattern of a mapping."""
         self.parts.append(f"MatchMapping({self._name(node.rest, scopes) if node.rest else None},")
         self._list(node.keys, scopes)
         self._list(node.patterns, scopes)

@@ -80,12 +80,13 @@ class LoadPath:
             Increment of the sweeps before a slide; unchanged without it.
         """
 
-        def changed(part: PathPart) -> PathPart:
+        def edit_part(part: PathPart) -> PathPart:
+            """Return a part with its increment."""
             if part.slides is self.slides:
                 return part.with_increment(increment)
             return part if pressing is None else part.with_increment(pressing)
 
-        return replace(self, parts=tuple(changed(part) for part in self.parts))
+        return replace(self, parts=tuple(edit_part(part) for part in self.parts))
 
     def origin(self, heights: Array) -> float:
         """Return the approach (nm), counted from the mean planes, at which those of the steps are zero."""

@@ -97,7 +97,8 @@ def _replace_effects(scene: Scene, change: Callable[[Effect], Effect]) -> Scene:
 def _replace_bodies(scene: Scene, change: Callable[[Elasticity], Elasticity]) -> Scene:
     """Return a scene with the elasticity of each body changed that is not rigid."""
 
-    def changed(body: Body) -> Body:
+    def edit_body(body: Body) -> Body:
+        """Return a body with its elasticity changed."""
         return body if body.elasticity is None else replace(body, elasticity=change(body.elasticity))
 
-    return replace(scene, lower=changed(scene.lower), upper=changed(scene.upper))
+    return replace(scene, lower=edit_body(scene.lower), upper=edit_body(scene.upper))

@@ -12,11 +12,32 @@ from contactsim.surfaces.topography import Topography, read_topography
 
 
 @dataclass(frozen=True)
-class _Measured:
-    """The prepared heights of a file as a surface."""
+class MeasuredLine:
+    """Heights along a line, read from a file and prepared.
 
+    Parameters
+    ----------
+    file, spacing, unit, variable
+        As `path` and the options of `contactsim.read_topography`.
+    detrend, periodic
+        As in `contactsim.surfaces.preparation.prepare`.
+    """
+
+    file: str
+    detrend: str = "linear"
+    periodic: str = "mirror"
+    spacing: float | None = None
+    unit: str | None = None
+    variable: str | None = None
     topography: Topography = field(init=False, repr=False)
     modes = None
+    dimensions = 1
+
+    def __post_init__(self) -> None:
+        raw = read_topography(
+            self.file, dimensions=self.dimensions, spacing=self.spacing, unit=self.unit, variable=self.variable
+        )
+        object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
 
     @property
     def points(self) -> int:
@@ -42,53 +63,12 @@ class _Measured:
 
 
 @dataclass(frozen=True)
-class MeasuredLine(_Measured):
-    """Heights along a line, read from a file and prepared.
+class MeasuredSurface(MeasuredLine):
+    """Heights over an area, read from a file and prepared; parameters as those of `MeasuredLine`."""
 
-    Parameters
-    ----------
-    file, spacing, unit, variable
-        As `path` and the options of `contactsim.read_topography`.
-    detrend, periodic
-        As in `contactsim.surfaces.preparation.prepare`.
-    """
-
-    file: str
-    detrend: str = "linear"
-    periodic: str = "mirror"
-    spacing: float | None = None
-    unit: str | None = None
-    variable: str | None = None
-    dimensions = 1
-
-    def __post_init__(self) -> None:
-        raw = read_topography(self.file, dimensions=1, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
-
-
-@dataclass(frozen=True)
-class MeasuredSurface(_Measured):
-    """Heights over an area, read from a file and prepared.
-
-    Parameters
-    ----------
-    file, spacing, unit, variable
-        As `path` and the options of `contactsim.read_topography`.
-    detrend, periodic
-        As in `contactsim.surfaces.preparation.prepare`.
-    """
-
-    file: str
     detrend: str = "plane"
-    periodic: str = "mirror"
-    spacing: float | list[float] | None = None
-    unit: str | None = None
-    variable: str | None = None
+    spacing: float | list[float] | None = None  # type: ignore[assignment]  # an area may have two
     dimensions = 2
-
-    def __post_init__(self) -> None:
-        raw = read_topography(self.file, dimensions=2, spacing=self.spacing, unit=self.unit, variable=self.variable)
-        object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
 
 
 SURFACES = {
