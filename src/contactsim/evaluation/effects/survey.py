@@ -60,12 +60,12 @@ PLACE = Key(pair, "where the words are written: two parts of the panel, across a
 
 def read_maps(folder: str | Path, over: dict, tier: str) -> dict | None:
     """Return the settings of effect_maps.yaml with a tier's changes; None without that file."""
-    given = tiered(Path(folder) / "effect_maps.yaml", over, tier)
-    if given is None:
+    source = tiered(Path(folder) / "effect_maps.yaml", over, tier)
+    if source is None:
         return None
-    section, file = given
+    section, file = source
     settings = read(section, KEYS, file)
-    settings["maps"] = {name: _read_map(name, one, file) for name, one in settings["maps"].items()}
+    settings["maps"] = {name: _read_map(name, entry, file) for name, entry in settings["maps"].items()}
     settings["panels"] = [
         _read_panel(panel, count, settings["maps"], file) for count, panel in enumerate(settings["panels"])
     ]
@@ -75,28 +75,28 @@ def read_maps(folder: str | Path, over: dict, tier: str) -> dict | None:
 def _read_map(name: str, section: object, file: str) -> dict:
     """Return the checked settings of a map, down to the scenes of all values of its axes."""
     prefix = f"maps.{name}"
-    one = read(section, MAP_KEYS, file, prefix)
-    one["axes"] = {axis: read(given, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, given in one["axes"].items()}
-    if not one["axes"]:
+    settings = read(section, MAP_KEYS, file, prefix)
+    settings["axes"] = {axis: read(axis_settings, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, axis_settings in settings["axes"].items()}
+    if not settings["axes"]:
         raise InputError(f"{prefix}.axes", {}, "at least one axis", file)
-    for axis, given in one["axes"].items():
-        head, _, tail = given["key"].partition(".")
-        if head not in one["scene"] or (tail and not isinstance(one["scene"][head], dict)):
-            raise InputError(f"{prefix}.axes.{axis}.key", given["key"], "a key of the map's scene", file)
-        for key in given["per"]:
-            if not is_number(_value_at(one["scene"], key)):
+    for axis, axis_settings in settings["axes"].items():
+        head, _, tail = axis_settings["key"].partition(".")
+        if head not in settings["scene"] or (tail and not isinstance(settings["scene"][head], dict)):
+            raise InputError(f"{prefix}.axes.{axis}.key", axis_settings["key"], "a key of the map's scene", file)
+        for key in axis_settings["per"]:
+            if not is_number(_value_at(settings["scene"], key)):
                 raise InputError(f"{prefix}.axes.{axis}.per", key, "keys of the map's scene that hold numbers", file)
-    first = {axis: given["values"][0] for axis, given in one["axes"].items()}
-    for axis, given in one["axes"].items():
-        for value in given["values"]:
-            runs = _read_study(one, first | {axis: value}, name, file).runs()
+    first = {axis: axis_settings["values"][0] for axis, axis_settings in settings["axes"].items()}
+    for axis, axis_settings in settings["axes"].items():
+        for value in axis_settings["values"]:
+            runs = _read_study(settings, first | {axis: value}, name, file).runs()
     if len(runs) != 1:
         raise InputError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
     known = study_kind(runs[0].settings).comparable
-    for quantity in one["of"]:
-        if quantity not in known:
+    for quantity in settings["of"]:
+        if quantity not in comparable:
             raise InputError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
-    return one
+    return settings
 
 
 def _read_panel(section: dict, count: int, maps: Mapping, file: str) -> dict:
@@ -126,11 +126,11 @@ def map_job(settings: dict, name: str) -> dict:
 
 def maps_figure_job(settings: dict, tier: str) -> dict:
     """Return what the figure of all maps depends on."""
-    shown = {key: settings[key] for key in ("title", "caption", "size", "panels")}
-    titles = {name: one["title"] for name, one in settings["maps"].items()}
+    figure = {key: settings[key] for key in ("title", "caption", "size", "panels")}
+    titles = {name: entry["title"] for name, entry in settings["maps"].items()}
     data = digest([map_job(settings, name) for name in settings["maps"]])
     return {
-        "settings": shown,
+        "settings": figure,
         "titles": titles,
         "tier": tier,
         "source": stage_digest("maps_figure"),
@@ -157,15 +157,15 @@ def measure_map(name: str, settings: dict) -> xr.Dataset:
     axes, known = settings["axes"], {}
     errors = np.empty([len(axis["values"]) for axis in axes.values()])
     for place in np.ndindex(errors.shape):
-        values = {axis: given["values"][k] for (axis, given), k in zip(axes.items(), place, strict=True)}
+        values = {axis: axis_settings["values"][k] for (axis, axis_settings), k in zip(axes.items(), place, strict=True)}
         setup = _read_study(settings, values, name, "effect_maps.yaml").runs()[0].setup
-        errors[place] = change_without(setup, settings["neglect"], settings["of"], known)
+        errors[place] = change_without(setup, settings["neglect"], settings["of"], solutions)
     return map_dataset(settings, errors)
 
 
 def map_dataset(settings: dict, errors: Array) -> xr.Dataset:
     """Return the changes of a map with the values of its axes."""
-    axes = {axis: given["values"] for axis, given in settings["axes"].items()}
+    axes = {axis: axis_settings["values"] for axis, axis_settings in settings["axes"].items()}
     return dataset.describe(xr.Dataset({"change_without": (list(axes), errors)}, axes))
 
 
@@ -173,9 +173,9 @@ def _read_study(settings: dict, values: Mapping[str, float], name: str, file: st
     """Return the study of one run at one place of a map."""
     section = settings["scene"]
     for axis, value in values.items():
-        given = settings["axes"][axis]
+        axis_settings = settings["axes"][axis]
         section = _replace_value(
-            section, given["key"], value * math.prod(_value_at(section, key) for key in given["per"])
+            section, axis_settings["key"], value * math.prod(_value_at(section, key) for key in axis_settings["per"])
         )
     return Study.read(name, {"title": name} | section, file, 0)
 
@@ -200,15 +200,15 @@ def format_maps(maps: Mapping[str, xr.Dataset], settings: dict) -> str:
     """Return the maps as the text of the file that the package keeps."""
     sections = {}
     for name, data in maps.items():
-        one = settings["maps"][name]
-        scene = one["scene"]
+        entry = settings["maps"][name]
+        scene = entry["scene"]
         sections[name] = {
-            "neglect": one["neglect"],
-            "of": one["of"],
+            "neglect": entry["neglect"],
+            "of": entry["of"],
             "surface": scene["surface"]["kind"],
             "effects": scene["effects"],
             "bodies": [scene[part]["kind"] for part in ("body", "counter_body") if part in scene],
-            "axes": one["axes"],
+            "axes": entry["axes"],
             "change": [float(f"{value:.3g}") for value in data.change_without.values.ravel()],
         }
     head = (
