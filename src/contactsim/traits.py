@@ -1,4 +1,4 @@
-"""What a scene may demand of a solver.
+"""Traits: demands of a scene on a solver.
 
 A scene derives its traits from what it lists; a solver declares those it accepts.
 A scene is refused unless every one of its traits is accepted, and the refusal names the first that is not.

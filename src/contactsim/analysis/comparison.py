@@ -1,4 +1,4 @@
-"""What a claim compares: a quantity of one study, or its ratio or difference in two, reduced to one number.
+"""The comparison of a claim: a quantity of one study, or its ratio or difference in two, reduced to one number.
 
 Two studies are compared at the loads and variants that both have. A key that only one of them varies is compared at
 each of its values.

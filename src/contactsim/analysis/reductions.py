@@ -42,7 +42,7 @@ class Reduction:
 
     @property
     def inputs(self) -> list[str]:
-        """What it needs beside the quantity: some of `against`, `along` and `across`."""
+        """Inputs that it needs beside the quantity: some of `against`, `along` and `across`."""
         return [name for name in inspect.signature(self.measure).parameters if name not in ("values", "places")]
 
     def __call__(self, values: xr.DataArray, **inputs: Any) -> float:

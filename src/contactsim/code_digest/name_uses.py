@@ -52,7 +52,7 @@ class ScopeNames:
 
 
 class NameUses:
-    """How a module uses names.
+    """Uses of names in a module.
 
     names: those bound, by the node of a scope; loads: how often each name is read; calls: how often it is called;
     keywords: of those calls; attributes: names after a dot; renamed: True unless local variables may be read by name.

@@ -60,11 +60,11 @@ class Cost:
         runs = list(runs)
         files = [measured.get(canonical(run.settings)) for run in runs]
         twins = [plan.twin(run) is not None for run in runs]
-        seconds = [0.0 if twin else predict_seconds(*one) for twin, *one in zip(twins, runs, files, strict=True)]
-        megabytes = [predict_megabytes(*one) for one in zip(runs, files, strict=True)]
-        spent = sum(one + START_SECONDS for one in seconds if one is not None)
-        largest = max((one for one in megabytes if one is not None), default=0.0)
-        return cls(len(runs), sum(one is None for one in seconds), spent, largest)
+        seconds = [0.0 if twin else predict_seconds(*run) for twin, *run in zip(twins, runs, files, strict=True)]
+        megabytes = [predict_megabytes(*run) for run in zip(runs, files, strict=True)]
+        spent = sum(time + START_SECONDS for time in seconds if time is not None)
+        largest = max((size for size in megabytes if size is not None), default=0.0)
+        return cls(len(runs), sum(time is None for time in seconds), spent, largest)
 
 
 def find_measured_costs(plans: Iterable[Plan]) -> dict[str, Path]:

@@ -1,4 +1,4 @@
-"""What a folder of results holds, in the form that archives read: an RO-Crate.
+"""An RO-Crate: the contents of a folder of results in the form that archives read.
 
 Title, authors, licence and date are those of the CITATION.cff, never of the day on which the folder is made. The crate
 lists files by their place in the folder; it does not copy them.

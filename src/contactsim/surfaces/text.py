@@ -213,7 +213,7 @@ def _levels(places: Array, key: str, file: Path | None) -> tuple[NDArray[np.int6
 
 
 class Layout(NamedTuple):
-    """What the columns of a text mean: their possible numbers, those in words, and the conversion to heights."""
+    """Meaning of the columns of a text: their possible numbers, those in words, and the conversion to heights."""
 
     widths: range
     allowed: str

@@ -82,13 +82,13 @@ def _fit_family(kind: str, rows: pd.DataFrame) -> dict:
     errors: dict[str, dict] = {"points": {}, other: {}, "resolved": {}}
     grids, others = rows[rows.knob == "points"], rows[rows.knob == other]
     for name in MEASURED_QUANTITIES[kind]:
-        known = f"error_{name}"
+        column = f"error_{name}"
         order = None if name in FITTED_ORDER else GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
-        errors["points"][name] = fit_power_law(grids, known, ERROR_FEATURES[kind], {"grid": order} if order else {})
-        errors[other][name] = fit_power_law(others, known, ("one", other), {})
+        errors["points"][name] = fit_power_law(grids, column, ERROR_FEATURES[kind], {"grid": order} if order else {})
+        errors[other][name] = fit_power_law(others, column, ("one", other), {})
         if wall:
             features = ("one", "resolved", "pressure", *ROUGH)
-            errors["resolved"][name] = fit_power_law(grids, known, features, {"resolved": order})
+            errors["resolved"][name] = fit_power_law(grids, column, features, {"resolved": order})
     errors = {knob: {name: law for name, law in laws.items() if law} for knob, laws in errors.items()}
     transforms = fit_power_law(rows[rows.knob != "warm_start"], "transforms", WORK_FEATURES[kind], {})
     law = Relation(transforms["coefficients"], transforms["spread"])
@@ -148,8 +148,8 @@ def _fit_seconds(rows: pd.DataFrame) -> dict:
     size, seconds = rows.total.to_numpy(float), rows.seconds.to_numpy(float)
     parts = np.stack([rows["count"], rows.transforms, rows.transforms * size * np.log2(size)], axis=1).astype(float)
     begin = np.log(np.median(seconds[:, None] / parts, axis=0) / len(parts.T))
-    found = np.exp(least_squares(lambda logs: np.log(parts @ np.exp(logs) / seconds), begin, loss="soft_l1").x)
-    return dict(zip(("step", "transform", "point"), map(_round, found), strict=True))
+    times = np.exp(least_squares(lambda logs: np.log(parts @ np.exp(logs) / seconds), begin, loss="soft_l1").x)
+    return dict(zip(("step", "transform", "point"), map(_round, times), strict=True))
 
 
 def _round(value: float) -> float:

@@ -49,10 +49,10 @@ MAX_POINTS = 2**14
 
 def read_trials(folder: str | Path, over: dict, tier: str) -> dict | None:
     """Return the settings of trials.yaml with a tier's changes; None without that file."""
-    given = tiered(Path(folder) / "trials.yaml", over, tier)
-    if given is None:
+    source = tiered(Path(folder) / "trials.yaml", over, tier)
+    if source is None:
         return None
-    section, file = given
+    section, file = source
     settings = read(section, KEYS, file)
     for part in ("calibration", "trial"):
         settings[part] = read(settings[part], DRAW_KEYS, file, part)

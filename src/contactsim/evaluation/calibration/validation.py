@@ -60,9 +60,9 @@ def trials_figure_job(settings: dict, tier: str) -> dict:
     data = [
         trial_job(settings, kind, count) for kind in settings["kinds"] for count in range(settings["trial"]["scenes"])
     ]
-    shown = {key: settings[key] for key in ("title", "caption", "size")}
+    figure = {key: settings[key] for key in ("title", "caption", "size")}
     code = stage_digest("trials_figure")
-    return {"settings": shown, "tier": tier, "seed": settings["trial"]["seed"], "source": code, "data": digest(data)}
+    return {"settings": figure, "tier": tier, "seed": settings["trial"]["seed"], "source": code, "data": digest(data)}
 
 
 def requested_error(settings: dict, kind: str, count: int) -> float:

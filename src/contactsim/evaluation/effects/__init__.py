@@ -1,1 +1,1 @@
-"""What each effect costs, and what neglecting it changes."""
+"""Cost of each effect, and change on neglecting it."""

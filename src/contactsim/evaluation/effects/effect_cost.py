@@ -54,16 +54,16 @@ def read_variants(folder: str | Path, seed: int, over: dict, tier: str) -> dict 
 def effects_job(settings: dict) -> dict:
     """Return what the measurement depends on."""
     modules = sorted({solver_module(variant["run"]["solver"]["kind"]) for variant in settings["variants"]})
-    shown = {key: settings[key] for key in ("repeats", "variants")}
-    return {"settings": shown, "source": computing_stage_digest("measure_effects", *modules)}
+    job = {key: settings[key] for key in ("repeats", "variants")}
+    return {"settings": job, "source": computing_stage_digest("measure_effects", *modules)}
 
 
 def effects_figure_job(settings: dict, tier: str) -> dict:
     """Return what the figure depends on."""
     titles = {variant["name"]: variant["title"] for variant in settings["variants"]}
-    shown = {key: settings[key] for key in ("title", "caption", "size")}
+    figure = {key: settings[key] for key in ("title", "caption", "size")}
     code, data = stage_digest("effects_figure"), digest(effects_job(settings))
-    settings = {"settings": shown, "titles": titles, "repeats": settings["repeats"], "tier": tier}
+    settings = {"settings": figure, "titles": titles, "repeats": settings["repeats"], "tier": tier}
     return settings | {"source": code, "data": data}
 
 

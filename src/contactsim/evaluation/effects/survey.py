@@ -76,7 +76,10 @@ def _read_map(name: str, section: object, file: str) -> dict:
     """Return the checked settings of a map, down to the scenes of all values of its axes."""
     prefix = f"maps.{name}"
     settings = read(section, MAP_KEYS, file, prefix)
-    settings["axes"] = {axis: read(axis_settings, AXIS_KEYS, file, f"{prefix}.axes.{axis}") for axis, axis_settings in settings["axes"].items()}
+    settings["axes"] = {
+        axis: read(axis_settings, AXIS_KEYS, file, f"{prefix}.axes.{axis}")
+        for axis, axis_settings in settings["axes"].items()
+    }
     if not settings["axes"]:
         raise InputError(f"{prefix}.axes", {}, "at least one axis", file)
     for axis, axis_settings in settings["axes"].items():
@@ -92,10 +95,10 @@ def _read_map(name: str, section: object, file: str) -> dict:
             runs = _read_study(settings, first | {axis: value}, name, file).runs()
     if len(runs) != 1:
         raise InputError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
-    known = study_kind(runs[0].settings).comparable
+    comparable = study_kind(runs[0].settings).comparable
     for quantity in settings["of"]:
         if quantity not in comparable:
-            raise InputError(f"{prefix}.of", quantity, f"some of {', '.join(known)}", file)
+            raise InputError(f"{prefix}.of", quantity, f"some of {', '.join(comparable)}", file)
     return settings
 
 
@@ -154,10 +157,12 @@ def measure_map(name: str, settings: dict) -> xr.Dataset:
         Largest relative change of the map's quantities, with one dimension an axis; infinite where a path has no
         solution.
     """
-    axes, known = settings["axes"], {}
+    axes, solutions = settings["axes"], {}
     errors = np.empty([len(axis["values"]) for axis in axes.values()])
     for place in np.ndindex(errors.shape):
-        values = {axis: axis_settings["values"][k] for (axis, axis_settings), k in zip(axes.items(), place, strict=True)}
+        values = {
+            axis: axis_settings["values"][k] for (axis, axis_settings), k in zip(axes.items(), place, strict=True)
+        }
         setup = _read_study(settings, values, name, "effect_maps.yaml").runs()[0].setup
         errors[place] = change_without(setup, settings["neglect"], settings["of"], solutions)
     return map_dataset(settings, errors)

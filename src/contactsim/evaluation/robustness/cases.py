@@ -40,7 +40,7 @@ class Case:
 
     @property
     def kind(self) -> frozenset[Trait]:
-        """What a solver must take to take such cases at all."""
+        """Traits that a solver must accept to solve such cases."""
         return frozenset({Trait.WALL, {1: Trait.LINE, 2: Trait.SURFACE}[self.heights.ndim]})
 
     @property
@@ -56,7 +56,7 @@ class Case:
         """
         *rows, last = zip(self.heights.shape, self.spacings, strict=True)
         waves = [np.fft.fftfreq(size, spacing) for size, spacing in rows]
-        q = 2 * np.pi * np.sqrt(sum(np.square(one) for one in np.ix_(*waves, np.fft.rfftfreq(*last))))
+        q = 2 * np.pi * np.sqrt(sum(np.square(wave) for wave in np.ix_(*waves, np.fft.rfftfreq(*last))))
         if self.thickness is None:
             return np.divide(2 / self.contact_modulus, q, out=np.zeros_like(q), where=q > 0)
         response = layer_response(q.ravel() * self.thickness, self.poisson_ratio).reshape(q.shape)
@@ -114,8 +114,10 @@ def make_case(
         layer |= {"thickness": unit * layer["thickness"]}
     pressure = np.maximum(field, 0.0)
     exact = scale / unit * pressure
-    apart = unit * spacing if np.ndim(spacing) == 0 else tuple(unit * one for one in spacing)
-    case = Case(field, exact.mean(), spacing=apart, contact_modulus=1 / unit, tolerance=tolerance, exact=exact, **layer)
+    spacings = unit * spacing if np.ndim(spacing) == 0 else tuple(unit * step for step in spacing)
+    case = Case(
+        field, exact.mean(), spacing=spacings, contact_modulus=1 / unit, tolerance=tolerance, exact=exact, **layer
+    )
     heights = displacement(exact, case.compliance) - unit * scale * np.maximum(-field, 0.0)
     return replace(case, heights=heights)
 

@@ -65,7 +65,7 @@ class PathCase:
 
     @property
     def kind(self) -> frozenset[Trait]:
-        """What a solver must take to take such cases at all."""
+        """Traits that a solver must accept to solve such cases."""
         return frozenset({Trait.LINE}).union(*(effect.traits for effect in self.scene.effects))
 
     @property
@@ -75,7 +75,7 @@ class PathCase:
 
     @property
     def statuses(self) -> list[Status]:
-        """How each step must end."""
+        """End that each step must have."""
         return [Status.CONVERGED] * (len(self.steps) - 1) + [self.ends]
 
     @cached_property
@@ -92,8 +92,8 @@ class PathCase:
     def compliance(self) -> Array:
         """Displacement per traction of both bodies together, complex, (n//2 + 1, 2, 2), nm/GPa."""
         q = 2 * np.pi * np.fft.rfftfreq(self.points, self.scene.length / self.points)
-        turned = np.array([[1, -1], [-1, 1]])
-        bodies = (self.scene.lower.elasticity, 1), (self.scene.upper.elasticity, turned)
+        signs = np.array([[1, -1], [-1, 1]])
+        bodies = (self.scene.lower.elasticity, 1), (self.scene.upper.elasticity, signs)
         total = sum(surface_compliance(body, q) * turn for body, turn in bodies if body is not None)
         if self.points % 2 == 0:
             total[-1, [0, 1], [1, 0]] = 0.0

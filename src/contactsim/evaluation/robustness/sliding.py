@@ -44,8 +44,8 @@ def _slid(slides: list[float], held: float = 0.0, before: list[float] | None = N
 def many_cells_slid(severity: float) -> PathCase:
     """A stiff probe put down 1 to 1e6 cells of the lattice on slides by a quarter: exact, forces repeat themselves."""
     cells = round(10 ** (6 * severity / 100))
-    (held,) = approaches([0.0]).steps
-    moved = [LoadStep(Trait.SLIDE, (cells + part) * LATTICE, held=held) for part in (0.0, 0.25)]
+    (touching,) = approaches([0.0]).steps
+    moved = [LoadStep(Trait.SLIDE, (cells + part) * LATTICE, held=touching) for part in (0.0, 0.25)]
     return PathCase(_probe(LoadPath(tuple(moved)), WEAK, STIFF), 64, even=False)
 
 
@@ -64,8 +64,8 @@ def wide_window(severity: float) -> PathCase:
 
 def pulled_apart_slide(severity: float) -> PathCase:
     """Held ever farther apart, from 1 to 21 nm before first touch, the soft probe slides: as in small increments."""
-    held = -1.0 - 20 * severity / 100
-    return PathCase(_probe(_slid([2.0, 4.0], held), STRONG, SOFT), 64, begin=-30.0, parts=8, even=False)
+    approach = -1.0 - 20 * severity / 100
+    return PathCase(_probe(_slid([2.0, 4.0], approach), STRONG, SOFT), 64, begin=-30.0, parts=8, even=False)
 
 
 def pulled_off_slide(severity: float) -> PathCase:

@@ -31,7 +31,7 @@ def _hilly(shape: tuple[int, int], along: tuple[float, float] = (1.5, 1.5)) -> A
     """Noise smoothed over that many points along y and x, of unit rms."""
     noise = np.random.default_rng(shape).normal(size=shape)
     waves = [2 * np.pi * np.fft.fftfreq(size) * length for size, length in zip(shape, along, strict=True)]
-    smooth = np.fft.ifft2(np.fft.fft2(noise) * np.exp(-sum(np.square(one) for one in np.ix_(*waves)) / 2)).real
+    smooth = np.fft.ifft2(np.fft.fft2(noise) * np.exp(-sum(np.square(wave) for wave in np.ix_(*waves)) / 2)).real
     return smooth / smooth.std()
 
 
@@ -72,7 +72,7 @@ def full_surface(severity: float) -> Case:
 
 
 def flat_punch(severity: float) -> Case:
-    """What surrounds a flat round top falls, from 1 to 1e7 spacings below: its answer stays.
+    """The surroundings of a flat round top fall, from 1 to 1e7 spacings below: its answer stays.
 
     The edge carries most; the answer is by elimination. The tolerance falls with the depth: it stays the same length.
     """

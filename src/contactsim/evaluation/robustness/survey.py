@@ -72,11 +72,11 @@ def read_robustness(folder: str | Path, plan: Plan) -> dict | None:
 def robustness_job(settings: Mapping, plan: Plan) -> dict:
     """Return what the dataset of all hazards depends on."""
     hazards = settings["hazards"]
-    shown = {key: settings[key] for key in ("title", "severities", "solvers", "hazards")} | {"tier": plan.tier}
+    figure = {key: settings[key] for key in ("title", "severities", "solvers", "hazards")} | {"tier": plan.tier}
     return {
         "paths": [f"{plan.results}/stability/{hazard}.nc" for hazard in hazards],
         "jobs": [hazard_job(settings, hazard) for hazard in hazards],
-        "settings": shown,
+        "settings": figure,
         "source": stage_digest("hazard"),
     }
 

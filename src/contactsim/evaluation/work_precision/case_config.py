@@ -71,13 +71,13 @@ def read_overview(folder: str | Path) -> dict | None:
 
 def overview_figure_job(settings: dict, cases: dict[str, Case], tier: str) -> dict:
     """Return what the page of all cases depends on, apart from their tables."""
-    shown = {
+    panels = {
         name: {"title": case.settings["title"].rpartition(": ")[2], "quantity": case.settings["quantities"][0]}
         for name, case in cases.items()
     }
     return {
         "settings": settings,
-        "cases": shown,
+        "cases": panels,
         "tier": tier,
         "source": stage_digest("overview_figure"),
     }
@@ -123,8 +123,8 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
     except InputError as error:
         if error.key == "solver":
             raise InputError(f"{prefix}.solvers", job, error.allowed, file) from error
-        turned = REFERENCE if job == REFERENCE else f"solvers.{job}"
-        raise error.located(file, f"{prefix}.{turned if error.key == setting.knob else 'settled'}") from error
+        section = REFERENCE if job == REFERENCE else f"solvers.{job}"
+        raise error.located(file, f"{prefix}.{section if error.key == setting.knob else 'settled'}") from error
 
 
 def _check_keys(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
@@ -134,22 +134,22 @@ def _check_keys(settings: dict, study: Study, kind: SingleLoads | WholePath, fil
             raise InputError(f"{prefix}.{key}", settings[key], why, file)
     if settings["load"] is None and "load" not in kind.unused_keys:
         raise InputError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
-    own = [name for name in kind.quantities if name in quantities(study)]
-    for key, known in (("load", study.settings["load"]["values"]), ("quantities", own)):
+    measured = [name for name in kind.quantities if name in quantities(study)]
+    for key, allowed in (("load", study.settings["load"]["values"]), ("quantities", measured)):
         for value in settings[key] or ():
-            if value not in known:
-                raise InputError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, known))}", file)
+            if value not in allowed:
+                raise InputError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, allowed))}", file)
 
 
 def _select_values(study: Study, vary: dict, file: Path, prefix: str) -> Study:
     """Return the study restricted to some of its varied values."""
     for key, values in vary.items():
-        known = study.settings["vary"].get(key)
-        if known is None:
+        varied = study.settings["vary"].get(key)
+        if varied is None:
             allowed = f"a key that the study varies: {', '.join(study.settings['vary']) or 'none'}"
             raise InputError(f"{prefix}.{key}", values, allowed, file)
-        if not isinstance(values, list) or not values or any(value not in known for value in values):
-            raise InputError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, known))}", file)
+        if not isinstance(values, list) or not values or any(value not in varied for value in values):
+            raise InputError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, varied))}", file)
     return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
 
 
@@ -177,7 +177,7 @@ def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
         "tier": plan.tier,
         "default": case.default,
         "selection": case.selection,
-        "expected": [[f"{value:.6g}" for value in one] for one in forecast_costs(case)],
+        "expected": [[f"{value:.6g}" for value in costs] for costs in forecast_costs(case)],
         "loads": case.kind.loads(case.study, case.settings["load"]),
         "units": case.kind.units(case.study),
         "surface": Trait.SURFACE in case.study.runs()[0].setup.scene.traits,

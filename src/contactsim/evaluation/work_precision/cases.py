@@ -76,9 +76,9 @@ class Case:
 
     def job_settings(self, job: str) -> dict:
         """Return what a job's result depends on, apart from the code."""
-        kept = ("load", "members", "quantities", "settled", "reference", "repeats")
-        turned = [{"knob": one.knob} | one.numbers for one in self.settings_of(job)]
-        own = {name: self.settings[name] for name in kept} | {"turned": turned}
+        names = ("load", "members", "quantities", "settled", "reference", "repeats")
+        places = [{"knob": setting.knob} | setting.numbers for setting in self.settings_of(job)]
+        own = {name: self.settings[name] for name in names} | {"turned": places}
         runs = [run.settings for run in self.study_at(self.settings_of(job)[0], job).runs()]
         return {"case": self.name, "job": job, "settings": own, "runs": runs}
 
@@ -99,7 +99,7 @@ class Case:
         seconds : list of float
             Shortest CPU time of each setting.
         """
-        found, seconds = [], []
+        results, seconds = [], []
         for setting in self.settings_of(job):
             runs, times = self.study_at(setting, job).runs(), []
             while len(times) < self.settings["repeats"] and not (times and times[-1] > MAX_REPEATED_SECONDS):
@@ -112,10 +112,10 @@ class Case:
                 ]
             )
             solved = summarise_solutions(data)
-            kept = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
-            found.append(kept.assign(setting.numbers | {"knob": setting.knob}))
+            result = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
+            results.append(result.assign(setting.numbers | {"knob": setting.knob}))
             seconds.append(min(times))
-        return xr.concat(found, "setting", combine_attrs="drop", coords="minimal"), seconds
+        return xr.concat(results, "setting", combine_attrs="drop", coords="minimal"), seconds
 
 
 def simulate_run(run: Run) -> xr.Dataset:

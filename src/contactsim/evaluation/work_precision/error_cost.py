@@ -31,16 +31,16 @@ def error_table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Data
     loads, infinite where one of them has no value, as without contact; work is transforms times all points of the grid.
     """
     rows = []
-    references = {str(one.knob.item()): one for one in _split_settings(jobs[REFERENCE])}
+    references = {str(solution.knob.item()): solution for solution in _split_settings(jobs[REFERENCE])}
     knobs = [knob for knob in KNOBS if knob in jobs[REFERENCE]]
     for kind, data in jobs.items():
-        for one in _split_settings(data) if kind != REFERENCE else ():
-            reference = references[one.knob.item()]
-            rows.append({"solver": kind} | {name: one[name].item() for name in ("knob", *knobs)})
+        for solution in _split_settings(data) if kind != REFERENCE else ():
+            reference = references[solution.knob.item()]
+            rows.append({"solver": kind} | {name: solution[name].item() for name in ("knob", *knobs)})
             for name in case_settings["quantities"]:
-                rows[-1][name] = _root_mean_square(one[name] / reference[name] - 1)
-            rows[-1]["work"] = float(one.transforms.sum() * _size(one))
-            rows[-1]["unconverged"] = unconverged_share(one)
+                rows[-1][name] = _root_mean_square(solution[name] / reference[name] - 1)
+            rows[-1]["work"] = float(solution.transforms.sum() * _size(solution))
+            rows[-1]["unconverged"] = unconverged_share(solution)
     columns = ["solver", "knob", *knobs, "members", *case_settings["quantities"], "work", "unconverged"]
     table = pd.DataFrame(rows + list(_ensembles(case_settings, study, default)), columns=columns)
     return table.assign(own=table.solver == default)
@@ -113,10 +113,10 @@ def cost_at_error(table: pd.DataFrame, quantity: str, error: float, cost: str) -
     Where larger errors cost more, it is that of the cheapest setting.
     """
     curve = table.sort_values(cost)
-    found = np.log(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
-    if not (found.min() <= np.log(error) <= found.max()):
+    errors = np.log(np.maximum(curve[quantity], np.finfo(float).eps))  # an error of zero is rounding
+    if not (errors.min() <= np.log(error) <= errors.max()):
         return float("nan")
-    return float(np.exp(np.interp(-np.log(error), -np.minimum.accumulate(found), np.log(curve[cost]))))
+    return float(np.exp(np.interp(-np.log(error), -np.minimum.accumulate(errors), np.log(curve[cost]))))
 
 
 def compare_solvers(

@@ -29,11 +29,11 @@ from contactsim.variables import RESULTS
 
 @dataclass(frozen=True)
 class Knob:
-    """What can be turned: the kind of its values, one and several of them in words, and which of them is finest."""
+    """A knob: the reader of a value, words for one value and for several, and the function that finds the finest."""
 
     kind: Callable[[object], float]
-    one: str
-    several: str
+    value_text: str
+    values_text: str
     finest: Callable[..., float]
 
     def check(self, values: list, reference: float, file: Path, key: str) -> None:
@@ -53,8 +53,8 @@ KNOBS = {
         positive, "a positive number, as the `tangential_cutoff` of a pairing", "a list of cutoffs", max
     ),
 }
-SETTING_KEYS = {name: Key(knob.kind, knob.one) for name, knob in KNOBS.items()}
-KNOB_KEYS = {name: Key(listed(knob.kind), knob.several, []) for name, knob in KNOBS.items()}
+SETTING_KEYS = {name: Key(knob.kind, knob.value_text) for name, knob in KNOBS.items()}
+KNOB_KEYS = {name: Key(listed(knob.kind), knob.values_text, []) for name, knob in KNOBS.items()}
 LEVEL_KEYS = {name: Key(listed(positive), "a list of relative errors", []) for name in KNOBS}
 
 
@@ -129,13 +129,13 @@ class WholePath:
     def edit_settings(self, study: Study, loads: None, setting: Setting) -> dict:
         """Return the edited increment; none is interpolated, and no fields are kept."""
         path = {key: value for key, value in study.settings["load"].items() if key != "values"}
-        asked = {"increments": {"kind": "requested"}, "snapshots": None}
-        return asked | {"load": path | {"increment": setting.increment}}
+        edits = {"increments": {"kind": "requested"}, "snapshots": None}
+        return edits | {"load": path | {"increment": setting.increment}}
 
     def knob_values(self, settings: dict) -> dict[str, float]:
         """Return the increment, unless it is adaptive."""
-        asked = settings["increments"]["kind"] == "requested"
-        return {"increment": settings["load"]["increment"]} if asked else {}
+        is_requested = settings["increments"]["kind"] == "requested"
+        return {"increment": settings["load"]["increment"]} if is_requested else {}
 
     def units(self, study: Study) -> dict[str, str]:
         """Return the unit of the increment, that of the path's control; a tolerance is in parts of the strength."""
@@ -156,15 +156,15 @@ class WholeSlide(WholePath):
 
     def edit_settings(self, study: Study, loads: None, setting: Setting) -> dict:
         """Return the edited increment of the slide and tangential cutoff; none is interpolated, no fields are kept."""
-        asked = {"increments": {"kind": "requested"}, "snapshots": None}
-        asked["slide"] = study.settings["slide"] | {"increment": setting.increment}
-        return asked | {"pairing": study.settings["pairing"] | {"tangential_cutoff": setting.tangential_cutoff}}
+        edits = {"increments": {"kind": "requested"}, "snapshots": None}
+        edits["slide"] = study.settings["slide"] | {"increment": setting.increment}
+        return edits | {"pairing": study.settings["pairing"] | {"tangential_cutoff": setting.tangential_cutoff}}
 
     def knob_values(self, settings: dict) -> dict[str, float]:
         """Return the increment, unless it is adaptive, and the tangential cutoff."""
-        asked = settings["increments"]["kind"] == "requested"
+        is_requested = settings["increments"]["kind"] == "requested"
         cutoff = {"tangential_cutoff": settings["pairing"].get("tangential_cutoff", Lattice.tangential_cutoff)}
-        return cutoff | ({"increment": settings["slide"]["increment"]} if asked else {})
+        return cutoff | ({"increment": settings["slide"]["increment"]} if is_requested else {})
 
     def units(self, study: Study) -> dict[str, str]:
         """Return the unit of the slide's increment; a cutoff counts tangential lengths."""
@@ -188,28 +188,28 @@ def read_knobs(settings: dict, kind: SingleLoads | WholePath, file: Path, prefix
             raise InputError(f"{key}.{name}", section[name], kind.unused_keys[name], file)
         return read(section, {name: keys[name] for name in kind.knobs}, file, key)
 
-    found = {part: knobs(settings[part], SETTING_KEYS, f"{prefix}.{part}") for part in ("settled", "reference")}
-    turned = {f"{prefix}.settled": {name: [value] for name, value in found["settled"].items()}}
-    found |= {"levels": knobs(settings["levels"], LEVEL_KEYS, f"{prefix}.levels"), "solvers": {}}
+    sections = {part: knobs(settings[part], SETTING_KEYS, f"{prefix}.{part}") for part in ("settled", "reference")}
+    values_by_key = {f"{prefix}.settled": {name: [value] for name, value in sections["settled"].items()}}
+    sections |= {"levels": knobs(settings["levels"], LEVEL_KEYS, f"{prefix}.levels"), "solvers": {}}
     for solver, section in settings["solvers"].items():
         key = f"{prefix}.solvers.{solver}"
-        turned[key] = found["solvers"][solver] = knobs(section, KNOB_KEYS, key)
-        if not any(turned[key].values()):
+        values_by_key[key] = sections["solvers"][solver] = knobs(section, KNOB_KEYS, key)
+        if not any(values_by_key[key].values()):
             raise InputError(key, section, f"{', or '.join(kind.knobs)}, or more than one", file)
-    for key, section in turned.items():
+    for key, section in values_by_key.items():
         for name, values in section.items():
-            KNOBS[name].check(values, found["reference"][name], file, f"{key}.{name}")
-    return found
+            KNOBS[name].check(values, sections["reference"][name], file, f"{key}.{name}")
+    return sections
 
 
 def summarise_solutions(data: xr.Dataset) -> xr.Dataset:
     """Return loads as they are, and paths as their summaries with all transforms and the first failed status."""
     form = form_of(data)
-    found = form.derive(data)
+    summary = form.derive(data)
     if not form.is_path:
-        return found
+        return summary
     failed = ~is_solved(data.status)
     first = data.status.isel(step=failed.argmax("step")).drop_vars("step", errors="ignore")
-    return found[[name for name in WholeSlide.quantities if name in found]].assign(
+    return summary[[name for name in WholeSlide.quantities if name in summary]].assign(
         transforms=data.transforms.sum("step"), status=first
     )
