@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property, reduce
+from typing import TypeGuard
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from contactsim.contact.loading import LoadPath
 from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.interface.base import Effect, Law, is_coupled, is_law
+from contactsim.interface.base import Effect, Law, is_coupled
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.surfaces.base import Surface
 from contactsim.surfaces.shapes import Flat
@@ -163,12 +164,12 @@ class Scene:
     @property
     def laws(self) -> tuple[Law, ...]:
         """Effects that are smooth functions of the gap."""
-        return tuple(effect for effect in self.effects if is_law(effect))
+        return tuple(effect for effect in self.effects if _is_law(effect))
 
     @property
     def acting_laws(self) -> tuple[Law, ...]:
         """The same of the effects as they act."""
-        return tuple(effect for effect in self.acting if is_law(effect))
+        return tuple(effect for effect in self.acting if _is_law(effect))
 
     @cached_property
     def components(self) -> tuple[str, ...]:
@@ -220,3 +221,8 @@ class Scene:
         `points` is the number of points along x.
         """
         return self.upper.surface.heights(points) + self.lower.surface.heights(points)
+
+
+def _is_law(effect: Effect) -> TypeGuard[Law]:
+    """Return True if an effect is a smooth function of the gap."""
+    return Trait.SMOOTH in effect.traits

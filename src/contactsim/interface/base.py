@@ -73,11 +73,6 @@ class ConservativeLaw(Law, Protocol):
         """Return the potential (n,), N/m, at a gap (reads, n), nm; zero where the surfaces are far apart."""
 
 
-def is_law(effect: Effect) -> TypeGuard[Law]:
-    """Return True if an effect is a smooth function of the gap."""
-    return Trait.SMOOTH in effect.traits
-
-
 def is_coupled(effect: Effect) -> TypeGuard[CoupledLaw]:
     """Return True if an effect reads the tangential gap."""
     return "t" in effect.reads
