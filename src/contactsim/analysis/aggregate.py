@@ -16,9 +16,9 @@ from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fit_line_areas
-from contactsim.observables.contact import proportionality
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
+from contactsim.observables.proportionality import proportionality
 from contactsim.variables import ERRORS
 
 EXACT_CONTACTS = {

@@ -123,8 +123,3 @@ def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, 
         "mean_gap": float(gap.mean()),
         "mean_pressure": float(pressure.mean()),
     }
-
-
-def proportionality(area: Array, pressure: Array, gradient: Array, contact_modulus: float) -> Array:
-    """Return κ = a_rel ḡ E*/p (Eqs 3.1 and 3.3), or κ_r with the gradient over the contact; NaN at zero pressure."""
-    return np.where(pressure > 0, area * gradient * contact_modulus / np.where(pressure > 0, pressure, 1.0), np.nan)

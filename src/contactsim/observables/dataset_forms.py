@@ -14,10 +14,11 @@ import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
 from contactsim.observables.adhesion import SUMMARY
-from contactsim.observables.derived import derive_contact_factors, summarise_approaches, summarise_paths
+from contactsim.observables.derived import summarise_approaches, summarise_paths
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.peeling import ONSET, THRESHOLD
+from contactsim.observables.proportionality import derive_contact_factors
 from contactsim.variables import LOADS
 
 STEP = "step"

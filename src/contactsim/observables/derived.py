@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 
 from contactsim.observables.adhesion import AREAS, summarise_load_curves
-from contactsim.observables.contact import proportionality
 from contactsim.observables.friction import SLIDE_INPUTS, summarise_slides
 from contactsim.observables.hysteresis import summarise_cycles
 from contactsim.observables.linearity import summarise_area_load
@@ -49,34 +48,6 @@ def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dat
     for name in set(SHARED_SCALARS) & set(data):
         if (data[name] == data[name].values.flat[0]).all():
             data[name] = data[name].values.flat[0]
-    return data
-
-
-def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
-    """Return loads on their own at a hard wall with κ, κ_r, the reduced pressure in contact and the contact's size.
-
-    Notes
-    -----
-    κ, of dimension `reduced_pressure`, is Eq. 3.1 and κ_r is Eq. 3.3. A contact of a cylinder has a `half_width`, that
-    of a sphere a `contact_radius`, both in nm.
-    """
-    area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
-
-    def kappa(gradient: xr.DataArray) -> xr.DataArray:
-        """Return κ for that gradient."""
-        return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
-
-    data = data.assign(
-        kappa_r=kappa(data.rms_gradient_contact),
-        kappa_r_pairs=kappa(data.rms_gradient_contact_pairs),
-        reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
-    )
-    if "reduced_pressure" in data.dims:
-        data["kappa"] = area / data.reduced_pressure
-    if "contact_ratio" in data.dims and "length_y" in data:
-        data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
-    elif "contact_ratio" in data.dims:
-        data["half_width"] = area * data.length / 2
     return data
 
 

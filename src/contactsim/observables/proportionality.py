@@ -1,0 +1,41 @@
+"""Proportionality of contact area and load: κ of Eq. 3.1 and κ_r of Eq. 3.3, and the size of smooth contacts."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from contactsim.grid import Array
+
+
+def proportionality(area: Array, pressure: Array, gradient: Array, contact_modulus: float) -> Array:
+    """Return κ = a_rel ḡ E*/p (Eqs 3.1 and 3.3), or κ_r with the gradient over the contact; NaN at zero pressure."""
+    return np.where(pressure > 0, area * gradient * contact_modulus / np.where(pressure > 0, pressure, 1.0), np.nan)
+
+
+def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
+    """Return loads on their own at a hard wall with κ, κ_r, the reduced pressure in contact and the contact's size.
+
+    Notes
+    -----
+    κ, of dimension `reduced_pressure`, is Eq. 3.1 and κ_r is Eq. 3.3. A contact of a cylinder has a `half_width`, that
+    of a sphere a `contact_radius`, both in nm.
+    """
+    area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
+
+    def kappa(gradient: xr.DataArray) -> xr.DataArray:
+        """Return κ for that gradient."""
+        return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
+
+    data = data.assign(
+        kappa_r=kappa(data.rms_gradient_contact),
+        kappa_r_pairs=kappa(data.rms_gradient_contact_pairs),
+        reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
+    )
+    if "reduced_pressure" in data.dims:
+        data["kappa"] = area / data.reduced_pressure
+    if "contact_ratio" in data.dims and "length_y" in data:
+        data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
+    elif "contact_ratio" in data.dims:
+        data["half_width"] = area * data.length / 2
+    return data
