@@ -215,6 +215,12 @@ class Scene:
         total: Array = np.zeros(np.shape(wavenumber))
         return sum((body.compliance(wavenumber) for body in self.elasticities), start=total)
 
+    @property
+    def modes(self) -> int | None:
+        """Highest number of waves in a period of both surfaces together; None if there is no limit."""
+        modes = self.lower.surface.modes, self.upper.surface.modes
+        return None if None in modes else max(count for count in modes if count is not None)
+
     def heights(self, points: int) -> Array:
         """Return the sum of both surfaces' heights (n,) or (ny, nx), nm, each positive towards the other.
 

@@ -10,12 +10,9 @@ response that of the half-space, universal: by where the edge lies between two p
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from contactsim.grid import Array
-from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
 
 KEPT = ("contact", "pressure", "profile", "fields")
 """Parts of a solution that a run can keep beside its numbers; all but the last by default."""
@@ -94,32 +91,3 @@ def _steepness(places: Array, axis: int, pressure: Array, shape: tuple[int, ...]
 def contact_edges(contact: Array) -> int:
     """Return the number of pairs of neighbours with one point in contact; contact: bool (n,) or (ny, nx), periodic."""
     return sum(int(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in range(contact.ndim))
-
-
-def wall_observables(heights: Array, spacing: Sequence[float], pressure: Array, gap: Array) -> dict[str, float]:
-    """Return the numbers of one hard-wall state.
-
-    Parameters
-    ----------
-    heights, pressure, gap : array, shape (n,) or (ny, nx)
-        In nm, GPa and nm.
-    spacing : sequence of float
-        Distance between points in each direction, nm.
-
-    Returns
-    -------
-    dict
-        Relative contact area by points, and with edges between points; pairs of points at edges; rms gradient over the
-        contact (Eqs 3.8-3.9), also of pairs with both ends in contact, NaN without contact; mean gap, nm; mean
-        pressure, GPa.
-    """
-    contact = touching(pressure)
-    return {
-        "relative_contact_area": float(contact.mean()),
-        "relative_contact_area_subgrid": relative_contact_area_subgrid(pressure, gap),
-        "contact_edges": contact_edges(contact),
-        "rms_gradient_contact": rms_gradient(heights, spacing, contact),
-        "rms_gradient_contact_pairs": rms_gradient_pairs(heights, spacing, contact),
-        "mean_gap": float(gap.mean()),
-        "mean_pressure": float(pressure.mean()),
-    }

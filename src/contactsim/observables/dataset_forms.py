@@ -25,11 +25,18 @@ STEP = "step"
 """Dimension of the load of a path."""
 AVERAGED = (
     "relative_contact_area",
+    "relative_contact_area_corrected",
     "relative_contact_area_subgrid",
     "kappa",
+    "kappa_corrected",
+    "kappa_subgrid",
     "kappa_r",
+    "kappa_r_corrected",
+    "kappa_r_subgrid",
     "kappa_r_pairs",
     "rms_gradient_contact",
+    "rms_gradient_contact_corrected",
+    "rms_gradient_contact_subgrid",
     "rms_gradient_contact_pairs",
     "reduced_pressure_contact",
     "mean_gap",

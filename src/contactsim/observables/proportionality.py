@@ -23,17 +23,21 @@ def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
     """
     area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
 
-    def kappa(gradient: xr.DataArray) -> xr.DataArray:
-        """Return κ for that gradient."""
+    def kappa(area: xr.DataArray, gradient: xr.DataArray) -> xr.DataArray:
+        """Return κ for that area and gradient."""
         return xr.apply_ufunc(proportionality, area, pressure, gradient, modulus)
 
     data = data.assign(
-        kappa_r=kappa(data.rms_gradient_contact),
-        kappa_r_pairs=kappa(data.rms_gradient_contact_pairs),
+        kappa_r=kappa(area, data.rms_gradient_contact),
+        kappa_r_pairs=kappa(area, data.rms_gradient_contact_pairs),
+        kappa_r_corrected=kappa(data.relative_contact_area_corrected, data.rms_gradient_contact_corrected),
+        kappa_r_subgrid=kappa(data.relative_contact_area_subgrid, data.rms_gradient_contact_subgrid),
         reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
     )
     if "reduced_pressure" in data.dims:
         data["kappa"] = area / data.reduced_pressure
+        data["kappa_corrected"] = data.relative_contact_area_corrected / data.reduced_pressure
+        data["kappa_subgrid"] = data.relative_contact_area_subgrid / data.reduced_pressure
     if "contact_ratio" in data.dims and "length_y" in data:
         data["contact_radius"] = np.sqrt(area * data.length * data.length_y / np.pi)
     elif "contact_ratio" in data.dims:

@@ -26,10 +26,11 @@ from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
-from contactsim.observables.contact import KEPT, wall_observables
+from contactsim.observables.contact import KEPT
+from contactsim.observables.hard_wall import wall_observables
 from contactsim.solvers.base import HardWallSolver, Result, solve
 from contactsim.status import status_sentence
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
+from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height, squared_gradient
 
 logger = logging.getLogger(__name__)
 
@@ -94,6 +95,7 @@ def simulate_loads(
         if name not in KEPT:
             raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
+    slopes = squared_gradient(heights, scene.lengths, scene.modes)
 
     def solve_step(step: LoadStep) -> Point:
         """Return one load on its own."""
@@ -101,7 +103,7 @@ def simulate_loads(
         if coarse is not None:
             start = coarse.isel(step=scene.path.steps.index(step))
             problem.warm_start = WarmStart(start.pressure.values / scale.pressure, start.gap.values / scale.step)
-        return _read_point(solve(method, problem, scale), heights, scene.lengths, keep)
+        return _read_point(solve(method, problem, scale), heights, slopes, scene.lengths, keep)
 
     return _join_points(scene, heights, _solve_steps(scene.path.steps, solved_points or {}, solve_step), keep)
 
@@ -128,12 +130,14 @@ def _solve_steps(
     return points
 
 
-def _read_point(result: Result, heights: Array, lengths: tuple[float, ...], keep: Sequence[str]) -> Point:
+def _read_point(
+    result: Result, heights: Array, slopes: Array, lengths: tuple[float, ...], keep: Sequence[str]
+) -> Point:
     """Return the numbers of a solution and the arrays that are kept of it."""
     certificate = result.record.certificate
     contact = result.contact
     spacing = Grid(heights.shape, lengths).spacing
-    numbers = wall_observables(heights, spacing, result.pressure, result.gap) | {
+    numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap) | {
         "approach": result.approach,
         "iterations": result.record.iterations,
         "transforms": result.record.transforms,

@@ -40,6 +40,11 @@ class Flat(Smooth):
         return cls(length, 0.0, *width)
 
     @property
+    def modes(self) -> int:
+        """No waves."""
+        return 0
+
+    @property
     def lengths(self) -> tuple[float, ...]:
         """Period in each direction, nm."""
         return (self.length,) if self.width is None else (self.width, self.length)

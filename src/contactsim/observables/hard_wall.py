@@ -1,0 +1,47 @@
+"""The numbers of one state at a hard wall."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from contactsim.grid import Array
+from contactsim.observables.contact import contact_edges, relative_contact_area_subgrid, touching
+from contactsim.observables.edge_correction import corrected_area, gradient_within
+from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
+
+
+def wall_observables(
+    heights: Array, squared_gradient: Array, spacing: Sequence[float], pressure: Array, gap: Array
+) -> dict[str, float]:
+    """Return the numbers of one hard-wall state.
+
+    Parameters
+    ----------
+    heights, pressure, gap : array, shape (n,) or (ny, nx)
+        In nm, GPa and nm.
+    squared_gradient : array of the same shape
+        Squared gradient of the heights.
+    spacing : sequence of float
+        Distance between points in each direction, nm.
+
+    Returns
+    -------
+    dict
+        Relative contact area by points, corrected for the mean excess of edges, and with edges between points; pairs of
+        points at edges; rms gradient over the contact (Eqs 3.8-3.9), of pairs with both ends in contact, and over the
+        two other areas, NaN without contact; mean gap, nm; mean pressure, GPa.
+    """
+    contact = touching(pressure)
+    corrected, subgrid = corrected_area(contact), relative_contact_area_subgrid(pressure, gap)
+    return {
+        "relative_contact_area": float(contact.mean()),
+        "relative_contact_area_corrected": corrected,
+        "relative_contact_area_subgrid": subgrid,
+        "contact_edges": contact_edges(contact),
+        "rms_gradient_contact": rms_gradient(heights, spacing, contact),
+        "rms_gradient_contact_pairs": rms_gradient_pairs(heights, spacing, contact),
+        "rms_gradient_contact_corrected": gradient_within(squared_gradient, contact, corrected),
+        "rms_gradient_contact_subgrid": gradient_within(squared_gradient, contact, subgrid),
+        "mean_gap": float(gap.mean()),
+        "mean_pressure": float(pressure.mean()),
+    }
