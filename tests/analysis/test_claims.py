@@ -218,7 +218,7 @@ UNANSWERED = {
 }
 
 LACKING = {
-    "ch3": ["surface_kappa_limit", "surface_kappa_r_limit"],
+    "ch3": [],
     "ch4": ["compressible_curves_weak"],
     "ch5": ["heights_ordered", "hurst_ordered", "hurst_ordered_ends", "nonlinear_heights", "nonlinear_hurst"],
     "ch6": ["smooth_stiff"],
@@ -278,8 +278,8 @@ BAD = [
     ({"study": "rough"}, "study", "rough", "smooth_line, rough_line"),
     ({"reduce": "guess"}, "reduce", "guess", "mean, trend, spread"),
     ({"reduce": None}, "reduce", None, "mean, trend, spread"),
-    ({"quantity": "kapa"}, "quantity", "kapa", "kappa, kappa_fit"),
-    ({"quantity": None}, "quantity", None, "kappa, kappa_fit"),
+    ({"quantity": "kapa"}, "quantity", "kapa", "kappa, kappa_corrected"),
+    ({"quantity": None}, "quantity", None, "kappa, kappa_corrected"),
     ({"quantity": "half_width"}, "quantity", "half_width", "kappa"),
     ({"quantity": "kappa_r_limit"}, "quantity", "kappa_r_limit", "kappa"),  # on one grid
     ({"reduce": "spread", "along": "speed"}, "along", "speed", BOTH),
@@ -289,7 +289,7 @@ BAD = [
     ({"relative_to": "rough"}, "relative_to", "rough", "rough_line_coarse, rough_surface"),
     ({"relative_to": "rough_line"}, "relative_to", "rough_line", "rough_line_coarse, rough_surface"),
     ({"relative_to": "smooth_line"}, "relative_to", "smooth_line", "rough_surface"),
-    ({"relative_to": "rough_surface", "quantity": "half_width"}, "quantity", "half_width", "kappa, kappa_fit"),
+    ({"relative_to": "rough_surface", "quantity": "half_width"}, "quantity", "half_width", "kappa, kappa_corrected"),
     (
         {"relative_to": "rough_surface", "reduce": "ratio", "against": "kappa_r"},
         "reduce",

@@ -15,8 +15,16 @@ import xarray as xr
 
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
+from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
-from contactsim.analysis.uncertainty import NAN, Estimate, estimate, estimate_on_thesis_grid, estimate_steps
+from contactsim.analysis.uncertainty import (
+    NAN,
+    Estimate,
+    estimate,
+    estimate_on_thesis_grid,
+    estimate_steps,
+    is_on_thesis_grid,
+)
 from contactsim.analysis.wording import range_text
 
 REPRODUCED, CONDITION = "reproduced", "reproduced with a condition"
@@ -27,6 +35,8 @@ MIN_MARGIN = 2.0
 """Least distance from the edge of a band, in errors, at which a claim is decided."""
 SCALES = {"half": 0.5, "double": 2.0}
 """Factors of the band with which each verdict is given again."""
+BESIDE_NUMBERS = ("beside_value", "beside_ensemble_error", "beside_grid_error", "beside_margin")
+UNKNOWN_BESIDE: dict[str, object] = dict.fromkeys(BESIDE_NUMBERS, NAN)
 CONDITION_NUMBERS = ("condition_value", "condition_ensemble_error", "condition_grid_error", "condition_share")
 
 
@@ -147,6 +157,7 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
         Datasets of its studies: none, one, or two for a comparison.
     """
     row: dict[str, object] = {"condition": "", "unknown": ""} | dict.fromkeys(CONDITION_NUMBERS, NAN)
+    row.update(judge_beside(claim, data) if claim["beside"] else {"beside_verdict": ""} | UNKNOWN_BESIDE)
     if not data:
         return row | _entries([Verdict()] * 3, Estimate())
     comparison = Comparison(claim, data).select(claim["select"])
@@ -160,6 +171,34 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
     on_thesis_grid = estimate_on_thesis_grid(comparison) if claim["grid"] == "either" else None
     decisions = [_decide(comparison, number, on_thesis_grid, scale) for scale in (1.0, *SCALES.values())]
     return row | _entries([result for result, _ in decisions], number) | decisions[0][1]
+
+
+def choose_row(claim: Mapping, data: Sequence[xr.Dataset]) -> Mapping:
+    """Return the claim with the row that counts as its quantity.
+
+    A number that the thesis states is compared on the thesis's own grid, or with the corrected quantity on another.
+    """
+    if claim["grid"] == "thesis" and claim["beside"] and not all(map(is_on_thesis_grid, data)):
+        return {**claim, "quantity": claim["beside"], "beside": claim["quantity"], "grid": None}
+    return claim
+
+
+def judge_beside(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
+    """Return the number of a claim's second row, with the quantity that `beside` names, and its verdict; not counted.
+
+    On the thesis's own grid a quantity that is not corrected has no grid error.
+    """
+    comparison = Comparison({**claim, "quantity": claim["beside"]}, data).select(claim["select"])
+    if claim["reduce"] in ORDERS:
+        result, worst = judge_steps(*estimate_steps(comparison))
+        number = Estimate(worst)
+    else:
+        number = estimate_on_thesis_grid(comparison)
+        if claim["beside"] in SECOND_ESTIMATORS or np.isnan(number.grid_error):
+            number = estimate(Comparison({**comparison.claim, "grid": None}, comparison.data))
+        result = judge_number(claim, number)
+    values = (number.value, number.ensemble_error, number.grid_error, result.margin)
+    return {"beside_verdict": result.verdict} | dict(zip(BESIDE_NUMBERS, values, strict=True))
 
 
 def _entries(results: Sequence[Verdict], number: Estimate) -> dict[str, object]:
@@ -210,15 +249,18 @@ def judge_claims(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) 
         Dataset of each study.
     """
     rows = []
-    for name, claim in claims.items():
-        studies = {key: claim[key] or "" for key in ("study", *SECOND_STUDY)}
+    for name, settings in claims.items():
+        studies = {key: settings[key] or "" for key in ("study", *SECOND_STUDY)}
+        studied = [data[study] for study in studies.values() if study]
+        claim = choose_row(settings, studied)
         rows.append(
             {
                 "claim": name,
                 **{key: claim[key] for key in ("source", "statement")},
                 "measure": comparison_text(claim),
                 "expected": band_text(claim),
-                **judge(claim, [data[study] for study in studies.values() if study]),
+                "beside": claim["beside"] or "",
+                **judge(claim, studied),
                 "rationale": claim["rationale"],
                 **studies,
             }

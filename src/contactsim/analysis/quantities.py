@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from contactsim import reference
+from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fit_line_area
@@ -31,6 +31,13 @@ SIZES = {
     "contact_radius_subgrid": "relative_contact_area_subgrid",
 }
 """Sizes of a contact, and the area that each follows from."""
+SECOND_ESTIMATORS = {
+    f"{name}_corrected": f"{name}_subgrid"
+    for name in ("relative_contact_area", "rms_gradient_contact", "kappa", "kappa_r")
+}
+"""Corrected quantities, and the same from edges that are placed between points."""
+RESOLVED_WAVELENGTH = 16
+"""Points per shortest wavelength from which edges can be placed between points."""
 
 
 def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:
@@ -91,6 +98,15 @@ def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataAr
     parts = [samples] * len(samples) if together else samples
     kappa = [reference.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in parts]
     return xr.DataArray(kappa, dims=("hurst_exponent", "reduced_pressure"))
+
+
+def resolves_edges(data: xr.Dataset) -> bool:
+    """Return True if edges can be placed between points on all grids of a dataset."""
+    settings = dataset.settings_of(data)
+    surface = settings["surface"]
+    if surface["kind"] != "self_affine":
+        return True
+    return bool((data.points * surface["short_cutoff"] >= RESOLVED_WAVELENGTH * surface["length"]).all())
 
 
 def source_quantity(name: str) -> str | None:

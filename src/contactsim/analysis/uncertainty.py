@@ -12,7 +12,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.comparison import Comparison, Datasets, members_left_out
-from contactsim.analysis.quantities import grid_change_name, source_quantity
+from contactsim.analysis.quantities import SECOND_ESTIMATORS, grid_change_name, resolves_edges, source_quantity
 from contactsim.grid import Array
 
 NAN = float("nan")
@@ -47,8 +47,12 @@ def estimate_on_thesis_grid(comparison: Comparison) -> Estimate:
     """Return the number of the thesis's own number of points, without a grid error; on another it is unknown."""
     if comparison.is_empty:
         return Estimate()
-    same = all((data.points == dataset.settings_of(data)["thesis_points"]).all() for data in comparison.data)
-    return _estimate(comparison, 0.0 if same else NAN)
+    return _estimate(comparison, 0.0 if all(map(is_on_thesis_grid, comparison.data)) else NAN)
+
+
+def is_on_thesis_grid(data: xr.Dataset) -> bool:
+    """Return True if a dataset has the thesis's own number of points."""
+    return bool((data.points == dataset.settings_of(data)["thesis_points"]).all())
 
 
 def estimate_steps(comparison: Comparison) -> tuple[Array, Array]:
@@ -92,16 +96,26 @@ def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> An
 
 
 def _grid_error(number: Number, comparison: Comparison) -> Any:
-    """Return the change of a number on the coarser grid, in quadrature with what the increments of paths leave open."""
+    """Return the change of a number on the coarser grid, in quadrature with what the increments of paths leave open.
+
+    Of corrected quantities it is at least the distance to their second estimator, where the grid resolves that.
+    """
     data, claim = comparison.data, comparison.claim
-    names = {name for name in (claim["quantity"], claim["against"]) if name is not None and source_quantity(name)}
-    changes = {str(source_quantity(name)): str(grid_change_name(name)) for name in sorted(names)}
+    names = sorted(
+        {name for name in (claim["quantity"], claim["against"]) if name is not None and source_quantity(name)}
+    )
+    changes = {str(source_quantity(name)): str(grid_change_name(name)) for name in names}
     if any(change not in study for study in data for change in changes.values()):
         return NAN
-    coarse = [study.assign({name: study[name] - study[change] for name, change in changes.items()}) for study in data]
-    moved = [coarse, *(parts for name in changes for parts in _moved_by_increments(data, name))]
     fine = number(data)
-    return _in_quadrature(number(parts) - fine for parts in moved)
+    coarse = [study.assign({name: study[name] - study[change] for name, change in changes.items()}) for study in data]
+    change = abs(number(coarse) - fine)
+    seconds = {name: SECOND_ESTIMATORS[name] for name in changes if name in SECOND_ESTIMATORS}
+    if seconds and all(resolves_edges(study) for study in data):
+        second = [study.assign({name: study[other] for name, other in seconds.items()}) for study in data]
+        change = np.maximum(change, abs(number(second) - fine))
+    moved = [parts for name in changes for parts in _moved_by_increments(data, name)]
+    return _in_quadrature([change, *(number(parts) - fine for parts in moved)])
 
 
 def _moved_by_increments(data: Datasets, name: str) -> Iterator[list[xr.Dataset]]:

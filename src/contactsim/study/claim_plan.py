@@ -48,6 +48,7 @@ CLAIM_KEYS = {
     "relative_to": Key(text, "the name of a second study that divides, or left out", None),
     "minus": Key(text, "the name of a second study that is subtracted, or left out", None),
     "quantity": Key(text, "the name of a quantity", None),
+    "beside": Key(text, "the name of a quantity that is judged beside it and not counted, or left out", None),
     "reduce": Key(choice((*REDUCTIONS, *ORDERS)), f"one of {', '.join((*REDUCTIONS, *ORDERS))}", None),
     "against": Key(text, "the name of a quantity", None),
     "along": Key(text, "a dimension of the study", None),
@@ -155,6 +156,8 @@ def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[s
     inputs = reduction_inputs(settings["reduce"])
     for key in ("quantity", *inputs):
         _check_one_of(settings, key, allowed[key], file, prefix)
+    if settings["beside"] is not None:
+        _check_one_of(settings, "beside", [name for name in shared if name != settings["quantity"]], file, prefix)
     for key in INPUTS:
         if key not in inputs and settings[key] is not None:
             unused = f"left out: {settings['reduce']} does not use it"
