@@ -30,6 +30,9 @@ def numbers(hurst_exponent, member, coarse=False):
     return {
         "relative_contact_area": np.array(PRESSURES) * (1.5 + 0.3 * hurst_exponent + 0.1 * draw.random(len(PRESSURES))),
         "relative_contact_area_subgrid": np.array(PRESSURES) * 1.4,
+        "relative_contact_area_corrected": np.array(PRESSURES) * 1.45,
+        "rms_gradient_contact_subgrid": np.full(len(PRESSURES), GRADIENT),
+        "rms_gradient_contact_corrected": np.full(len(PRESSURES), 0.95 * GRADIENT),
         "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(PRESSURES))),
         "rms_gradient_contact_pairs": GRADIENT * (1 - 0.1 * draw.random(len(PRESSURES))),
         "mean_gap": draw.random(len(PRESSURES)),

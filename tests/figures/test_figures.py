@@ -93,7 +93,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
-    assert "1 of 45 solutions unconverged and left out" in wording.dataset_summary(data, costs)
+    assert "1 of 45 solutions unconverged" in wording.dataset_summary(data, costs)
 
 
 def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monkeypatch):

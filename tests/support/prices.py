@@ -38,7 +38,9 @@ def study(members: int = 3, points: int = 64) -> xr.Dataset:
         "points": points,
         "contact_modulus": 1.0,
     }
-    inputs = ("relative_contact_area", "mean_pressure", "rms_gradient_contact", "rms_gradient_contact_pairs")
+    ends = ("", "_corrected", "_subgrid", "_pairs")
+    inputs = ["mean_pressure", *(f"rms_gradient_contact{end}" for end in ends)]
+    inputs += [f"relative_contact_area{end}" for end in ends[:-1]]
     variables |= {name: (dims, np.ones(shape)) for name in inputs}
     return xr.Dataset(variables, {"member": range(members), "reduced_pressure": LOADS}, WALL)
 

@@ -79,6 +79,15 @@ def measure_text(measure: str) -> str:
     return " ".join(quantity_text(word).replace("_", " ") for word in measure.split())
 
 
+def beside_text(row: Mapping[str, Any]) -> str:
+    """Return the second row of a claim, which is not counted: quantity, number, errors and verdict; or nothing."""
+    name = row.get("beside")
+    if not isinstance(name, str) or not name:
+        return ""
+    numbers = rounded_texts(*(row[f"beside_{key}"] for key in ("value", "ensemble_error", "grid_error")))
+    return f"{quantity_text(name)} {' ± '.join(numbers)}, {row['beside_verdict']}"
+
+
 def printed(text: str) -> str:
     """Return a statement with its symbols as they are printed."""
     for plain, letters in INDEX_LETTERS.items():
@@ -113,7 +122,7 @@ def sample_texts(data: xr.Dataset) -> list[str]:
     return [
         grid_text(dataset.settings_of(data), *data.points.values.ravel()),
         f"{members} members" if members > 1 else "1 member",
-        f"{unconverged} of {total} solutions unconverged and left out",
+        f"{unconverged} of {total} solutions unconverged",
     ]
 
 

@@ -95,7 +95,6 @@ def simulate_loads(
         if name not in KEPT:
             raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
-    slopes = squared_gradient(heights, scene.lengths, scene.modes)
 
     def solve_step(step: LoadStep) -> Point:
         """Return one load on its own."""
@@ -103,7 +102,7 @@ def simulate_loads(
         if coarse is not None:
             start = coarse.isel(step=scene.path.steps.index(step))
             problem.warm_start = WarmStart(start.pressure.values / scale.pressure, start.gap.values / scale.step)
-        return _read_point(solve(method, problem, scale), heights, slopes, scene.lengths, keep)
+        return _read_point(scene, solve(method, problem, scale), heights, keep)
 
     return _join_points(scene, heights, _solve_steps(scene.path.steps, solved_points or {}, solve_step), keep)
 
@@ -130,13 +129,14 @@ def _solve_steps(
     return points
 
 
-def _read_point(
-    result: Result, heights: Array, slopes: Array, lengths: tuple[float, ...], keep: Sequence[str]
-) -> Point:
+def _read_point(scene: Scene, result: Result, heights: Array, keep: Sequence[str]) -> Point:
     """Return the numbers of a solution and the arrays that are kept of it."""
     certificate = result.record.certificate
     contact = result.contact
-    spacing = Grid(heights.shape, lengths).spacing
+    spacing = Grid(heights.shape, scene.lengths).spacing
+    slopes = squared_gradient(
+        heights, scene.lengths, scene.modes
+    )  # again for each load, to hold no field while solving
     numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap) | {
         "approach": result.approach,
         "iterations": result.record.iterations,

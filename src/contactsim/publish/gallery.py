@@ -17,8 +17,8 @@ import pandas as pd
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import error_texts, measure_text, rounded_texts
+from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, SCALES
+from contactsim.analysis.wording import beside_text, error_texts, measure_text, rounded_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
 
@@ -118,11 +118,17 @@ def gallery_page(rows: pd.DataFrame) -> str:
 
 
 def counts_markdown(claims: pd.DataFrame) -> str:
-    """Return the numbers of verdicts by chapter as a Markdown table; claims: of `read_verdicts`."""
+    """Return the numbers of verdicts by chapter, and with half and double bands, as a Markdown table.
+
+    claims: of `read_verdicts`
+    """
     lines = [f"| chapter | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 1) + "|"]
     for chapter, part in [*claims.groupby("chapter"), ("all", claims)]:
         cells = map(str, count_verdicts(part).values())
         lines.append(f"| {str(chapter).removeprefix('ch')} | {' | '.join(cells)} |")
+    for name in SCALES:
+        counts = count_verdicts(claims.assign(verdict=claims.get(f"verdict_{name}", claims.verdict)))
+        lines.append(f"| all, {name} bands | {' | '.join(map(str, counts.values()))} |")
     return "\n".join(lines) + "\n"
 
 
@@ -154,6 +160,8 @@ def _statement(row: Mapping) -> str:
     for name, words in {"margin": "margin", "place": "place in the band"}.items():
         if np.isfinite(row.get(name, np.nan)):
             result += f"; {words} {row[name]:.2g}"
+    if beside := beside_text(row):
+        result += f"; beside it {beside}"
     cells = (
         texts["source"],
         texts["statement"],

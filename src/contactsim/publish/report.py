@@ -25,7 +25,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.claims import FINDING
-from contactsim.analysis.wording import dataset_summary, measure_text, printed, rounded_texts
+from contactsim.analysis.wording import beside_text, dataset_summary, measure_text, printed, rounded_texts
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
 from contactsim.provenance import digest, source_digest, versions
@@ -158,6 +158,7 @@ def _statements(claims: pd.DataFrame, plan: Plan) -> list[dict]:
         texts["measure"] = measure_text(texts["measure"])
         if texts["condition"]:
             texts["there"] = " ± ".join(rounded_texts(*(row[f"condition_{name}"] for name in numbers)))
+        texts["second_row"] = beside_text(row)
         texts["figures"] = sorted(figures_in_source(row["source"]) & set(plan.figures))
         texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies
         texts["statement"] = printed(texts["statement"])

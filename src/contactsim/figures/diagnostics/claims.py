@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from contactsim import dataset
 from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import measure_text, printed, rounded_texts, sample_texts
+from contactsim.analysis.wording import beside_text, measure_text, printed, rounded_texts, sample_texts
 from contactsim.figures import style
 from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save
 
@@ -107,6 +107,8 @@ def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
         texts["verdict"] += (
             f": {row['condition']}, {row['condition_share']:.0%} of all; there {PLUS_MINUS.join(values)}"
         )
+    if beside := beside_text(row):
+        texts["verdict"] += f"; beside it {beside}"
     if row["unknown"]:
         texts["verdict"] += f": unknown is {row['unknown']}"
     texts |= {name: _short_number(row[name]) for name in ("margin", "place")}
