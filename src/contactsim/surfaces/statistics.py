@@ -86,7 +86,11 @@ def squared_gradient(heights: Array, lengths: Sequence[float], modes: int | None
     total = np.zeros(heights.shape)
     if modes is None:
         for axis, spacing in enumerate(grid.spacing):
-            total += ((np.roll(heights, -1, axis) - np.roll(heights, 1, axis)) / (2 * spacing)) ** 2
+            slope = np.roll(heights, -1, axis)
+            slope -= np.roll(heights, 1, axis)
+            slope /= 2 * spacing
+            total += np.square(slope, out=slope)
+            del slope
         return total
     low = grid.low_modes(modes)
     waves = grid.forward(heights)[low]
@@ -96,7 +100,9 @@ def squared_gradient(heights: Array, lengths: Sequence[float], modes: int | None
         along[axis] = -1
         half = np.zeros(grid.half_shape, complex)
         half[low] = 2j * np.pi * frequency(points, spacing)[low[axis].ravel()].reshape(along) * waves
-        total += grid.backward(half) ** 2
+        slope = grid.backward(half)
+        total += np.square(slope, out=slope)
+        del half, slope  # before the next axis: memory is short on large surfaces
     return total
 
 
