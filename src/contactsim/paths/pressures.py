@@ -102,7 +102,9 @@ def simulate_loads(
         if coarse is not None:
             start = coarse.isel(step=scene.path.steps.index(step))
             problem.warm_start = WarmStart(start.pressure.values / scale.pressure, start.gap.values / scale.step)
-        return _read_point(scene, solve(method, problem, scale), heights, keep)
+        result = solve(method, problem, scale)
+        del problem  # its fields are not needed while the result is read
+        return _read_point(scene, result, heights, keep)
 
     return _join_points(scene, heights, _solve_steps(scene.path.steps, solved_points or {}, solve_step), keep)
 
