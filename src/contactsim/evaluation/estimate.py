@@ -64,9 +64,9 @@ class Cost:
             0.0 if twin else predict_seconds(run, file) for run, file, twin in zip(runs, files, twins, strict=True)
         ]
         megabytes = [predict_megabytes(*run) for run in zip(runs, files, strict=True)]
-        spent = sum(time + START_SECONDS for time in seconds if time is not None)
+        total = sum(time + START_SECONDS for time in seconds if time is not None)
         largest = max((size for size in megabytes if size is not None), default=0.0)
-        return cls(len(runs), sum(time is None for time in seconds), spent, largest)
+        return cls(len(runs), sum(time is None for time in seconds), total, largest)
 
 
 def find_measured_costs(plans: Iterable[Plan]) -> dict[str, Path]:

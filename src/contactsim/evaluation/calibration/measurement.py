@@ -175,8 +175,8 @@ class ScalingJob:
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any]) -> ScalingJob:
         """Return the job from its JSON, of `scaling_job`."""
-        kind, drawn = settings["kind"], settings["drawn"]
-        return cls(kind, FAMILY_RANGES[kind](**drawn["ranges"]), drawn["seed"], drawn["scenes"])
+        kind, scenes = settings["kind"], settings["drawn"]
+        return cls(kind, FAMILY_RANGES[kind](**scenes["ranges"]), scenes["seed"], scenes["scenes"])
 
 
 def scaling_job(trials: Trials, kind: str) -> dict[str, Any]:
@@ -184,9 +184,9 @@ def scaling_job(trials: Trials, kind: str) -> dict[str, Any]:
 
     They do not depend on the scaling relations that they start from: else fitting would never settle.
     """
-    drawn = {"ranges": asdict(trials.kinds[kind]), **asdict(trials.calibration)}
+    scenes = {"ranges": asdict(trials.kinds[kind]), **asdict(trials.calibration)}
     source = computing_stage_digest("measure_scaling", *(solver_module(name) for name in DEFAULT_SOLVERS.values()))
-    return {"kind": kind, "drawn": drawn, "source": source}
+    return {"kind": kind, "drawn": scenes, "source": source}
 
 
 def measure_scaling(job: ScalingJob) -> pd.DataFrame:
