@@ -18,7 +18,7 @@ import contactsim
 from contactsim.analysis.quantities import FITTED
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.evaluation.calibration import sampling
-from contactsim.evaluation.effects import survey
+from contactsim.evaluation.effects import map_settings
 from contactsim.evaluation.robustness.survey import ROBUSTNESS_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
@@ -230,7 +230,14 @@ TABLES = [
         NEGLECT_KEYS,
         dict.fromkeys(LOADS),
     ),
-    *(sampling.KEYS, sampling.DRAW_KEYS, survey.KEYS, survey.MAP_KEYS, survey.AXIS_KEYS, survey.PANEL_KEYS),
+    *(
+        sampling.KEYS,
+        sampling.DRAW_KEYS,
+        map_settings.KEYS,
+        map_settings.MAP_KEYS,
+        map_settings.AXIS_KEYS,
+        map_settings.PANEL_KEYS,
+    ),
     *(CLAIM_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     *(keys for _, _, keys in ERROR_RUNS.values()),
     *sampling.RANGES.values(),

@@ -82,7 +82,7 @@ def setup_of(section: dict, **more: object) -> Setup:
 
 
 def drawn(family: str, count: int = 0) -> Run:
-    return draw_scene(family, DRAWS["kinds"][family], 4, count)
+    return draw_scene(family, DRAWS.kinds[family], 4, count)
 
 
 def test_a_relation_is_a_power_law_with_its_scatter():
@@ -107,7 +107,7 @@ def test_drawn_scenes_are_of_their_family_the_same_each_time_and_within_their_ra
     assert first.settings != other.settings
     assert scene_family(first.setup.scene) == family
     if "hurst_exponent" in first.settings["surface"]:
-        low, high = DRAWS["kinds"][family]["hurst_exponent"]
+        low, high = DRAWS.kinds[family].hurst_exponent
         assert low <= first.settings["surface"]["hurst_exponent"] <= high
 
 

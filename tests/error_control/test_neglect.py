@@ -16,7 +16,8 @@ from contactsim.error_control import effect_maps, neglect
 from contactsim.error_control.effect_maps import change_without, expected_change, neglect_effects
 from contactsim.error_control.neglect import decide_neglect, expected_neglect, neglectable_effects
 from contactsim.error_control.solution import solve_setup
-from contactsim.evaluation.effects.survey import format_maps, measure_map, read_maps
+from contactsim.evaluation.effects.map_settings import read_maps
+from contactsim.evaluation.effects.survey import MapJob, format_maps, map_job, measure_map
 from contactsim.paths.options import Setup
 from contactsim.study import execute_neglecting
 from contactsim.study.execute import RunFiles
@@ -79,24 +80,26 @@ def test_between_places_of_a_map_the_largest_change_around_counts_and_beyond_it_
 
 
 def test_a_map_is_the_change_that_two_solutions_show():
-    settings = read_maps(ROOT / "config", {}, "standard")["maps"]["coupling"]
-    settings["axes"] = {
-        "poisson_ratio": settings["axes"]["poisson_ratio"] | {"values": [0.1, 0.49]},
-        "work_ratio": settings["axes"]["work_ratio"] | {"values": [0.0]},
+    settings = map_job(read_maps(ROOT / "config", {}, "standard"), "coupling")
+    axes = settings["map"]["axes"]
+    settings["map"]["axes"] = {
+        "poisson_ratio": axes["poisson_ratio"] | {"values": [0.1, 0.49]},
+        "work_ratio": axes["work_ratio"] | {"values": [0.0]},
     }
-    data = measure_map("coupling", settings)
+    job = MapJob.from_settings(settings)
+    data = measure_map(job)
     assert data.change_without.dims == ("poisson_ratio", "work_ratio")
     large, small = data.change_without.values.ravel()
     assert large > 0.1 > 10 * small
-    told = format_maps({"coupling": data}, {"maps": {"coupling": settings}})
+    told = format_maps({"coupling": job.map}, {"coupling": data})
     assert "neglect: [coupling]" in told
 
 
 def test_the_frozen_maps_are_those_of_the_config():
     settings = read_maps(ROOT / "config", {}, "standard")
-    assert set(effect_maps.effect_maps()) == set(settings["maps"])
+    assert set(effect_maps.effect_maps()) == set(settings.maps)
     for name, section in effect_maps.effect_maps().items():
-        assert section["axes"] == settings["maps"][name]["axes"], name
+        assert section["axes"] == settings.settings["maps"][name]["axes"], name
         assert len(section["change"]) == np.prod([len(axis["values"]) for axis in section["axes"].values()])
         assert all(np.isfinite(section["change"]))
 

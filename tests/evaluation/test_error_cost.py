@@ -14,7 +14,9 @@ GRIDS = [("points", 16, 1e-3), ("points", 32, 1e-3)]
 
 
 def table_of(**jobs):
-    return error_cost.error_table(SETTINGS, {"reference": REFERENCE} | jobs, study(), "active_set")
+    return error_cost.error_table(
+        SETTINGS["quantities"], SETTINGS["load"], {"reference": REFERENCE} | jobs, study(), "active_set"
+    )
 
 
 def rows(errors, costs, **columns):
@@ -39,7 +41,9 @@ def test_the_error_is_the_root_mean_square_over_loads_and_the_work_transforms_ti
 def test_the_work_on_a_surface_counts_all_of_its_points():
     grids = job(GRIDS, [2.1, 2.1], [10, 30]).assign(points_y=("setting", [8, 32]))
     jobs = {"reference": REFERENCE, "conjugate_gradients": grids}
-    table = error_cost.error_table(SETTINGS, jobs, study().assign(points_y=16), "conjugate_gradients")
+    table = error_cost.error_table(
+        SETTINGS["quantities"], SETTINGS["load"], jobs, study().assign(points_y=16), "conjugate_gradients"
+    )
     assert table.work.tolist() == [2 * 10 * 16 * 8, 2 * 30 * 32 * 32, 8 * 64 * 16, 12 * 64 * 16]
     assert table.own.all()
     assert set(table.solver) == {"conjugate_gradients"}
@@ -54,7 +58,9 @@ def test_a_setting_without_a_value_at_one_load_has_no_finite_error(missing):
 
 def test_a_reference_without_a_value_leaves_no_error():
     data = {"reference": REFERENCE.assign(kappa_r=REFERENCE.kappa_r * np.nan), "active_set": job(GRIDS, [2.1, 2.1])}
-    assert np.isinf(error_cost.error_table(SETTINGS, data, study(), "active_set").kappa_r[:2]).all()
+    assert np.isinf(
+        error_cost.error_table(SETTINGS["quantities"], SETTINGS["load"], data, study(), "active_set").kappa_r[:2]
+    ).all()
 
 
 def test_the_share_of_unconverged_solutions_is_told():
@@ -77,19 +83,29 @@ def test_an_ensemble_with_unconverged_solutions_says_so():
     data = study()
     data["status"][0, 0] = Status.MAX_ITERATIONS.value[0]
     table = error_cost.error_table(
-        SETTINGS, {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}, data, "active_set"
+        SETTINGS["quantities"],
+        SETTINGS["load"],
+        {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])},
+        data,
+        "active_set",
     )
     assert (table[table.knob == "members"].unconverged == 1 / 6).all()
 
 
 def test_one_member_is_no_ensemble():
     jobs = {"reference": REFERENCE, "active_set": job(GRIDS, [2.1, 2.1])}
-    table = error_cost.error_table(SETTINGS, jobs, study(members=1), "active_set")
+    table = error_cost.error_table(SETTINGS["quantities"], SETTINGS["load"], jobs, study(members=1), "active_set")
     assert set(table.knob) == {"points"}
 
 
 def path_table(data, study):
-    return error_cost.error_table(PATH_SETTINGS, {"reference": PATH_REFERENCE, "newton": data}, study, "newton")
+    return error_cost.error_table(
+        PATH_SETTINGS["quantities"],
+        PATH_SETTINGS["load"],
+        {"reference": PATH_REFERENCE, "newton": data},
+        study,
+        "newton",
+    )
 
 
 def test_the_table_of_a_path_has_its_increments_each_against_their_own_reference():

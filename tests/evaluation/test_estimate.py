@@ -61,7 +61,7 @@ def test_what_is_not_known_is_told_and_not_counted_as_nothing(plan):
     assert "unknown" in lines["fig_6_4"]
     assert "and 4 of unknown cost" in lines["friction_loop"]
     assert "solves nothing" in lines["fig_2_2"]
-    hazards = read_robustness(ROOT / "config", plan)["hazards"]
+    hazards = read_robustness(ROOT / "config", plan).hazards
     assert lines["stability"].split() == ["stability", str(len(hazards)), "unknown", "unknown"]
     assert {*plan.figures, "all runs, each once", "effects", "trials", "accuracy_cylinder"} <= set(lines)
 

@@ -203,16 +203,16 @@ def test_a_missing_setting_is_refused():
 
 def test_all_hazards_and_the_defaults_of_every_solver_are_in_the_map():
     settings = read_robustness(ROOT / "config", Plan.read(ROOT / "config"))
-    assert settings["hazards"] == list(HAZARDS)
-    assert set(settings["solvers"]) == {*ALL, *ON_SURFACES, *ON_PATHS}
-    assert settings["solvers"]["verlet"]["budget"] == make_solver("verlet").budget
+    assert settings.hazards == list(HAZARDS)
+    assert set(settings.solvers) == {*ALL, *ON_SURFACES, *ON_PATHS}
+    assert settings.solvers["verlet"]["budget"] == make_solver("verlet").budget
 
 
 def test_a_tier_changes_the_severities_and_a_config_without_the_map_has_none(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         (tmp_path / file.name).write_bytes(file.read_bytes())
-    assert read_robustness(tmp_path, Plan.read(tmp_path, "quick"))["severities"] == [0, 50, 100]
-    assert read_robustness(tmp_path, Plan.read(tmp_path, "standard"))["severities"] == list(range(0, 101, 5))
+    assert read_robustness(tmp_path, Plan.read(tmp_path, "quick")).severities == [0, 50, 100]
+    assert read_robustness(tmp_path, Plan.read(tmp_path, "standard")).severities == list(range(0, 101, 5))
     (tmp_path / "stability.yaml").unlink()
     assert read_robustness(tmp_path, Plan.read(tmp_path, "standard")) is None
     with pytest.raises(InputError, match=r"quick\.stability"):
@@ -225,10 +225,10 @@ def test_jobs_change_with_what_they_depend_on_and_nothing_else():
     job, dataset_job = hazard_job(settings, "flat"), robustness_job(settings, plan)
     figure_job = robustness_figure_job(settings, plan)
     assert "flat" not in json.dumps(hazard_job(settings, "units"))
-    other = settings | {"caption": "Other."}
+    other = replace(settings, caption="Other.")
     assert (job, dataset_job) == (hazard_job(other, "flat"), robustness_job(other, plan))
     assert figure_job != robustness_figure_job(other, plan)
-    fewer = settings | {"severities": [0.0]}
+    fewer = replace(settings, severities=[0.0])
     assert job != hazard_job(fewer, "flat")
     assert figure_job["data"] != robustness_figure_job(fewer, plan)["data"]
 
@@ -241,14 +241,15 @@ def drawn(tmp_path_factory):
     """A small map: its files in a folder, and the surveys that it was made of."""
     folder = tmp_path_factory.mktemp("map")
     plan = Plan.read(ROOT / "config", "quick")
-    settings = read_robustness(ROOT / "config", plan)
-    settings.update(hazards=["tension", "nearly_full_rough", "low_spike"], severities=[0.0, 20.0, 100.0])
+    hazards, severities = ["tension", "nearly_full_rough", "low_spike"], [0.0, 20.0, 100.0]
+    settings = replace(read_robustness(ROOT / "config", plan), hazards=hazards, severities=severities)
     parts = []
-    for hazard in settings["hazards"]:
+    for hazard in hazards:
         dataset.write(survey_hazard(**json.loads(json.dumps(hazard_job(settings, hazard)))), folder / f"{hazard}.nc")
         parts.append(dataset.load_dataset(folder / f"{hazard}.nc"))
     job = robustness_job(settings, plan)
-    dataset.write(merge_surveys(parts, job["settings"], job["source"]), folder / "stability.nc")
+    data = dataset.stamp(merge_surveys(parts), job["settings"]["title"], job["settings"], job["source"])
+    dataset.write(data, folder / "stability.nc")
     targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
     data = dataset.load_dataset(folder / "stability.nc")
     write_figure(json.loads(json.dumps(robustness_figure_job(settings, plan))), [data], [], targets)

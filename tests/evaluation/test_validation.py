@@ -13,12 +13,13 @@ from contactsim.error_control.relations import build_relations
 from contactsim.error_control.scaling import LINE, PATH
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
 from contactsim.evaluation.calibration.sampling import read_trials
-from contactsim.evaluation.effects import effect_cost, survey
+from contactsim.evaluation.effects import effect_cost, map_settings, survey
 from contactsim.evaluation.robustness.survey import read_robustness_section
 from contactsim.evaluation.work_precision import case_config
 from contactsim.figures.diagnostics import effect_maps as map_figure
 from contactsim.figures.diagnostics import overview
 from contactsim.figures.diagnostics import trials as trial_figure
+from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
 from contactsim.study.reading import tiered
 from support.cases import refused
@@ -28,12 +29,16 @@ QUICK = {"trial": {"scenes": 2}, "errors": [0.05], "kinds": {"surface": None, "s
 SETTINGS = read_trials(ROOT / "config", QUICK, "quick")
 
 
+def trial(kind: str, count: int) -> validation.Trial:
+    """A trial as a job of the workflow reads it."""
+    return validation.Trial.from_settings(json.loads(canonical(validation.trial_job(SETTINGS, kind, count))))
+
+
 @pytest.fixture(scope="module")
 def tried() -> dict[str, tuple]:
     """Trials of two lines and an asperity."""
     return {
-        f"{kind}_{count}": validation.run_trial(SETTINGS, kind, count)
-        for kind, count in ((LINE, 0), (LINE, 1), (PATH, 0))
+        f"{kind}_{count}": validation.run_trial(trial(kind, count)) for kind, count in ((LINE, 0), (LINE, 1), (PATH, 0))
     }
 
 
@@ -48,23 +53,24 @@ def test_a_trial_is_judged_by_a_finer_run_and_against_the_cheapest_setting(tried
 
 
 def test_a_trial_is_the_same_each_time_but_for_its_seconds(tried):
-    again, _ = validation.run_trial(SETTINGS, LINE, 0)
+    again, _ = validation.run_trial(trial(LINE, 0))
     assert again.identical(tried["line_0"][0])
 
 
 def test_errors_are_asked_for_by_turns():
     settings = read_trials(ROOT / "config", {}, "standard")
-    for kind in settings["kinds"]:
-        asked = [validation.requested_error(settings, kind, count) for count in range(3)]
-        assert sorted(asked) == settings["errors"]
-        backwards = settings | {"kinds": dict(reversed(settings["kinds"].items()))}
-        assert [validation.requested_error(backwards, kind, count) for count in range(3)] == asked
+    for kind in settings.kinds:
+        asked = [validation.requested_error(settings.errors, kind, count) for count in range(3)]
+        assert sorted(asked) == settings.errors
+    jobs = [validation.trial_job(settings, LINE, count) for count in range(3)]
+    errors = [validation.Trial.from_settings(job).requested_error for job in jobs]
+    assert errors == [validation.requested_error(settings.errors, LINE, count) for count in range(3)]
     assert validation.trial_names(SETTINGS) == ["line_0", "line_1", "path_0", "path_1"]
 
 
 def test_calibration_and_trial_have_different_scenes_of_the_same_ranges():
     settings = read_trials(ROOT / "config", {}, "standard")
-    assert settings["calibration"]["seed"] != settings["trial"]["seed"]
+    assert settings.calibration.seed != settings.trial.seed
 
 
 def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path):
@@ -85,8 +91,8 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
 
 def test_relations_measured_anew_have_the_form_of_the_packages():
     """Two scenes of each of two kinds: enough for the form, not for the values."""
-    plan = {"kind": LINE, "drawn": {"ranges": SETTINGS["kinds"][LINE], "seed": 5, "scenes": 2}}
-    table = measurement.measure_scaling(plan)
+    job = measurement.ScalingJob(LINE, SETTINGS.kinds[LINE], seed=5, scenes=2)
+    table = measurement.measure_scaling(job)
     assert set(table.knob) == {"points", "tolerance", "warm_start"}
     found = build_relations(fit.fit_relations(table))
     law = found.families[LINE].errors["points"]["relative_contact_area_subgrid"]
@@ -100,9 +106,9 @@ def test_a_straight_line_through_logarithms_is_found_again():
     grid = rng.uniform(-4, -1, 60)
     rows = pd.DataFrame({"kind": PATH, "knob": "increment", "one": 1.0, "grid": grid})
     rows["error_a"] = np.exp(-1.0 + 1.5 * grid)
-    found = fit.fit_power_law(rows, "error_a", ("one", "grid"), {})
-    assert found["coefficients"]["grid"] == pytest.approx(1.5, rel=0.02)
-    assert found["spread"] < 0.05
+    law = fit.fit_power_law(rows, "error_a", ("one", "grid"), {})
+    assert law.coefficients["grid"] == pytest.approx(1.5, rel=0.02)
+    assert law.spread < 0.05
     assert fit.fit_power_law(rows[:3], "error_a", ("one", "grid"), {}) is None
 
 
@@ -122,7 +128,7 @@ def test_wrong_settings_of_trials_are_refused(over, key, allowed):
 
 def test_a_folder_without_these_files_has_neither_trials_nor_maps_nor_an_overview(tmp_path):
     assert sampling.read_trials(tmp_path, {}, "quick") is None
-    assert survey.read_maps(tmp_path, {}, "quick") is None
+    assert map_settings.read_maps(tmp_path, {}, "quick") is None
     assert effect_cost.read_variants(tmp_path, 0, {}, "quick") is None
     assert case_config.read_overview(tmp_path) is None
 
@@ -131,7 +137,7 @@ READERS = {
     "stability": lambda file, over: read_robustness_section(*tiered(file, over, "quick")),
     "effects": lambda file, over: effect_cost.read_variants(file.parent, 0, over, "quick"),
     "trials": lambda file, over: sampling.read_trials(file.parent, over, "quick"),
-    "effect_maps": lambda file, over: survey.read_maps(file.parent, over, "quick"),
+    "effect_maps": lambda file, over: map_settings.read_maps(file.parent, over, "quick"),
 }
 
 
@@ -146,16 +152,16 @@ def test_a_tier_cannot_change_what_has_no_file_and_is_named_where_it_is_wrong(tm
 
 
 def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_path):
-    settings = survey.read_maps(ROOT / "config", {}, "standard")
+    settings = map_settings.read_maps(ROOT / "config", {}, "standard")
     files = []
-    for name, one in sorted(settings["maps"].items()):
-        shape = [len(axis["values"]) for axis in one["axes"].values()]
+    for name, one in sorted(settings.maps.items()):
+        shape = [len(axis.values) for axis in one.axes.values()]
         data = dataset.describe(survey.map_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
         files.append(str(tmp_path / f"{name}.nc"))
         dataset.write(dataset.stamp(data, name, {}, "source"), files[-1])
     targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
     map_figure.write_effect_maps(survey.maps_figure_job(settings, "quick"), files, targets)
-    assert set(pd.read_csv(targets["csv"])["map"]) == set(settings["maps"])
+    assert set(pd.read_csv(targets["csv"])["map"]) == set(settings.maps)
 
 
 def test_the_overview_shows_every_case_and_leaves_ensembles_out(tmp_path):

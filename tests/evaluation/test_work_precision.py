@@ -98,7 +98,9 @@ def measured(tmp_path_factory):
 def table_of(measured, made):
     one, jobs = measured
     study = xr.load_dataset(made / "results/quick/datasets/ch3_smooth_line.nc")
-    return error_cost.error_table(one.settings, {job: data for job, (data, _) in jobs.items()}, study, one.default)
+    return error_cost.error_table(
+        one.settings.quantities, one.settings.load, {job: data for job, (data, _) in jobs.items()}, study, one.default
+    )
 
 
 def test_each_knob_is_turned_on_its_own_and_the_reference_is_on_no_curve(tmp_path):
@@ -149,7 +151,7 @@ def test_on_a_surface_the_study_s_own_solver_is_the_measure_and_work_counts_all_
     data = jobs["polonsky_keer"].isel(setting=0)
     alone = study(members=1).rename(reduced_pressure="contact_ratio").assign_coords(contact_ratio=data.contact_ratio)
     table = (
-        error_cost.error_table(one.settings, jobs, alone.assign(length=1.0), one.default)
+        error_cost.error_table(one.settings.quantities, one.settings.load, jobs, alone.assign(length=1.0), one.default)
         .query("knob == 'points'")
         .set_index("solver")
     )
@@ -224,7 +226,9 @@ def test_a_path_is_measured_whole(followed):
 def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_the_same_by_another_solver(followed):
     one, jobs = followed
     jobs = {job: data for job, (data, _) in jobs.items()}
-    table = error_cost.error_table(one.settings, jobs, path_study([1.0]), one.default).query("knob == 'increment'")
+    table = error_cost.error_table(
+        one.settings.quantities, one.settings.load, jobs, path_study([1.0]), one.default
+    ).query("knob == 'increment'")
     by_hand = jobs["newton"].pull_off_load_loading.values[3:, 0] / jobs["reference"].pull_off_load_loading.values[2, 0]
     own = table[table.own]
     assert own.increment.tolist() == [1.0, 0.2]

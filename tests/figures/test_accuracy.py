@@ -110,7 +110,7 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     """The panels of a case, drawn in full, with seconds a thousandth of the work; the table."""
     settings = plan["settings"]
     ensemble = study(members) if settings["load"] else path_study([200.0] * members)
-    table = error_cost.error_table(settings, jobs, ensemble, plan["default"])
+    table = error_cost.error_table(settings["quantities"], settings["load"], jobs, ensemble, plan["default"])
     table["seconds"] = table.work / 1000
     table = table.assign(predicted_work=np.where(table.own, table.work * 1.5, np.nan))
     table["predicted_seconds"] = table.predicted_work / 1000

@@ -13,8 +13,9 @@ from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.robustness import rough
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.judge import find_path_violation, judge
+from contactsim.evaluation.robustness.navier import surface_compliance
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.path_cases import PathCase, surface_compliance
+from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.evaluation.robustness.registry import HAZARDS
 from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from products import Products
 from snakemake.iocontainers import Wildcards
@@ -25,6 +25,7 @@ from contactsim.study.plan import Plan
 from contactsim.study.run import Run
 from contactsim.study.stages import STAGES, stage_digest
 
+T = TypeVar("T")
 ByWildcards = Callable[[Wildcards], Any]
 
 
@@ -165,67 +166,67 @@ class EvaluationJobs:
 
     def overview_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all cases depends on."""
-        products = self.products
-        return canonical(case_config.overview_figure_job(products.overview or {}, products.cases, products.plan.tier))
+        overview, cases = _present(self.products.overview), self.products.cases
+        return canonical(case_config.overview_figure_job(overview, cases, self.products.plan.tier))
 
     def hazard_params(self, wildcards: Wildcards) -> str:
         """Return what the survey of a hazard depends on."""
-        return canonical(hazard_survey.hazard_job(self.products.hazards or {}, wildcards.hazard))
+        return canonical(hazard_survey.hazard_job(_present(self.products.hazards), wildcards.hazard))
 
     def hazard_files(self) -> list[Path]:
         """Return the surveys of all hazards."""
-        hazards = (self.products.hazards or {"hazards": ()})["hazards"]
+        hazards = _present(self.products.hazards).hazards
         return [self.products.results / f"stability/{hazard}.nc" for hazard in hazards]
 
     def robustness_params(self, wildcards: Wildcards) -> str:
         """Return what the dataset of all hazards depends on."""
-        return canonical(hazard_survey.robustness_job(self.products.hazards or {}, self.products.plan))
+        return canonical(hazard_survey.robustness_job(_present(self.products.hazards), self.products.plan))
 
     def robustness_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all hazards depends on."""
-        return canonical(hazard_survey.robustness_figure_job(self.products.hazards or {}, self.products.plan))
+        return canonical(hazard_survey.robustness_figure_job(_present(self.products.hazards), self.products.plan))
 
     def effects_params(self, wildcards: Wildcards) -> str:
         """Return what the measured costs of effects depend on."""
-        return canonical(effect_cost.effects_job(self.products.effects or {}))
+        return canonical(effect_cost.effects_job(_present(self.products.effects)))
 
     def effects_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of the costs of effects depends on."""
-        return canonical(effect_cost.effects_figure_job(self.products.effects or {}, self.products.plan.tier))
+        return canonical(effect_cost.effects_figure_job(_present(self.products.effects), self.products.plan.tier))
 
     def trial_params(self, wildcards: Wildcards) -> str:
         """Return what one trial depends on."""
-        return canonical(validation.trial_job(self.products.trials or {}, wildcards.kind, int(wildcards.number)))
+        return canonical(validation.trial_job(_present(self.products.trials), wildcards.kind, int(wildcards.number)))
 
     def trial_files(self, folder: str, ending: str) -> list[Path]:
         """Return the files of all trials, in a folder and with an ending."""
-        names = validation.trial_names(self.products.trials or {})
+        names = validation.trial_names(_present(self.products.trials))
         return [self.products.results / folder / f"{name}.{ending}" for name in names]
 
     def trials_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all trials depends on."""
-        return canonical(validation.trials_figure_job(self.products.trials or {}, self.products.plan.tier))
+        return canonical(validation.trials_figure_job(_present(self.products.trials), self.products.plan.tier))
 
     def scaling_params(self, wildcards: Wildcards) -> str:
         """Return what the measurement of the scaling of a kind of scene depends on."""
-        return canonical(measurement.scaling_job(self.products.trials or {}, wildcards.kind))
+        return canonical(measurement.scaling_job(_present(self.products.trials), wildcards.kind))
 
     def map_params(self, wildcards: Wildcards) -> str:
         """Return what one map of neglected effects depends on."""
-        return canonical(effect_survey.map_job(self.products.maps or {}, wildcards.map))
+        return canonical(effect_survey.map_job(_present(self.products.maps), wildcards.map))
 
     def map_files(self) -> list[Path]:
         """Return all maps of neglected effects."""
-        names = sorted((self.products.maps or {"maps": ()})["maps"])
+        names = sorted(_present(self.products.maps).maps)
         return [self.products.results / f"effect_maps/{name}.nc" for name in names]
 
     def maps_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all maps depends on."""
-        return canonical(effect_survey.maps_figure_job(self.products.maps or {}, self.products.plan.tier))
+        return canonical(effect_survey.maps_figure_job(_present(self.products.maps), self.products.plan.tier))
 
     def maps_params(self, wildcards: Wildcards) -> str:
         """Return the settings of all maps."""
-        return canonical(self.products.maps)
+        return canonical(_present(self.products.maps).settings)
 
     def full_tier(self, wildcards: Wildcards) -> list[Path]:
         """Return no file; exit at a tier that shortens trials or maps."""
@@ -233,6 +234,12 @@ class EvaluationJobs:
         if plan.overrides["trials"] or plan.overrides["effect_maps"]:
             sys.exit(f"Error: tier: got {plan.tier}; allowed: one that shortens no trials and maps, such as standard")
         return []
+
+
+def _present(settings: T | None) -> T:
+    """Return settings that exist: the rules that ask for them do not, where a folder lacks their file."""
+    assert settings is not None
+    return settings
 
 
 def code_digest(stage: str) -> ByWildcards:

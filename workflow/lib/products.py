@@ -6,18 +6,15 @@ import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration import sampling
-from contactsim.evaluation.effects import effect_cost
-from contactsim.evaluation.effects import survey as effect_survey
+from contactsim.evaluation.effects import effect_cost, map_settings
+from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.evaluation.robustness import survey
 from contactsim.evaluation.work_precision import case_config
 from contactsim.evaluation.work_precision.cases import Case
 from contactsim.study.plan import Plan
-
-Settings = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -47,11 +44,11 @@ class Products:
     config: Path
     plan: Plan
     cases: dict[str, Case]
-    hazards: Settings | None
-    effects: Settings | None
-    trials: Settings | None
-    maps: Settings | None
-    overview: Settings | None
+    hazards: survey.Robustness | None
+    effects: effect_cost.EffectCosts | None
+    trials: sampling.Trials | None
+    maps: map_settings.EffectMaps | None
+    overview: FigureSettings | None
 
     @classmethod
     def read(cls, config: Path, options: Mapping[str, str]) -> Products:
@@ -81,7 +78,7 @@ class Products:
             hazards=survey.read_robustness(config, plan),
             effects=effect_cost.read_variants(config, plan.seed, plan.overrides["effects"], plan.tier),
             trials=sampling.read_trials(config, plan.overrides["trials"], plan.tier),
-            maps=effect_survey.read_maps(config, plan.overrides["effect_maps"], plan.tier),
+            maps=map_settings.read_maps(config, plan.overrides["effect_maps"], plan.tier),
             overview=case_config.read_overview(config) if cases else None,
         )
 
@@ -96,9 +93,9 @@ class Products:
         return case_config.read_all_tiers(self.config, self.plan)
 
     @functools.cached_property
-    def evaluation_figures(self) -> dict[str, dict[str, Settings]]:
+    def evaluation_figures(self) -> dict[str, dict[str, FigureSettings]]:
         """Return the settings of the figures that evaluate the package, by section of the report and by name."""
-        cases = {f"accuracy_{name}": case.settings for name, case in self.cases.items()}
+        cases: dict[str, FigureSettings] = {f"accuracy_{name}": case.settings for name, case in self.cases.items()}
         return {
             "accuracy": cases | _present(trials=self.trials, overview=self.overview),
             "stability": _present(stability=self.hazards),
@@ -109,7 +106,7 @@ class Products:
     def evaluation_titles(self) -> dict[str, str]:
         """Return the titles of the figures that evaluate the package, by name."""
         figures = self.evaluation_figures.values()
-        return {name: settings["title"] for section in figures for name, settings in section.items()}
+        return {name: figure.title for section in figures for name, figure in section.items()}
 
     @property
     def evaluation_datasets(self) -> list[str]:
@@ -149,6 +146,6 @@ class Products:
         return [file for name in self.study_datasets for file in (self.dataset(name), self.cost_table(name))]
 
 
-def _present(**settings: Settings | None) -> dict[str, Settings]:
+def _present(**settings: FigureSettings | None) -> dict[str, FigureSettings]:
     """Return the settings that are not left out, by name."""
     return {name: value for name, value in settings.items() if value}

@@ -3,7 +3,7 @@ if PRODUCTS.maps:
 
     rule measure_effect_map:
         output: RESULTS / "effect_maps/{map}.nc"
-        wildcard_constraints: map="|".join(PRODUCTS.maps["maps"])
+        wildcard_constraints: map="|".join(PRODUCTS.maps.maps)
         log: RESULTS / "logs/effect_maps/{map}.log"
         params: plan=EVALUATION_JOBS.map_params
         group: group_on_cluster(workflow, "maps")

@@ -5,7 +5,7 @@ if PRODUCTS.trials:
         output:
             data=RESULTS / "trials/{kind}_{number}.nc",
             costs=RESULTS / "costs/trials/{kind}_{number}.json",
-        wildcard_constraints: kind="|".join(PRODUCTS.trials["kinds"]), number=r"\d+"
+        wildcard_constraints: kind="|".join(PRODUCTS.trials.kinds), number=r"\d+"
         log: RESULTS / "logs/trials/{kind}_{number}.log"
         params: plan=EVALUATION_JOBS.trial_params
         threads: timed_threads(PLAN, workflow.cores)
@@ -32,7 +32,7 @@ if PRODUCTS.trials:
 
     rule measure_scaling:
         output: RESULTS / "costs/relations/{kind}.csv",
-        wildcard_constraints: kind="|".join(PRODUCTS.trials["kinds"])
+        wildcard_constraints: kind="|".join(PRODUCTS.trials.kinds)
         log: RESULTS / "logs/relations/{kind}.log"
         params: plan=EVALUATION_JOBS.scaling_params
         threads: timed_threads(PLAN, workflow.cores)
@@ -42,7 +42,7 @@ if PRODUCTS.trials:
 
 
     rule fit_scaling:
-        input: EVALUATION_JOBS.full_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in PRODUCTS.trials["kinds"]]
+        input: EVALUATION_JOBS.full_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in PRODUCTS.trials.kinds]
         output: RESULTS / "costs/relations.yaml"
         log: RESULTS / "logs/relations.log"
         params: source=code_digest("fit_scaling")

@@ -9,5 +9,5 @@ from contactsim.evaluation.robustness.survey import merge_surveys
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-data = merge_surveys(map(dataset.load_dataset, plan["paths"]), plan["settings"], plan["source"])
-dataset.write(data, snakemake.output[0])
+data = merge_surveys(map(dataset.load_dataset, plan["paths"]))
+dataset.write(dataset.stamp(data, plan["settings"]["title"], plan["settings"], plan["source"]), snakemake.output[0])

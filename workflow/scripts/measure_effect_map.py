@@ -5,9 +5,10 @@ import json
 from joblog import open_log
 
 from contactsim import dataset
-from contactsim.evaluation.effects.survey import measure_map
+from contactsim.evaluation.effects.survey import MapJob, measure_map
 
 open_log(snakemake.log[0])
 job = json.loads(snakemake.params.plan)
-data = dataset.stamp(measure_map(job["name"], job["map"]), "what an effect changes", job["map"], job["source"])
+data = measure_map(MapJob.from_settings(job))
+data = dataset.stamp(data, "what an effect changes", job["map"], job["source"])
 dataset.write(data, snakemake.output[0])

@@ -12,6 +12,6 @@ from contactsim.files import write_text
 open_log(snakemake.log[0])
 job = json.loads(snakemake.params.plan)
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
-    data, spent = effect_cost.measure_effects(job["settings"])
+    data, spent = effect_cost.measure_effects(effect_cost.CostJob.from_settings(job["settings"]))
 dataset.write(dataset.stamp(data, "what effects cost", job["settings"], job["source"]), snakemake.output.data)
 write_text(json.dumps(spent), snakemake.output.costs)

@@ -12,6 +12,6 @@ from contactsim.files import write_text
 open_log(snakemake.log[0])
 job = json.loads(snakemake.params.plan)
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
-    data, spent = validation.run_trial(job["settings"], job["kind"], job["count"])
+    data, spent = validation.run_trial(validation.Trial.from_settings(job))
 dataset.write(dataset.stamp(data, "accuracy on trial", job["settings"], job["source"]), snakemake.output.data)
 write_text(json.dumps(spent), snakemake.output.costs)

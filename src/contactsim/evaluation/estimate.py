@@ -14,7 +14,7 @@ from pathlib import Path
 from contactsim.evaluation.calibration import validation
 from contactsim.evaluation.calibration.sampling import read_trials
 from contactsim.evaluation.effects.effect_cost import read_variants
-from contactsim.evaluation.effects.survey import read_maps
+from contactsim.evaluation.effects.map_settings import read_maps
 from contactsim.evaluation.resources import START_SECONDS, predict_megabytes, predict_seconds
 from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.evaluation.work_precision.case_config import read_all_tiers, read_cases
@@ -60,11 +60,13 @@ class Cost:
         runs = list(runs)
         files = [measured.get(canonical(run.settings)) for run in runs]
         twins = [plan.twin(run) is not None for run in runs]
-        seconds = [0.0 if twin else predict_seconds(*run) for twin, *run in zip(twins, runs, files, strict=True)]
+        seconds = [
+            0.0 if twin else predict_seconds(run, file) for run, file, twin in zip(runs, files, twins, strict=True)
+        ]
         megabytes = [predict_megabytes(*run) for run in zip(runs, files, strict=True)]
-        spent = sum(time + START_SECONDS for time in seconds if time is not None)
+        total = sum(time + START_SECONDS for time in seconds if time is not None)
         largest = max((size for size in megabytes if size is not None), default=0.0)
-        return cls(len(runs), sum(time is None for time in seconds), spent, largest)
+        return cls(len(runs), sum(time is None for time in seconds), total, largest)
 
 
 def find_measured_costs(plans: Iterable[Plan]) -> dict[str, Path]:
@@ -99,11 +101,11 @@ def count_other_jobs(folder: str | Path, plan: Plan) -> dict[str, int]:
         read_maps(folder, plan.overrides["effect_maps"], plan.tier),
     )
     stability = read_robustness(folder, plan)
-    counts |= {"stability": len(stability["hazards"]) if stability else 0}
+    counts |= {"stability": len(stability.hazards) if stability else 0}
     counts |= {"effects": int(read_variants(folder, plan.seed, plan.overrides["effects"], plan.tier) is not None)}
     counts |= {
         "trials": len(validation.trial_names(trials)) if trials else 0,
-        "effect_maps": len(maps["maps"]) if maps else 0,
+        "effect_maps": len(maps.maps) if maps else 0,
     }
     return {name: jobs for name, jobs in counts.items() if jobs}
 
@@ -130,7 +132,7 @@ def align_right(cells: Iterable[str], widths: Iterable[int]) -> str:
     return "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
 
 
-def _cost_row(name: str, cost: Cost) -> tuple[str, ...]:
+def _cost_row(name: str, cost: Cost) -> tuple[str, str, str, str, str]:
     """Return a name and the cells of its cost."""
     if not cost.jobs:
         return name, "0", "0", "-", "solves nothing"

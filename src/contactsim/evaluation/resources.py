@@ -79,6 +79,8 @@ def predict_megabytes(run: Run, costs: str | Path | None) -> float | None:
 
 def _read_cost(costs: str | Path | None, name: str) -> float | None:
     """Return a number from the file of a run's costs; None without it."""
+    if costs is None:
+        return None
     try:
         return float(json.loads(Path(costs).read_text(encoding="utf-8"))[name])
     except (OSError, ValueError, KeyError, TypeError):

@@ -26,6 +26,7 @@ from PIL import Image
 from contactsim import dataset
 from contactsim.analysis.claims import FINDING
 from contactsim.analysis.wording import beside_text, dataset_summary, measure_text, printed, rounded_texts
+from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
 from contactsim.provenance import digest, source_digest, versions
@@ -78,7 +79,7 @@ class PageStudy:
     sketch: Picture
 
 
-def report_settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]]) -> dict:
+def report_settings(plan: Plan, others: Mapping[str, Mapping[str, FigureSettings]]) -> dict:
     """Return the settings that the page depends on beside its files.
 
     others: settings of the figures that belong to no chapter, by group and name
@@ -92,9 +93,9 @@ def report_settings(plan: Plan, others: Mapping[str, Mapping[str, Mapping]]) -> 
     return settings | {"versions": {"Python": platform.python_version()} | versions() | tools}
 
 
-def _titled(settings: Mapping) -> dict[str, str]:
+def _titled(figure: FigureSettings) -> dict[str, str]:
     """Return title and caption of a figure."""
-    return {key: settings[key] for key in ("title", "caption")}
+    return {"title": figure.title, "caption": figure.caption}
 
 
 def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:

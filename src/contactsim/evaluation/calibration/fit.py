@@ -6,6 +6,8 @@ Every relation is a power law: a straight line through logarithms by least squar
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,6 +16,7 @@ from scipy.optimize import least_squares
 
 from contactsim.error_control.relations import Relation
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
+from contactsim.errors import InputError
 from contactsim.evaluation.calibration.measurement import MEASURED_QUANTITIES
 
 ROUGH = ("hurst_exponent", "bandwidth", "rough")
@@ -56,7 +59,16 @@ RIDGE_WEIGHT = 1e-3
 """Weight that keeps coefficients small where features are alike."""
 
 
-def fit_relations(table: pd.DataFrame) -> dict:
+@dataclass(frozen=True)
+class PowerLaw:
+    """Coefficients by feature, the standard deviation of the logarithms that remains, and the number of rows."""
+
+    coefficients: Mapping[str, float]
+    spread: float
+    rows: int
+
+
+def fit_relations(table: pd.DataFrame) -> dict[str, Any]:
     """Fit the relations of all families.
 
     Parameters
@@ -75,36 +87,41 @@ def fit_relations(table: pd.DataFrame) -> dict:
     }
 
 
-def _fit_family(kind: str, rows: pd.DataFrame) -> dict:
+def _fit_family(kind: str, rows: pd.DataFrame) -> dict[str, Any]:
     """Fit the relations of one family to all its rows."""
     wall = kind in (LINE, SURFACE)
     other = "tolerance" if wall else "increment"
-    errors: dict[str, dict] = {"points": {}, other: {}, "resolved": {}}
+    fits: dict[str, dict[str, PowerLaw | None]] = {"points": {}, other: {}, "resolved": {}}
     grids, others = rows[rows.knob == "points"], rows[rows.knob == other]
     for name in MEASURED_QUANTITIES[kind]:
         column = f"error_{name}"
-        order = None if name in FITTED_ORDER else GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
-        errors["points"][name] = fit_power_law(grids, column, ERROR_FEATURES[kind], {"grid": order} if order else {})
-        errors[other][name] = fit_power_law(others, column, ("one", other), {})
+        order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
+        prescribed = {} if name in FITTED_ORDER else {"grid": order}
+        fits["points"][name] = fit_power_law(grids, column, ERROR_FEATURES[kind], prescribed)
+        fits[other][name] = fit_power_law(others, column, ("one", other), {})
         if wall:
             features = ("one", "resolved", "pressure", *ROUGH)
-            errors["resolved"][name] = fit_power_law(grids, column, features, {"resolved": order})
-    errors = {knob: {name: law for name, law in laws.items() if law} for knob, laws in errors.items()}
+            fits["resolved"][name] = fit_power_law(grids, column, features, {"resolved": order})
+    errors = {knob: {name: asdict(law) for name, law in laws.items() if law} for knob, laws in fits.items()}
     transforms = fit_power_law(rows[rows.knob != "warm_start"], "transforms", WORK_FEATURES[kind], {})
-    law = Relation(transforms["coefficients"], transforms["spread"])
+    if transforms is None:
+        raise InputError(f"rows of {kind}", len(rows), f"at least {MIN_ROWS} with a count of transforms")
+    law = Relation(transforms.coefficients, transforms.spread)
     shares = [row["transforms"] / law(row) for row in rows[rows.knob == "warm_start"].to_dict("records")]
-    seen = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in OPTION_FEATURES)]
+    scene_features = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in OPTION_FEATURES)]
     return {
         "errors": {knob: errors[knob] for knob in ("points", other)},
         "resolved": errors["resolved"],
-        "transforms": transforms,
+        "transforms": asdict(transforms),
         "warm_start": _round(np.median(shares or [1.0])),
         "seconds": _fit_seconds(rows),
-        "ranges": {name: [_round(rows[name].min()), _round(rows[name].max())] for name in seen},
+        "ranges": {name: [_round(rows[name].min()), _round(rows[name].max())] for name in scene_features},
     }
 
 
-def fit_power_law(rows: pd.DataFrame, of: str, names: Sequence[str], known: Mapping[str, float]) -> dict | None:
+def fit_power_law(
+    rows: pd.DataFrame, of: str, names: Sequence[str], prescribed: Mapping[str, float]
+) -> PowerLaw | None:
     """Fit a straight line through logarithms.
 
     Parameters
@@ -115,12 +132,12 @@ def fit_power_law(rows: pd.DataFrame, of: str, names: Sequence[str], known: Mapp
         Column of the fitted values.
     names : sequence of str
         Features.
-    known : mapping
-        Coefficients that are prescribed, by feature.
+    prescribed : mapping
+        Coefficients that are not fitted, by feature.
 
     Returns
     -------
-    dict or None
+    PowerLaw or None
         Coefficients, the standard deviation of what remains and the number of rows; None where too few errors lie
         between noise and the largest error of the asymptotic range.
     """
@@ -131,19 +148,19 @@ def fit_power_law(rows: pd.DataFrame, of: str, names: Sequence[str], known: Mapp
     if good.sum() < MIN_ROWS:
         return None
     rows, logs = rows[good], np.log(values[good])
-    free = [name for name in names if name not in known]
+    free = [name for name in names if name not in prescribed]
     matrix = rows[free].to_numpy(float)
-    rest = logs - sum((rows[name].to_numpy(float) * factor for name, factor in known.items()), np.zeros(len(rows)))
+    rest = logs - sum((rows[name].to_numpy(float) * factor for name, factor in prescribed.items()), np.zeros(len(rows)))
     penalty = np.sqrt(RIDGE_WEIGHT * max(len(rows), 1)) * np.diag([float(name != "one") for name in free])
     solution = np.linalg.lstsq(np.vstack([matrix, penalty]), np.concatenate([rest, np.zeros(len(free))]), rcond=None)[0]
     residual = rest - matrix @ solution
     if of.startswith("error"):  # errors change their sign: what counts is their size, not the middle of its logarithm
         solution[free.index("one")] += 0.5 * np.log(np.mean(np.exp(2 * residual)))
-    coefficients = {name: _round(value) for name, value in zip(free, solution, strict=True)} | dict(known)
-    return {"coefficients": coefficients, "spread": _round(residual.std()), "rows": int(good.sum())}
+    coefficients = {name: _round(value) for name, value in zip(free, solution, strict=True)} | dict(prescribed)
+    return PowerLaw(coefficients, _round(residual.std()), int(good.sum()))
 
 
-def _fit_seconds(rows: pd.DataFrame) -> dict:
+def _fit_seconds(rows: pd.DataFrame) -> dict[str, float]:
     """Fit the seconds of a load or step, of a transform, and of points times their log2 to logarithms."""
     size, seconds = rows.total.to_numpy(float), rows.seconds.to_numpy(float)
     parts = np.stack([rows["count"], rows.transforms, rows.transforms * size * np.log2(size)], axis=1).astype(float)

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -29,7 +31,7 @@ from contactsim.error_control.scaling import (
     scene_family,
 )
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
-from contactsim.evaluation.calibration.sampling import draw_scene
+from contactsim.evaluation.calibration.sampling import FAMILY_RANGES, Ranges, Trials, draw_scene
 from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
@@ -161,23 +163,39 @@ def _rows(knob: str, solution: Solution, reference: Solution, family: str) -> li
     return rows
 
 
-def scaling_job(settings: dict, kind: str) -> dict:
+@dataclass(frozen=True)
+class ScalingJob:
+    """The measurements of one family: its ranges, and the seed and number of its scenes."""
+
+    kind: str
+    ranges: Ranges
+    seed: int
+    scenes: int
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any]) -> ScalingJob:
+        """Return the job from its JSON, of `scaling_job`."""
+        kind, scenes = settings["kind"], settings["drawn"]
+        return cls(kind, FAMILY_RANGES[kind](**scenes["ranges"]), scenes["seed"], scenes["scenes"])
+
+
+def scaling_job(trials: Trials, kind: str) -> dict[str, Any]:
     """Return what the measurements of one family depend on.
 
     They do not depend on the scaling relations that they start from: else fitting would never settle.
     """
-    drawn = {"ranges": settings["kinds"][kind], **settings["calibration"]}
+    scenes = {"ranges": asdict(trials.kinds[kind]), **asdict(trials.calibration)}
     source = computing_stage_digest("measure_scaling", *(solver_module(name) for name in DEFAULT_SOLVERS.values()))
-    return {"kind": kind, "drawn": drawn, "source": source}
+    return {"kind": kind, "drawn": scenes, "source": source}
 
 
-def measure_scaling(job: dict) -> pd.DataFrame:
+def measure_scaling(job: ScalingJob) -> pd.DataFrame:
     """Measure all scenes of one family on all ladders.
 
     Parameters
     ----------
-    job : dict
-        From `scaling_job`.
+    job : ScalingJob
+        The family and its scenes.
 
     Returns
     -------
@@ -185,10 +203,9 @@ def measure_scaling(job: dict) -> pd.DataFrame:
         The rows of `measure_scene`, with the number of the scene and the seconds of the transform in which times are
         counted.
     """
-    kind, drawn = job["kind"], job["drawn"]
     tables = []
-    for count in range(drawn["scenes"]):
-        run = draw_scene(kind, drawn["ranges"], drawn["seed"], count)
+    for count in range(job.scenes):
+        run = draw_scene(job.kind, job.ranges, job.seed, count)
         tables.append(measure_scene(run.setup).assign(scene=count))
-        logger.info("scene %d of %d", count + 1, drawn["scenes"])
+        logger.info("scene %d of %d", count + 1, job.scenes)
     return pd.concat(tables, ignore_index=True).assign(unit=transform_seconds())

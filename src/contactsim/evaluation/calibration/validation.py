@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -21,10 +24,11 @@ from contactsim.error_control.relations import FILE
 from contactsim.error_control.scaling import FAMILIES, LINE, QUANTITIES, SURFACE
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.errors import InputError
-from contactsim.evaluation.calibration.sampling import draw_scene
+from contactsim.evaluation.calibration.sampling import FAMILY_RANGES, Ranges, Trials, draw_scene
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
+from contactsim.study.run import Run
 from contactsim.study.stages import computing_stage_digest, stage_digest
 from contactsim.variables import RESULTS
 
@@ -42,45 +46,62 @@ PATH_REFERENCE_GRID, REFERENCE_INCREMENT, REFERENCE_TOLERANCE = 3.0, 0.25, 0.1
 """Of a reference along a path: its grid's points, increments, tolerance, over the final ones."""
 
 
-def trial_names(settings: dict) -> list[str]:
+@dataclass(frozen=True)
+class Trial:
+    """One scene on trial: its family, number, ranges and seed, and the error that is requested of it."""
+
+    kind: str
+    count: int
+    ranges: Ranges
+    seed: int
+    requested_error: float
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any]) -> Trial:
+        """Return the trial from its JSON, of `trial_job`."""
+        kind, count, shared = settings["kind"], settings["count"], settings["settings"]
+        ranges = FAMILY_RANGES[kind](**shared["kinds"][kind])
+        return cls(kind, count, ranges, shared["trial"]["seed"], requested_error(shared["errors"], kind, count))
+
+
+def trial_names(trials: Trials) -> list[str]:
     """Return the names of all trials, which are those of their files."""
-    return [f"{kind}_{count}" for kind in settings["kinds"] for count in range(settings["trial"]["scenes"])]
+    return [f"{kind}_{count}" for kind, count in _scenes(trials)]
 
 
-def trial_job(settings: dict, kind: str, count: int) -> dict:
+def _scenes(trials: Trials) -> list[tuple[str, int]]:
+    """Return the family and number of every scene."""
+    return [(kind, count) for kind in trials.kinds for count in range(trials.trial.scenes)]
+
+
+def trial_job(trials: Trials, kind: str, count: int) -> dict[str, Any]:
     """Return what one trial depends on."""
     solvers = [solver_module(name) for name in DEFAULT_SOLVERS.values()]
     source = digest(computing_stage_digest("trial", *solvers), FILE.read_text(encoding="utf-8"))
-    drawn = {"kinds": settings["kinds"], "trial": {"seed": settings["trial"]["seed"]}, "errors": settings["errors"]}
-    return {"settings": drawn, "kind": kind, "count": count, "source": source}
+    kinds = {name: asdict(ranges) for name, ranges in trials.kinds.items()}
+    shared = {"kinds": kinds, "trial": {"seed": trials.trial.seed}, "errors": trials.errors}
+    return {"settings": shared, "kind": kind, "count": count, "source": source}
 
 
-def trials_figure_job(settings: dict, tier: str) -> dict:
+def trials_figure_job(trials: Trials, tier: str) -> dict[str, Any]:
     """Return what the figure of all trials depends on."""
-    data = [
-        trial_job(settings, kind, count) for kind in settings["kinds"] for count in range(settings["trial"]["scenes"])
-    ]
-    figure = {key: settings[key] for key in ("title", "caption", "size")}
-    code = stage_digest("trials_figure")
-    return {"settings": figure, "tier": tier, "seed": settings["trial"]["seed"], "source": code, "data": digest(data)}
+    data = [trial_job(trials, kind, count) for kind, count in _scenes(trials)]
+    code, seed = stage_digest("trials_figure"), trials.trial.seed
+    return {"settings": trials.layout, "tier": tier, "seed": seed, "source": code, "data": digest(data)}
 
 
-def requested_error(settings: dict, kind: str, count: int) -> float:
+def requested_error(errors: Sequence[float], kind: str, count: int) -> float:
     """Return the error requested of a scene: the errors of the list in turn, from another one for each family."""
-    return settings["errors"][(count + sorted(FAMILIES).index(kind)) % len(settings["errors"])]
+    return errors[(count + sorted(FAMILIES).index(kind)) % len(errors)]
 
 
-def run_trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
+def run_trial(trial: Trial) -> tuple[xr.Dataset, dict[str, float]]:
     """Solve one random scene to a requested error and judge the result by a finer run.
 
     Parameters
     ----------
-    settings : dict
-        Ranges, seed and errors, as in `trial_job`.
-    kind : str
-        Family of the scene.
-    count : int
-        Number of the scene.
+    trial : Trial
+        The scene and the error.
 
     Returns
     -------
@@ -89,16 +110,17 @@ def run_trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
     costs : dict
         Seconds predicted, spent, and of the cheapest setting.
     """
-    run = draw_scene(kind, settings["kinds"][kind], settings["trial"]["seed"], count)
-    setup, tolerated = run.setup, requested_error(settings, kind, count)
+    kind, tolerated = trial.kind, trial.requested_error
+    run = draw_scene(kind, trial.ranges, trial.seed, trial.count)
+    setup = run.setup
     expected = forecast_to_error(setup, tolerated)
     solve_setup(coarsen(choose_options(setup, tolerated)), QUANTITIES[kind])  # compiles the kernels
     result = solve_to_error(setup, tolerated)
     names = QUANTITIES[kind]
     reference = solve_setup(REFERENCES[setup.scene.kind](result.last.setup, kind), names)
-    tried = [(solution, _error(solution, reference)) for solution in _ladder(result, names)]
-    met = [solution for solution, error in tried if error <= tolerated]
-    least = min(met, key=lambda solution: solution.transforms * solution.size, default=None)
+    errors = [(solution, _error(solution, reference)) for solution in _ladder(result, names)]
+    accurate = [solution for solution, error in errors if error <= tolerated]
+    least = min(accurate, key=lambda solution: solution.transforms * solution.size, default=None)
     work = result.work * result.last.size
     row = {
         "requested_error": tolerated,
@@ -111,14 +133,14 @@ def run_trial(settings: dict, kind: str, count: int) -> tuple[xr.Dataset, dict]:
         "predicted_work": expected.transforms * setup.with_options(points=expected.points).size,
         "min_work": least.transforms * least.size if least else np.nan,
         "min_work_points": least.points if least else -1,
-        "settings_tried": len(tried),
-        "settings_within_error": len(met),
+        "settings_tried": len(errors),
+        "settings_within_error": len(accurate),
     }
-    coordinates = {"scene": [f"{kind} {count}"], "kind": ("scene", [kind])}
+    coordinates = {"scene": [f"{kind} {trial.count}"], "kind": ("scene", [kind])}
     data = xr.Dataset({name: ("scene", [value]) for name, value in row.items()}, coordinates)
-    data = data.assign(description=("scene", [_describe_scene(run.settings)]))
-    spent = {"predicted": expected.seconds, "seconds": result.seconds, "least": least.seconds if least else math.nan}
-    return dataset.describe(data), spent
+    data = data.assign(description=("scene", [_describe_scene(run)]))
+    costs = {"predicted": expected.seconds, "seconds": result.seconds, "least": least.seconds if least else math.nan}
+    return dataset.describe(data), costs
 
 
 def _error(solution: Solution, reference: Solution) -> float:
@@ -146,12 +168,12 @@ REFERENCES = {ProblemKind.HARD_WALL: _load_reference, ProblemKind.COHESIVE: _pat
 def _ladder(result: Controlled, names: tuple[str, ...]) -> list[Solution]:
     """Return every setting about the final one, solved on its own."""
     last = result.last.setup
-    tried = {}
+    setups = {}
     for grid, pace, tolerance in itertools.product(LADDER_GRIDS, *LADDER_FACTORS[last.scene.kind]):
         setup = last.with_options(tolerance=last.options.tolerance * tolerance)
         setup = set_grid(scale_increment(setup, pace), last.points * grid)
-        tried[setup.points, pace, tolerance] = setup
-    return [solution for solution in (_solved(setup, names) for setup in tried.values()) if solution]
+        setups[setup.points, pace, tolerance] = setup
+    return [solution for solution in (_solved(setup, names) for setup in setups.values()) if solution]
 
 
 def _solved(setup: Setup, names: tuple[str, ...]) -> Solution | None:
@@ -162,9 +184,10 @@ def _solved(setup: Setup, names: tuple[str, ...]) -> Solution | None:
         return None
 
 
-def _describe_scene(run: dict) -> str:
+def _describe_scene(run: Run) -> str:
     """Return the drawn quantities of a scene in a few words."""
-    surface, load, body = run["surface"], run["load"], run.get("counter_body") or run["body"]
+    settings = run.settings
+    surface, load, body = settings["surface"], settings["load"], settings.get("counter_body") or settings["body"]
     if "hurst_exponent" in surface:
         parts = [
             f"H {surface['hurst_exponent']:.2g}",
@@ -174,9 +197,9 @@ def _describe_scene(run: dict) -> str:
         parts = [f"{surface['kind']} R {surface['radius'] / 1000:.3g} µm"]
     if "values" in load:
         parts.append(f"{RESULTS[load['name']].phrase} {load['values'][0]:.2g}")
-    law = next((run[name] for name in run["effects"] if run.get(name)), None)
+    law = next((settings[name] for name in settings["effects"] if settings.get(name)), None)
     if law is not None:
-        deepest = run["slide"]["approach"] if "slide" in run else load["through"][-1]
+        deepest = settings["slide"]["approach"] if "slide" in settings else load["through"][-1]
         parts += [f"φn {law['work_of_separation']:.2g} N/m", f"φt/φn {law['work_ratio']:.2g}"]
         parts += [f"ν {body['poisson_ratio']:.2g}", f"δ {deepest:.3g} nm"]
     return ", ".join(parts)

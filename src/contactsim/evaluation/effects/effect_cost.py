@@ -6,34 +6,72 @@ Unknowns, transforms and the status of every step are reproducible; seconds and 
 from __future__ import annotations
 
 import tracemalloc
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from contactsim import dataset
 from contactsim.errors import InputError
+from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.paths.driver import follow_path
+from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
 from contactsim.status import is_solved
-from contactsim.study.reading import Key, mapping, overlaid, read, size, text, tiered, whole
+from contactsim.study.reading import Key, mapping, overlaid, read, tiered, whole
 from contactsim.study.scenes import build_setup
 from contactsim.study.stages import computing_stage_digest, stage_digest
 from contactsim.study.study import Study
 
-KEYS = {
-    "title": Key(text, "a line of text"),
-    "caption": Key(text, "text"),
-    "size": Key(size, "width and height in inches"),
+KEYS = FIGURE_KEYS | {
     "repeats": Key(whole(1), "how often each variant is timed, 1 or more", 1),
     "scene": Key(mapping, "keys of a study that all variants share"),
     "variants": Key(mapping, "a mapping from names to a title and the keys of a study that a variant adds"),
 }
 
 
-def read_variants(folder: str | Path, seed: int, over: dict, tier: str) -> dict | None:
-    """Return the settings of the study of costs, with name, title and run of each variant; None without the file."""
+@dataclass(frozen=True)
+class Variant:
+    """The scene with some effects: its name, its title and the settings of its run."""
+
+    name: str
+    title: str
+    run: Mapping[str, Any]
+
+    @property
+    def setup(self) -> Setup:
+        """Scene and options."""
+        return build_setup(self.run)
+
+
+@dataclass(frozen=True)
+class CostJob:
+    """The measurement: how often each variant is timed, and the variants."""
+
+    repeats: int
+    variants: Sequence[Variant]
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any]) -> CostJob:
+        """Return the job from its JSON, the settings of `effects_job`."""
+        return cls(settings["repeats"], [Variant(**variant) for variant in settings["variants"]])
+
+
+@dataclass(frozen=True)
+class EffectCosts(FigureSettings):
+    """The study of costs: how often variants are timed, the keys that they share, and the variants."""
+
+    repeats: int
+    scene: Mapping[str, Any]
+    variants: Sequence[Variant]
+
+
+def read_variants(folder: str | Path, seed: int, over: dict, tier: str) -> EffectCosts | None:
+    """Return the study of costs of effects.yaml with a tier's changes; None without that file."""
     source = tiered(Path(folder) / "effects.yaml", over, tier)
     if source is None:
         return None
@@ -47,27 +85,30 @@ def read_variants(folder: str | Path, seed: int, over: dict, tier: str) -> dict 
         runs = study.runs()
         if len(runs) != 1:
             raise InputError(f"variants.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
-        variants.append({"name": name, "title": study.settings["title"], "run": runs[0].settings})
-    return settings | {"variants": variants}
+        variants.append(Variant(name, study.settings["title"], runs[0].settings))
+    return EffectCosts(**settings | {"variants": variants})
 
 
-def effects_job(settings: dict) -> dict:
+def effects_job(costs: EffectCosts) -> dict[str, Any]:
     """Return what the measurement depends on."""
-    modules = sorted({solver_module(variant["run"]["solver"]["kind"]) for variant in settings["variants"]})
-    job = {key: settings[key] for key in ("repeats", "variants")}
-    return {"settings": job, "source": computing_stage_digest("measure_effects", *modules)}
+    modules = sorted({solver_module(variant.run["solver"]["kind"]) for variant in costs.variants})
+    job = CostJob(costs.repeats, costs.variants)
+    return {"settings": asdict(job), "source": computing_stage_digest("measure_effects", *modules)}
 
 
-def effects_figure_job(settings: dict, tier: str) -> dict:
+def effects_figure_job(costs: EffectCosts, tier: str) -> dict[str, Any]:
     """Return what the figure depends on."""
-    titles = {variant["name"]: variant["title"] for variant in settings["variants"]}
-    figure = {key: settings[key] for key in ("title", "caption", "size")}
-    code, data = stage_digest("effects_figure"), digest(effects_job(settings))
-    settings = {"settings": figure, "titles": titles, "repeats": settings["repeats"], "tier": tier}
-    return settings | {"source": code, "data": data}
+    return {
+        "settings": costs.layout,
+        "titles": {variant.name: variant.title for variant in costs.variants},
+        "repeats": costs.repeats,
+        "tier": tier,
+        "source": stage_digest("effects_figure"),
+        "data": digest(effects_job(costs)),
+    }
 
 
-def measure_effects(settings: dict) -> tuple[xr.Dataset, dict]:
+def measure_effects(job: CostJob) -> tuple[xr.Dataset, dict[str, dict[str, float]]]:
     """Measure all variants.
 
     Returns
@@ -77,11 +118,10 @@ def measure_effects(settings: dict) -> tuple[xr.Dataset, dict]:
     costs : dict
         CPU seconds and peak megabytes by variant.
     """
-    rows, spent = [], {}
-    for variant in settings["variants"]:
-        name = variant["name"]
-        setup = build_setup(variant["run"])
-        runs = [follow_path(setup) for _ in range(settings["repeats"])]
+    rows, costs = [], {}
+    for variant in job.variants:
+        setup = variant.setup
+        runs = [follow_path(setup) for _ in range(job.repeats)]
         tracemalloc.start()
         try:
             follow_path(setup)
@@ -91,7 +131,7 @@ def measure_effects(settings: dict) -> tuple[xr.Dataset, dict]:
         data = runs[0]
         rows.append(
             {
-                "variant": name,
+                "variant": variant.name,
                 "components": " ".join(setup.scene.components),
                 "unknowns": setup.points * len(setup.scene.exerted),
                 "transforms": float(data.transforms.sum()),
@@ -99,7 +139,7 @@ def measure_effects(settings: dict) -> tuple[xr.Dataset, dict]:
                 "steps": data.status.size,
             }
         )
-        spent[name] = {"seconds": min(float(run.seconds.sum()) for run in runs), "megabytes": peak}
+        costs[variant.name] = {"seconds": min(float(run.seconds.sum()) for run in runs), "megabytes": peak}
     columns = {name: ("variant", np.array([row[name] for row in rows])) for name in rows[0] if name != "variant"}
     data = xr.Dataset(columns, {"variant": [row["variant"] for row in rows]})
-    return dataset.describe(data), spent
+    return dataset.describe(data), costs

@@ -59,6 +59,7 @@ class Case:
         q = 2 * np.pi * np.sqrt(sum(np.square(wave) for wave in np.ix_(*waves, np.fft.rfftfreq(*last))))
         if self.thickness is None:
             return np.divide(2 / self.contact_modulus, q, out=np.zeros_like(q), where=q > 0)
+        assert self.poisson_ratio is not None, "a layer has one"
         response = layer_response(q.ravel() * self.thickness, self.poisson_ratio).reshape(q.shape)
         return response * (self.thickness / self.contact_modulus)
 
@@ -103,20 +104,25 @@ def make_case(
     unit: float = 1.0,
     tolerance: float = 1e-8,
     spacing: float | tuple[float, float] = 1.0,
-    **layer: float,
+    thickness: float | None = None,
+    poisson_ratio: float | None = None,
 ) -> Case:
     """The case whose pressure is the positive part of a field (n,) or (ny, nx), and whose gap is the negative part.
 
     scale: factor on heights and pressure; unit: of length, with a modulus that keeps the load of a length; spacing: in
-    that unit; layer: its thickness, in that unit, and Poisson's ratio.
+    that unit; thickness: of a layer, in that unit; poisson_ratio: of the layer.
     """
-    if layer:
-        layer |= {"thickness": unit * layer["thickness"]}
     pressure = np.maximum(field, 0.0)
     exact = scale / unit * pressure
-    spacings = unit * spacing if np.ndim(spacing) == 0 else tuple(unit * step for step in spacing)
     case = Case(
-        field, exact.mean(), spacing=spacings, contact_modulus=1 / unit, tolerance=tolerance, exact=exact, **layer
+        field,
+        exact.mean(),
+        spacing=(unit * spacing[0], unit * spacing[1]) if isinstance(spacing, tuple) else unit * spacing,
+        contact_modulus=1 / unit,
+        tolerance=tolerance,
+        exact=exact,
+        thickness=None if thickness is None else unit * thickness,
+        poisson_ratio=poisson_ratio,
     )
     heights = displacement(exact, case.compliance) - unit * scale * np.maximum(-field, 0.0)
     return replace(case, heights=heights)
@@ -173,8 +179,8 @@ def summit_pressure(heights: Array, load: float) -> Array | None:
     matrix[:-1, :-1] = influence[tuple(np.moveaxis(apart, -1, 0))]
     matrix[-1, -1] = 0.0
     pressure = np.zeros_like(heights)
-    carried = np.linalg.solve(matrix, np.append(np.zeros(len(top)), load * heights.size))[:-1]
-    pressure[tuple(top.T)] = carried
+    forces = np.linalg.solve(matrix, np.append(np.zeros(len(top)), load * heights.size))[:-1]
+    pressure[tuple(top.T)] = forces
     gap = displacement(pressure, half_space) - heights
     touching = gap[tuple(top.T)].mean()
-    return pressure if carried.min() > 0 and gap.min() > touching - 1e-9 * np.abs(heights).max() else None
+    return pressure if forces.min() > 0 and gap.min() > touching - 1e-9 * np.abs(heights).max() else None

@@ -109,7 +109,7 @@ def find_violation(case: Case, result: Result) -> str:
         return "negative pressure"
     if case.approach is not None and abs(result.approach - case.approach) > allowed + 1e-14 * sunk:
         return "not the approach asked for"
-    if case.approach is None and abs(result.mean_pressure - case.mean_pressure) > 1e-12 * case.mean_pressure:
+    if case.mean_pressure is not None and abs(result.mean_pressure - case.mean_pressure) > 1e-12 * case.mean_pressure:
         return "forces do not balance"
     if np.abs(gap[result.contact]).max(initial=0.0) > allowed or gap.min() < -allowed:
         return "contact condition violated"
@@ -225,7 +225,7 @@ def _find_state_violation(case: PathCase, state: PathState) -> str:
         return f"unbalanced traction {unbalanced:.3g} GPa, allowed {allowed:.3g}"
     if not case.even:
         return ""
-    middle, length = case.points // 2, min(law.interaction_range for law in case.scene.effects)
+    middle, length = case.points // 2, min(law.interaction_range for law in case.laws)
     skew = gap[0] - mirror_field(gap[0], middle), gap[1] + mirror_field(gap[1], middle)
     return "not mirror symmetric" if np.abs(skew).max() > MAX_FORCE_ERROR * length else ""
 

@@ -79,11 +79,11 @@ def tall_spike(severity: float) -> Case:
 
 def _dug(severity: float, share: float) -> Case:
     """A rough line with a groove in its widest gap over that share of all points, 1e1 to 1e8 spacings deep."""
-    pressed = make_case(shift_field(_rough(), 0.1), tolerance=1e-6)
+    case = make_case(shift_field(_rough(), 0.1), tolerance=1e-6)
     far = np.argmin(_rough()) + np.arange(round(share * POINTS))
-    heights = pressed.heights.copy()
+    heights = case.heights.copy()
     heights[far % POINTS] -= 10 ** (1 + 7 * severity / 100)
-    return replace(pressed, heights=heights)
+    return replace(case, heights=heights)
 
 
 def deep_pit(severity: float) -> Case:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -20,12 +21,11 @@ from contactsim.contact.loading import LoadPath
 from contactsim.contact.pose_cohesive import MAX_TOLERANCE, pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.base import Elasticity
-from contactsim.elasticity.half_space import HalfSpace
-from contactsim.elasticity.layer import Layer
+from contactsim.evaluation.robustness.navier import surface_compliance
 from contactsim.grid import Array
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.lattice import Lattice
 from contactsim.paths.increments import Requested
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
@@ -33,8 +33,6 @@ from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-DEEP = 40.0
-"""|q|h from which on a layer is a half-space to all digits."""
 FAR = 12.0
 """Tangential lengths beyond which a site does nothing, to all digits."""
 SWEEPS, SHRINKING = 400, 0.9
@@ -69,6 +67,11 @@ class PathCase:
         return frozenset({Trait.LINE}).union(*(effect.traits for effect in self.scene.effects))
 
     @property
+    def laws(self) -> tuple[Law, ...]:
+        """The effects of the scene, all of them smooth laws."""
+        return cast(tuple[Law, ...], self.scene.effects)
+
+    @property
     def steps(self) -> tuple[LoadStep, ...]:
         """The states asked for."""
         return self.scene.path.steps
@@ -94,7 +97,7 @@ class PathCase:
         q = 2 * np.pi * np.fft.rfftfreq(self.points, self.scene.length / self.points)
         signs = np.array([[1, -1], [-1, 1]])
         bodies = (self.scene.lower.elasticity, 1), (self.scene.upper.elasticity, signs)
-        total = sum(surface_compliance(body, q) * turn for body, turn in bodies if body is not None)
+        total = np.asarray(sum(surface_compliance(body, q) * turn for body, turn in bodies if body is not None))
         if self.points % 2 == 0:
             total[-1, [0, 1], [1, 0]] = 0.0
         return total
@@ -115,16 +118,21 @@ class PathCase:
 
     def traction(self, gap: Array) -> Array:
         """Normal traction and that along x (2, n), GPa, at a gap (2, n), nm: of all sites of a flat lattice below."""
-        return sum(self._of_sites(law, gap) for law in self.scene.effects)
+        tractions: list[Array] = [self._of_sites(law, gap) for law in self.laws]
+        return np.asarray(sum(tractions))
 
     def _of_sites(self, law: Law, gap: Array) -> Array:
-        lattice = self.scene.pairing.lattice_constant
+        pairing = self.scene.pairing
+        lattice = pairing.lattice_constant
         if np.isinf(lattice):
             return FORMULAS[type(law)](law, *gap)
         most = int(np.ceil(FAR * law.tangential_length / lattice))
         nearest = gap[1] - lattice * np.round(gap[1] / lattice)
-        sites = (FORMULAS[type(law)](law, gap[0], nearest + lattice * site) for site in range(-most, most + 1))
-        return self.scene.pairing.weight * sum(sites)
+        assert isinstance(pairing, Lattice), "no other pairing repeats itself"
+        sites: list[Array] = [
+            FORMULAS[type(law)](law, gap[0], nearest + lattice * site) for site in range(-most, most + 1)
+        ]
+        return pairing.weight * np.asarray(sum(sites))
 
     def forces(self, step: LoadStep, displacement: Array) -> Array:
         """Compression and, on a slide, the force along x of a state (N/m)."""
@@ -154,11 +162,13 @@ class PathCase:
     @cached_property
     def exact(self) -> Array | None:
         """Forces (step, 1 or 2), N/m, of the fixed point at each step; None where it does not contract."""
-        displacement, loads = np.zeros((2, self.points // 2 + 1), complex), []
+        displacement: Array = np.zeros((2, self.points // 2 + 1), complex)
+        loads = []
         for step in self.steps:
-            displacement = self._fixed_point(step, displacement)
-            if displacement is None:
+            solution = self._fixed_point(step, displacement)
+            if solution is None:
                 return None
+            displacement = solution
             loads.append(self.forces(step, displacement))
         return np.array(loads)
 
@@ -189,9 +199,9 @@ class PathCase:
         displacement, before, rows = start, np.inf, len(self.scene.exerted)
         with np.errstate(over="ignore", invalid="ignore"):  # what does not contract may overflow
             for _ in range(SWEEPS):
-                pulled = np.fft.rfft(self.traction(self.gap(step, displacement))) / self.points
-                pulled[rows:] = 0.0
-                after = -np.einsum("qij,jq->iq", self.compliance, pulled)
+                traction = np.fft.rfft(self.traction(self.gap(step, displacement))) / self.points
+                traction[rows:] = 0.0
+                after = -np.einsum("qij,jq->iq", self.compliance, traction)
                 change = float(np.abs(after - displacement).sum())
                 displacement = after
                 if change <= 1e-12 * np.abs(after).sum():
@@ -200,52 +210,6 @@ class PathCase:
                     return None
                 before = change
         return None
-
-
-def surface_compliance(body: Elasticity, q: Array) -> Array:
-    """Displacement per traction, normal and along x, of a body from below, at q ≥ 0 (m,), complex, (m, 2, 2), nm/GPa.
-
-    With φ = (a + b e^{-2qz}…) and ψ harmonic, u = ∇(φ + zψ) - 4(1-ν) ψ e_z solves Navier's equations; its amplitudes
-    e^{qz} and e^{-q(z+h)} are found, wave by wave, from no displacement at depth h and the tractions at z = 0.
-    """
-    ratio, shear = body.poisson_ratio, body.contact_modulus * (1 - body.poisson_ratio) / 2
-    waves = np.empty((q.size, 2, 2), complex)
-    waves[0] = np.diag(_uniform(body, shear))
-    deep = np.minimum(q[1:] * body.base_depth, DEEP)
-    decay = np.exp(-deep)
-
-    def state(z: Array, harmonic: Array, sign: int) -> list[tuple[Array, ...]]:
-        """For φ and for ψ, with qz and the harmonic there: u_n, u_t/i, and the tractions σ_zz/2μq, σ_xz/2μqi."""
-        k = 3 - 4 * ratio
-        phi = sign * harmonic, harmonic, harmonic, sign * harmonic
-        psi = (
-            (sign * z - k) * harmonic,
-            z * harmonic,
-            (z - 2 * (1 - ratio) * sign) * harmonic,
-            (sign * z + (1 - k) / 2) * harmonic,
-        )
-        return [phi, psi]
-
-    one, zero = np.ones_like(deep), np.zeros_like(deep)
-    top = np.array(state(zero, one, 1) + state(zero, decay, -1)).transpose(2, 1, 0)
-    base = np.array(state(-deep, decay, 1) + state(-deep, one, -1)).transpose(2, 1, 0)
-    system = np.concatenate([base[:, :2], top[:, 2:]], axis=1)
-    amplitudes = np.linalg.solve(system, np.broadcast_to(np.eye(4)[:, 2:], (deep.size, 4, 2)))
-    moved = (top[:, :2] @ amplitudes) / (2 * shear * q[1:, None, None])
-    waves[1:] = moved * np.array([[1, -1j], [1j, 1]])
-    return waves
-
-
-def _uniform(body: Elasticity, shear: float) -> tuple[float, float]:
-    """Displacement per uniform traction, normal and along x; zero where the mean does not move, or is free."""
-    depth, ratio = body.base_depth, body.poisson_ratio
-    return UNIFORM[type(body)](depth, ratio, shear)
-
-
-UNIFORM: dict[type, Callable[..., tuple[float, float]]] = {
-    HalfSpace: lambda *_: (0.0, 0.0),
-    Layer: lambda depth, ratio, shear: (depth * (1 - 2 * ratio) / (2 * shear * (1 - ratio)), depth / shear),
-}
 
 
 def _mixed_mode(law: CohesiveZone, normal: Array, tangential: Array) -> Array:

@@ -6,6 +6,7 @@ its path; and, where it is known, the exact answer.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
@@ -23,4 +24,4 @@ HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
 
 def describe_hazard(hazard: str) -> str:
     """Return the first line of a hazard's docstring, which says what gets harder."""
-    return HAZARDS[hazard].__doc__.splitlines()[0]
+    return inspect.cleandoc(HAZARDS[hazard].__doc__ or "").partition("\n")[0]

@@ -34,38 +34,38 @@ def _probe(path: LoadPath, law: CohesiveZone, body: Layer, pairing: Pairing | No
     return Scene(Body(Flat.facing(surface)), Body(surface, body), (law,), path, pairing or Lattice(LATTICE))
 
 
-def _slid(slides: list[float], held: float = 0.0, before: list[float] | None = None) -> LoadPath:
-    """Pressed to an approach by way of others, then moved along x to each of the slides."""
-    pressed = approaches([*(before or [-6.0]), held])
-    moved = [LoadStep(Trait.SLIDE, value, held=pressed.steps[-1]) for value in slides]
-    return pressed >> LoadPath(tuple(moved))
+def _slide_path(slides: list[float], approach: float = 0.0) -> LoadPath:
+    """Return a path that presses to an approach, then slides along x to each of the distances, nm."""
+    pressing = approaches([-6.0, approach])
+    sliding = [LoadStep(Trait.SLIDE, value, held=pressing.steps[-1]) for value in slides]
+    return pressing >> LoadPath(tuple(sliding))
 
 
 def many_cells_slid(severity: float) -> PathCase:
     """A stiff probe put down 1 to 1e6 cells of the lattice on slides by a quarter: exact, forces repeat themselves."""
     cells = round(10 ** (6 * severity / 100))
     (touching,) = approaches([0.0]).steps
-    moved = [LoadStep(Trait.SLIDE, (cells + part) * LATTICE, held=touching) for part in (0.0, 0.25)]
-    return PathCase(_probe(LoadPath(tuple(moved)), WEAK, STIFF), 64, even=False)
+    steps = [LoadStep(Trait.SLIDE, (cells + part) * LATTICE, held=touching) for part in (0.0, 0.25)]
+    return PathCase(_probe(LoadPath(tuple(steps)), WEAK, STIFF), 64, even=False)
 
 
 def fine_lattice(severity: float) -> PathCase:
     """The lattice gets finer, from 2.4 to 0.02 tangential lengths, at one strength: exact, friction dies out."""
     lattice = LATTICE * 0.01 ** (severity / 100)
     pairing = Lattice(lattice, weight=min(lattice / 1.77, 1.0))
-    return PathCase(_probe(_slid([0.3 * lattice, 3.3 * lattice]), WEAK, STIFF, pairing), 64, even=False)
+    return PathCase(_probe(_slide_path([0.3 * lattice, 3.3 * lattice]), WEAK, STIFF, pairing), 64, even=False)
 
 
 def wide_window(severity: float) -> PathCase:
     """The window grows from 5 to 5000 tangential lengths, five times the period: exact, far springs are nothing."""
     pairing = Lattice(LATTICE, tangential_cutoff=5 * 1e3 ** (severity / 100))
-    return PathCase(_probe(_slid([0.6, 5.0]), WEAK, STIFF, pairing), 64, even=False)
+    return PathCase(_probe(_slide_path([0.6, 5.0]), WEAK, STIFF, pairing), 64, even=False)
 
 
 def pulled_apart_slide(severity: float) -> PathCase:
     """Held ever farther apart, from 1 to 21 nm before first touch, the soft probe slides: as in small increments."""
     approach = -1.0 - 20 * severity / 100
-    return PathCase(_probe(_slid([2.0, 4.0], approach), STRONG, SOFT), 64, begin=-30.0, parts=8, even=False)
+    return PathCase(_probe(_slide_path([2.0, 4.0], approach), STRONG, SOFT), 64, begin=-30.0, parts=8, even=False)
 
 
 def pulled_off_slide(severity: float) -> PathCase:
@@ -84,7 +84,7 @@ def pulled_off_slide(severity: float) -> PathCase:
 def reversal_near_a_slip(severity: float) -> PathCase:
     """The slide turns ever closer before its first slip, then ever farther after: as in small increments."""
     turn = ONSET + (-0.5 + 0.4 * severity / 50 if severity < 50 else 0.3 + 1.7 * (severity - 50) / 50)
-    path = _slid([4.0, 7.0, turn, 7.0, 4.0])
+    path = _slide_path([4.0, 7.0, turn, 7.0, 4.0])
     return PathCase(_probe(path, STRONG, SOFT), 64, parts=6, even=False)
 
 
@@ -92,7 +92,7 @@ def large_increments(severity: float) -> PathCase:
     """Increments of the slide grow from 0.5 to 6 nm, more than two cells of the lattice: as in small ones."""
     increment = 0.5 * 12 ** (severity / 100)
     slides = [ONSET - increment / 2 + increment * step for step in range(2)]
-    return PathCase(_probe(_slid(slides), STRONG, SOFT), 64, parts=16, even=False)
+    return PathCase(_probe(_slide_path(slides), STRONG, SOFT), 64, parts=16, even=False)
 
 
 SLIDING = (

@@ -103,10 +103,10 @@ def low_post(severity: float) -> Case:
 
 def deep_hole(severity: float) -> Case:
     """A single point that is not in contact falls, to 1e8 spacings: the contact does not notice."""
-    pressed = make_case(shift_field(_rough(), 0.1), tolerance=1e-6)
-    heights = pressed.heights.copy()
+    case = make_case(shift_field(_rough(), 0.1), tolerance=1e-6)
+    heights = case.heights.copy()
     heights.flat[np.argmin(_rough())] -= 10 ** (1 + 7 * severity / 100)
-    return replace(pressed, heights=heights)
+    return replace(case, heights=heights)
 
 
 def chequerboard(severity: float) -> Case:

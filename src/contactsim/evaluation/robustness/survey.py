@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from contactsim import dataset
 from contactsim.errors import InputError
+from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.evaluation.robustness.judge import judge
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.evaluation.robustness.path_cases import BRANCH_SOLVER
@@ -21,7 +24,7 @@ from contactsim.evaluation.robustness.registry import HAZARDS, describe_hazard
 from contactsim.provenance import digest
 from contactsim.solvers.registry import SOLVERS, make_solver, solver_class, solver_module
 from contactsim.study.plan import Plan
-from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read, size, text, tiered
+from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read, tiered
 from contactsim.study.stages import computing_stage_digest, stage_digest
 
 logger = logging.getLogger(__name__)
@@ -35,72 +38,78 @@ def _severities(value: object) -> list[float]:
     return severities
 
 
-ROBUSTNESS_KEYS = {
-    "title": Key(text, "a line of text"),
-    "caption": Key(text, "text"),
-    "size": Key(size, "width and height in inches"),
+ROBUSTNESS_KEYS = FIGURE_KEYS | {
     "severities": Key(_severities, "a rising list of numbers from 0 to 100"),
     "solvers": Key(mapping, f"a mapping from solvers, of {', '.join(SOLVERS)}, to their options"),
     "hazards": Key(listed(choice(HAZARDS)), f"a list from {', '.join(HAZARDS)}", list(HAZARDS)),
 }
 
 
-def read_robustness_section(section: object, file: str | Path) -> dict:
-    """Return the checked settings of the survey, down to the options of every solver."""
+@dataclass(frozen=True)
+class Robustness(FigureSettings):
+    """The survey: severities from 0 to 100, options by the solver's name, and names of hazards."""
+
+    severities: Sequence[float]
+    solvers: Mapping[str, Mapping[str, Any]]
+    hazards: Sequence[str]
+
+
+def read_robustness_section(section: object, file: str | Path) -> Robustness:
+    """Return the survey, checked down to the options of every solver."""
     settings = read(section, ROBUSTNESS_KEYS, file)
     kinds = Key(mapping, "a mapping of the solver's options, {} for none", None)
     solvers = read(settings["solvers"], dict.fromkeys(SOLVERS, kinds), file, "solvers")
-    settings["solvers"] = {}
+    options_by_solver = {}
     for name in (name for name in SOLVERS if solvers[name] is not None):
         options = read(solvers[name], keys_of(solver_class(name)), file, f"solvers.{name}")
         try:
             make_solver(name, **options)
         except InputError as error:
             raise error.located(file, f"solvers.{name}") from error
-        settings["solvers"][name] = options
-    if not settings["solvers"]:
+        options_by_solver[name] = options
+    if not options_by_solver:
         raise InputError("solvers", {}, f"at least one of {', '.join(SOLVERS)}", file)
-    return settings
+    return Robustness(**settings | {"solvers": options_by_solver})
 
 
-def read_robustness(folder: str | Path, plan: Plan) -> dict | None:
-    """Return the settings of stability.yaml at the plan's tier; None without that file."""
+def read_robustness(folder: str | Path, plan: Plan) -> Robustness | None:
+    """Return the survey of stability.yaml at the plan's tier; None without that file."""
     section = tiered(Path(folder) / "stability.yaml", plan.overrides["stability"], plan.tier)
     return None if section is None else read_robustness_section(*section)
 
 
-def robustness_job(settings: Mapping, plan: Plan) -> dict:
+def robustness_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
     """Return what the dataset of all hazards depends on."""
-    hazards = settings["hazards"]
-    figure = {key: settings[key] for key in ("title", "severities", "solvers", "hazards")} | {"tier": plan.tier}
+    hazards, settings = robustness.hazards, robustness.settings
+    shown = {key: settings[key] for key in ("title", "severities", "solvers", "hazards")} | {"tier": plan.tier}
     return {
         "paths": [f"{plan.results}/stability/{hazard}.nc" for hazard in hazards],
-        "jobs": [hazard_job(settings, hazard) for hazard in hazards],
-        "settings": figure,
+        "jobs": [hazard_job(robustness, hazard) for hazard in hazards],
+        "settings": shown,
         "source": stage_digest("hazard"),
     }
 
 
-def robustness_figure_job(settings: Mapping, plan: Plan) -> dict:
+def robustness_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
     """Return what the figure of all hazards depends on, in the form of `Plan.figure_settings`."""
     layout = {"panels": 2, "select": {}, "reference": {}, "law": None, "film": None}
     module = "contactsim.figures.diagnostics.stability"
     return {
         "name": "stability",
         "module": module,
-        "settings": {key: settings[key] for key in ("title", "caption", "size")} | layout,
+        "settings": robustness.layout | layout,
         "source": stage_digest("figure", module),
-        "data": digest(robustness_job(settings, plan)),
+        "data": digest(robustness_job(robustness, plan)),
     }
 
 
-def hazard_job(settings: Mapping, hazard: str) -> dict:
+def hazard_job(robustness: Robustness, hazard: str) -> dict[str, Any]:
     """Return what the survey of one hazard depends on."""
-    modules = [solver_module(name) for name in (*settings["solvers"], BRANCH_SOLVER)]
+    modules = [solver_module(name) for name in (*robustness.solvers, BRANCH_SOLVER)]
     return {
         "hazard": hazard,
-        "severities": settings["severities"],
-        "solvers": settings["solvers"],
+        "severities": robustness.severities,
+        "solvers": robustness.solvers,
         "source": computing_stage_digest("hazard", *modules),
     }
 
@@ -151,11 +160,11 @@ def survey_hazard(hazard: str, severities: Sequence[float], solvers: Mapping[str
     return dataset.stamp(_describe_outcomes(data), f"Stability: {hazard}", settings, source)
 
 
-def merge_surveys(parts: Iterable[xr.Dataset], settings: Mapping, source: str) -> xr.Dataset:
+def merge_surveys(parts: Iterable[xr.Dataset]) -> xr.Dataset:
     """Return the surveys of all hazards in one dataset, dimensions (hazard, solver, severity)."""
     parts = [part.drop_encoding() for part in parts]  # or the first part's length would cut all text
     data = xr.concat(parts, "hazard", data_vars="all", coords="minimal", join="exact", combine_attrs="override")
-    return dataset.stamp(_describe_outcomes(data), str(settings["title"]), settings, source)
+    return _describe_outcomes(data)
 
 
 def _describe_outcomes(data: xr.Dataset) -> xr.Dataset:

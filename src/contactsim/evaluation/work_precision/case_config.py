@@ -6,10 +6,12 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from contactsim.error_control.forecast import forecast_setup
 from contactsim.errors import InputError
-from contactsim.evaluation.work_precision.cases import REFERENCE, Case, case_job
+from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
+from contactsim.evaluation.work_precision.cases import REFERENCE, Case, CaseSettings, case_job
 from contactsim.evaluation.work_precision.knobs import (
     Setting,
     SingleLoads,
@@ -24,16 +26,13 @@ from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.claim_plan import quantities
 from contactsim.study.kinds import study_kind
 from contactsim.study.plan import Plan
-from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, size, text, whole
+from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, text, whole
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
 MEASURED_QUANTITIES = (*SingleLoads.quantities, *WholeSlide.quantities)
-CASE_KEYS = {
-    "title": Key(text, "a line of text"),
-    "caption": Key(text, "text"),
-    "size": Key(size, "width and height in inches"),
+CASE_KEYS = FIGURE_KEYS | {
     "study": Key(text, "the name of a study"),
     "vary": Key(mapping, "a mapping from keys that the study varies to lists of some of their values", {}),
     "load": Key(listed(number), "a list of the study's loads", None),
@@ -47,7 +46,6 @@ CASE_KEYS = {
     "thesis_members": Key(whole(1), "the thesis's own number of members, 1 or more", None),
     "thesis_increment": Key(positive, "the thesis's own increment, a positive number", None),
 }
-OVERVIEW_KEYS = {name: CASE_KEYS[name] for name in ("title", "caption", "size")}
 
 
 def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
@@ -63,20 +61,20 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
     return {name: _read_case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
 
 
-def read_overview(folder: str | Path) -> dict | None:
+def read_overview(folder: str | Path) -> FigureSettings | None:
     """Return the settings of the page of all cases; None without overview.yaml."""
     file = Path(folder) / "overview.yaml"
-    return read(load_yaml(file), OVERVIEW_KEYS, file) if file.exists() else None
+    return FigureSettings(**read(load_yaml(file), FIGURE_KEYS, file)) if file.exists() else None
 
 
-def overview_figure_job(settings: dict, cases: dict[str, Case], tier: str) -> dict:
+def overview_figure_job(overview: FigureSettings, cases: Mapping[str, Case], tier: str) -> dict[str, Any]:
     """Return what the page of all cases depends on, apart from their tables."""
     panels = {
-        name: {"title": case.settings["title"].rpartition(": ")[2], "quantity": case.settings["quantities"][0]}
+        name: {"title": case.settings.title.rpartition(": ")[2], "quantity": case.settings.quantities[0]}
         for name, case in cases.items()
     }
     return {
-        "settings": settings,
+        "settings": overview.layout,
         "cases": panels,
         "tier": tier,
         "source": stage_digest("overview_figure"),
@@ -101,12 +99,13 @@ def _read_case(name: str, section: object, plan: Plan, file: Path) -> Case:
     for key in {*settings["solvers"]} - {*SOLVERS}:
         raise InputError(f"{prefix}.solvers", key, f"one of {', '.join(sorted(SOLVERS))}", file)
     settings |= read_knobs(settings, kind, file, prefix)
-    _check_keys(settings, study, kind, file, prefix)
-    case = Case(name, settings, _select_values(study, settings["vary"], file, f"{prefix}.vary"))
-    if case.default not in settings["solvers"]:
+    case_settings = CaseSettings(**settings)
+    _check_keys(case_settings, study, kind, file, prefix)
+    case = Case(name, case_settings, _select_values(study, case_settings.vary, file, f"{prefix}.vary"))
+    if case.default not in case_settings.solvers:
         allowed = f"{case.default}, the study's own, among them: the measure of others"
-        raise InputError(f"{prefix}.solvers", list(settings["solvers"]), allowed, file)
-    for job in (REFERENCE, *settings["solvers"]):  # those that are not installed too
+        raise InputError(f"{prefix}.solvers", list(case_settings.solvers), allowed, file)
+    for job in (REFERENCE, *case_settings.solvers):  # those that are not installed too
         for setting in case.settings_of(job):
             _check_setting(case, job, setting, file, prefix)
     return case
@@ -127,21 +126,22 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
         raise error.located(file, f"{prefix}.{section if error.key == setting.knob else 'settled'}") from error
 
 
-def _check_keys(settings: dict, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
+def _check_keys(settings: CaseSettings, study: Study, kind: SingleLoads | WholePath, file: Path, prefix: str) -> None:
     """Refuse loads and quantities that the study lacks, and keys that its kind does not use."""
     for key, why in kind.unused_keys.items():
-        if settings.get(key) is not None:
-            raise InputError(f"{prefix}.{key}", settings[key], why, file)
-    if settings["load"] is None and "load" not in kind.unused_keys:
+        value = getattr(settings, key, None)
+        if value is not None:
+            raise InputError(f"{prefix}.{key}", value, why, file)
+    if settings.load is None and "load" not in kind.unused_keys:
         raise InputError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
     measured = [name for name in kind.quantities if name in quantities(study)]
     for key, allowed in (("load", study.settings["load"]["values"]), ("quantities", measured)):
-        for value in settings[key] or ():
+        for value in getattr(settings, key) or ():
             if value not in allowed:
                 raise InputError(f"{prefix}.{key}", value, f"the study's own: {', '.join(map(str, allowed))}", file)
 
 
-def _select_values(study: Study, vary: dict, file: Path, prefix: str) -> Study:
+def _select_values(study: Study, vary: Mapping[str, list], file: Path, prefix: str) -> Study:
     """Return the study restricted to some of its varied values."""
     for key, values in vary.items():
         varied = study.settings["vary"].get(key)
@@ -150,7 +150,7 @@ def _select_values(study: Study, vary: dict, file: Path, prefix: str) -> Study:
             raise InputError(f"{prefix}.{key}", values, allowed, file)
         if not isinstance(values, list) or not values or any(value not in varied for value in values):
             raise InputError(f"{prefix}.{key}", values, f"a list from {', '.join(map(str, varied))}", file)
-    return replace(study, settings=study.settings | {"vary": study.settings["vary"] | vary})
+    return replace(study, settings=study.settings | {"vary": {**study.settings["vary"], **vary}})
 
 
 def read_all_tiers(folder: str | Path, plan: Plan) -> dict[str, Plan]:
@@ -159,18 +159,21 @@ def read_all_tiers(folder: str | Path, plan: Plan) -> dict[str, Plan]:
     return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
 
 
-def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
+def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict[str, Any]:
     """Return what the figure of a case depends on.
 
     Its marks are each tier's value of each knob, and the thesis's where it is known; tiers: from `read_all_tiers`.
     """
-    studies = {tier: own.studies[case.study.name].settings for tier, own in tiers.items()}
+    studies = {tier: plan.studies[case.study.name] for tier, plan in tiers.items()}
     shared = ("points", "tolerance", "members")
-    marks = {tier: {knob: own[knob] for knob in shared} | case.kind.knob_values(own) for tier, own in studies.items()}
-    thesis = {knob: case.settings[f"thesis_{knob}"] for knob in ("members", "increment")}
+    marks: dict[str, dict[str, float]] = {
+        tier: {knob: study.settings[knob] for knob in shared} | case.kind.knob_values(study)
+        for tier, study in studies.items()
+    }
+    thesis = {"members": case.settings.thesis_members, "increment": case.settings.thesis_increment}
     thesis |= {"points": case.study.settings["thesis_points"]}
     return {
-        "settings": case.settings,
+        "settings": case.settings.settings,
         "jobs": case.jobs(),
         "digests": [case_job(case, job) for job in case.jobs()],
         "marks": marks | {"thesis": {knob: value for knob, value in thesis.items() if value}},
@@ -178,7 +181,7 @@ def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict:
         "default": case.default,
         "selection": case.selection,
         "expected": [[f"{value:.6g}" for value in costs] for costs in forecast_costs(case)],
-        "loads": case.kind.loads(case.study, case.settings["load"]),
+        "loads": case.kind.loads(case.study, case.settings.load),
         "units": case.kind.units(case.study),
         "surface": Trait.SURFACE in case.study.runs()[0].setup.scene.traits,
         "source": stage_digest("work_precision_figure"),

@@ -7,10 +7,13 @@ more tightly, that of the increment the same path in far smaller ones; no refere
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import xarray as xr
 
+from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.evaluation.work_precision.knobs import (
     Setting,
     SingleLoads,
@@ -35,17 +38,61 @@ MAX_REPEATED_SECONDS = 5.0
 
 
 @dataclass(frozen=True)
+class CaseSettings(FigureSettings):
+    """Settings of a case, in the order of `case_config.CASE_KEYS`.
+
+    Parameters
+    ----------
+    study : str
+        Name of the study.
+    vary : mapping
+        Selected values by key that the study varies.
+    load : sequence of float or None
+        Selected loads; None where the study follows a path.
+    members : int
+        Members of the ensemble of each setting.
+    quantities : sequence of str
+        Quantities whose errors are measured.
+    settled, reference : mapping
+        The value of each knob at which the others are turned, and in the references.
+    solvers : mapping
+        The values of each knob by solver.
+    levels : mapping
+        Errors at which solvers are compared, by knob.
+    repeats : int
+        How often each setting is timed.
+    thesis_members, thesis_increment : int and float, or None
+        The thesis's own numbers.
+    """
+
+    study: str
+    vary: Mapping[str, list]
+    load: Sequence[float] | None
+    members: int
+    quantities: Sequence[str]
+    settled: Mapping[str, float]
+    reference: Mapping[str, float]
+    solvers: Mapping[str, Mapping[str, Sequence[float]]]
+    levels: Mapping[str, Sequence[float]]
+    repeats: int
+    thesis_members: int | None
+    thesis_increment: float | None
+
+
+@dataclass(frozen=True)
 class Case:
     """A case: its name, its settings, and its study restricted to the selected values."""
 
     name: str
-    settings: dict
+    settings: CaseSettings
     study: Study
 
     @property
     def kind(self) -> SingleLoads | WholePath:
         """Return the kind of the study's solutions, with their knobs and quantities."""
-        return find_case_kind(self.study)
+        kind = find_case_kind(self.study)
+        assert kind is not None, "a study of another kind is refused when its case is read"
+        return kind
 
     @property
     def default(self) -> str:
@@ -55,39 +102,41 @@ class Case:
     @property
     def selection(self) -> dict[str, list]:
         """Return the selected values of the study's dataset by dimension; other dimensions count whole."""
-        return {dimension_name(name): values for name, values in self.settings["vary"].items()}
+        return {dimension_name(name): values for name, values in self.settings.vary.items()}
 
     def jobs(self) -> list[str]:
         """Return the jobs of a case: its reference and its installed solvers."""
-        return [REFERENCE, *filter(is_installed, self.settings["solvers"])]
+        return [REFERENCE, *filter(is_installed, self.settings.solvers)]
 
     def settings_of(self, job: str) -> list[Setting]:
         """Return the settings that a job measures."""
-        settled, reference = self.settings["settled"], self.settings["reference"]
+        settled: dict[str, Any] = dict(self.settings.settled)
+        reference = self.settings.reference
         if job == REFERENCE:
             tight = {"points": {"tolerance": reference["tolerance"]}}  # a finer grid has smaller steps
             return [Setting(knob, **settled | tight.get(knob, {}) | {knob: reference[knob]}) for knob in settled]
-        knobs = self.settings["solvers"][job]
+        knobs = self.settings.solvers[job]
         return [Setting(knob, **settled | {knob: value}) for knob in settled for value in knobs[knob]]
 
     def solver_of(self, job: str) -> str:
         """Return the solver of a job."""
         return self.default if job == REFERENCE else job
 
-    def job_settings(self, job: str) -> dict:
+    def job_settings(self, job: str) -> dict[str, Any]:
         """Return what a job's result depends on, apart from the code."""
         names = ("load", "members", "quantities", "settled", "reference", "repeats")
         places = [{"knob": setting.knob} | setting.numbers for setting in self.settings_of(job)]
-        own = {name: self.settings[name] for name in names} | {"turned": places}
+        settings = self.settings.settings
+        own = {name: settings[name] for name in names} | {"turned": places}
         runs = [run.settings for run in self.study_at(self.settings_of(job)[0], job).runs()]
         return {"case": self.name, "job": job, "settings": own, "runs": runs}
 
     def study_at(self, setting: Setting, job: str) -> Study:
         """Return the study of a job at one setting."""
-        changed = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solver_of(job)}}
-        changed |= self.kind.edit_settings(self.study, self.settings["load"], setting)
-        apart = {"members": self.settings["members"], "fit_limits": None} | dict.fromkeys(ERROR_RUNS)
-        return replace(self.study, settings=self.study.settings | changed | apart)
+        edits = {"points": setting.points, "tolerance": setting.tolerance, "solver": {"kind": self.solver_of(job)}}
+        edits |= self.kind.edit_settings(self.study, self.settings.load, setting)
+        edits |= {"members": self.settings.members, "fit_limits": None} | dict.fromkeys(ERROR_RUNS)
+        return replace(self.study, settings=self.study.settings | edits)
 
     def measure(self, job: str) -> tuple[xr.Dataset, list[float]]:
         """Solve every setting of a job.
@@ -101,8 +150,9 @@ class Case:
         """
         results, seconds = [], []
         for setting in self.settings_of(job):
-            runs, times = self.study_at(setting, job).runs(), []
-            while len(times) < self.settings["repeats"] and not (times and times[-1] > MAX_REPEATED_SECONDS):
+            runs = self.study_at(setting, job).runs()
+            times: list[float] = []
+            while len(times) < self.settings.repeats and not (times and times[-1] > MAX_REPEATED_SECONDS):
                 parts = [(simulate_run(run), run) for run in runs]
                 times.append(float(sum(data.seconds.sum() for data, _ in parts)))
             data = combine_runs(
@@ -111,8 +161,8 @@ class Case:
                     for data, run in parts
                 ]
             )
-            solved = summarise_solutions(data)
-            result = solved[[*self.settings["quantities"], "transforms", "status", *({"points_y"} & set(solved))]]
+            summary = summarise_solutions(data)
+            result = summary[[*self.settings.quantities, "transforms", "status", *({"points_y"} & set(summary))]]
             results.append(result.assign(setting.numbers | {"knob": setting.knob}))
             seconds.append(min(times))
         return xr.concat(results, "setting", combine_attrs="drop", coords="minimal"), seconds
@@ -123,7 +173,7 @@ def simulate_run(run: Run) -> xr.Dataset:
     return follow_path(run.setup)
 
 
-def case_job(case: Case, job: str) -> dict:
+def case_job(case: Case, job: str) -> dict[str, Any]:
     """Return what a job depends on: its settings and its code."""
     solver = case.solver_of(job)
     source = computing_stage_digest("work_precision", solver_module(solver))

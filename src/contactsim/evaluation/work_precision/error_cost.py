@@ -8,7 +8,8 @@ steps.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -23,12 +24,19 @@ ROUNDING = 1e-10
 """Errors below it are rounding: both solutions have the same contact."""
 
 
-def error_table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Dataset, default: str) -> pd.DataFrame:
+def error_table(
+    quantities: Sequence[str],
+    loads: Sequence[float] | None,
+    jobs: Mapping[str, xr.Dataset],
+    study: xr.Dataset,
+    default: str,
+) -> pd.DataFrame:
     """Return one row a setting: solver, knob, its values, members, error of each quantity, work, share unconverged.
 
-    jobs: datasets by solver, with the reference's; study: the study's dataset, as far as it is priced, for the size of
-    the ensemble; default: its own solver. Errors are relative, root mean square over variants, members and
-    loads, infinite where one of them has no value, as without contact; work is transforms times all points of the grid.
+    loads: those of the case, None for a path; jobs: datasets by solver, with the reference's; study: the dataset of the
+    study as far as it is priced, for the size of the ensemble; default: its own solver. Errors are relative, root mean
+    square over variants, members and loads, infinite where one of them has no value, as without contact; work is
+    transforms times all points of the grid.
     """
     rows = []
     references = {str(solution.knob.item()): solution for solution in _split_settings(jobs[REFERENCE])}
@@ -37,12 +45,12 @@ def error_table(case_settings: dict, jobs: dict[str, xr.Dataset], study: xr.Data
         for solution in _split_settings(data) if kind != REFERENCE else ():
             reference = references[solution.knob.item()]
             rows.append({"solver": kind} | {name: solution[name].item() for name in ("knob", *knobs)})
-            for name in case_settings["quantities"]:
+            for name in quantities:
                 rows[-1][name] = _root_mean_square(solution[name] / reference[name] - 1)
             rows[-1]["work"] = float(solution.transforms.sum() * _size(solution))
             rows[-1]["unconverged"] = unconverged_share(solution)
-    columns = ["solver", "knob", *knobs, "members", *case_settings["quantities"], "work", "unconverged"]
-    table = pd.DataFrame(rows + list(_ensembles(case_settings, study, default)), columns=columns)
+    columns = ["solver", "knob", *knobs, "members", *quantities, "work", "unconverged"]
+    table = pd.DataFrame(rows + list(_ensembles(quantities, loads, study, default)), columns=columns)
     return table.assign(own=table.solver == default)
 
 
@@ -55,16 +63,18 @@ def _size(data: xr.Dataset) -> float:
     return float(data.points) * float(data.get("points_y", 1))
 
 
-def _ensembles(case_settings: dict, study: xr.Dataset, default: str) -> Iterable[dict]:
+def _ensembles(
+    quantities: Sequence[str], loads: Sequence[float] | None, study: xr.Dataset, default: str
+) -> Iterable[dict[str, Any]]:
     """Return the standard errors of ensembles of two to all members, from the study's own scatter."""
-    most, loads = study.member.size, case_settings["load"]
-    chosen = summarise_solutions(study.sel({load_dimension(study): loads}, method="nearest") if loads else study)
+    most = study.member.size
+    summary = summarise_solutions(study.sel({load_dimension(study): loads}, method="nearest") if loads else study)
     for members in range(2, most + 1) if most > 1 else ():
         row = {"solver": default, "knob": "members", "points": int(study.points), "members": members}
-        for name in case_settings["quantities"]:
-            row[name] = _root_mean_square(_standard_error(chosen, name) * np.sqrt(most / members))
-        work = float(chosen.transforms.mean("member").sum() * members * _size(study))
-        yield row | {"work": work, "unconverged": unconverged_share(chosen)}
+        for name in quantities:
+            row[name] = _root_mean_square(_standard_error(summary, name) * np.sqrt(most / members))
+        work = float(summary.transforms.mean("member").sum() * members * _size(study))
+        yield row | {"work": work, "unconverged": unconverged_share(summary)}
 
 
 def _standard_error(study: xr.Dataset, name: str) -> xr.DataArray:

@@ -7,9 +7,10 @@ as a further knob; a slide over a lattice also has the tangential cutoff.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
@@ -36,7 +37,7 @@ class Knob:
     values_text: str
     finest: Callable[..., float]
 
-    def check(self, values: list, reference: float, file: Path, key: str) -> None:
+    def check(self, values: Sequence[float], reference: float, file: Path, key: str) -> None:
         """Refuse a value that is not coarser than its reference."""
         finest = self.finest(values, default=None)
         if finest is not None and self.finest(finest, reference) == finest:
@@ -81,8 +82,8 @@ class SingleLoads:
     reason.
     """
 
-    knobs = ("points", "tolerance")
-    quantities = AVERAGED
+    knobs: tuple[str, ...] = ("points", "tolerance")
+    quantities: tuple[str, ...] = AVERAGED
     unused_keys = dict.fromkeys(
         ("increment", "thesis_increment"), "no such key: the study's loads are solved on their own, without increments"
     ) | {"tangential_cutoff": "no such key: the study does not slide"}
@@ -91,15 +92,17 @@ class SingleLoads:
         """Return True where the study has such loads."""
         return study.settings["path"] is None
 
-    def loads(self, study: Study, loads: list[float]) -> dict[str, list[float]]:
+    def loads(self, study: Study, loads: Sequence[float] | None) -> dict[str, Sequence[float]]:
         """Return the selected loads by their dimension."""
+        assert loads is not None, "a case without loads is refused when it is read"
         return {study.settings["load"]["name"]: loads}
 
-    def edit_settings(self, study: Study, loads: list[float], setting: Setting) -> dict:
+    def edit_settings(self, study: Study, loads: Sequence[float] | None, setting: Setting) -> dict[str, Any]:
         """Return the edits of the study's settings beside points and tolerance: its loads."""
+        assert loads is not None, "a case without loads is refused when it is read"
         return {"load": {"name": study.settings["load"]["name"], "values": sorted(loads)}}
 
-    def knob_values(self, settings: dict) -> dict[str, float]:
+    def knob_values(self, study: Study) -> dict[str, float]:
         """Return a study's values of knobs that not every study has: none."""
         return {}
 
@@ -111,8 +114,8 @@ class SingleLoads:
 class WholePath:
     """A path of smooth laws as a whole, every increment solved as it is asked for; names as those of `SingleLoads`."""
 
-    knobs = (*SingleLoads.knobs, "increment")
-    quantities = (*SUMMARY, *CYCLE, *AREA_LOAD)
+    knobs: tuple[str, ...] = (*SingleLoads.knobs, "increment")
+    quantities: tuple[str, ...] = (*SUMMARY, *CYCLE, *AREA_LOAD)
     unused_keys = {
         "load": "no such key: the study follows a path, which is priced whole",
         "tangential_cutoff": "no such key: the study does not slide",
@@ -122,20 +125,20 @@ class WholePath:
         """Return True where the study follows a path of cohesive laws."""
         return study_kind(study.settings).needs_path
 
-    def loads(self, study: Study, loads: None) -> dict[str, list[float]]:
+    def loads(self, study: Study, loads: Sequence[float] | None) -> dict[str, Sequence[float]]:
         """Return no selection: the path counts whole."""
         return {}
 
-    def edit_settings(self, study: Study, loads: None, setting: Setting) -> dict:
+    def edit_settings(self, study: Study, loads: Sequence[float] | None, setting: Setting) -> dict[str, Any]:
         """Return the edited increment; none is interpolated, and no fields are kept."""
         path = {key: value for key, value in study.settings["load"].items() if key != "values"}
-        edits = {"increments": {"kind": "requested"}, "snapshots": None}
+        edits: dict[str, Any] = {"increments": {"kind": "requested"}, "snapshots": None}
         return edits | {"load": path | {"increment": setting.increment}}
 
-    def knob_values(self, settings: dict) -> dict[str, float]:
+    def knob_values(self, study: Study) -> dict[str, float]:
         """Return the increment, unless it is adaptive."""
-        is_requested = settings["increments"]["kind"] == "requested"
-        return {"increment": settings["load"]["increment"]} if is_requested else {}
+        is_requested = study.settings["increments"]["kind"] == "requested"
+        return {"increment": study.settings["load"]["increment"]} if is_requested else {}
 
     def units(self, study: Study) -> dict[str, str]:
         """Return the unit of the increment, that of the path's control; a tolerance is in parts of the strength."""
@@ -154,14 +157,15 @@ class WholeSlide(WholePath):
         pairing = study.settings["pairing"] or {}
         return study.settings["slide"] is not None and pairing.get("kind") == "lattice"
 
-    def edit_settings(self, study: Study, loads: None, setting: Setting) -> dict:
+    def edit_settings(self, study: Study, loads: Sequence[float] | None, setting: Setting) -> dict[str, Any]:
         """Return the edited increment of the slide and tangential cutoff; none is interpolated, no fields are kept."""
-        edits = {"increments": {"kind": "requested"}, "snapshots": None}
+        edits: dict[str, Any] = {"increments": {"kind": "requested"}, "snapshots": None}
         edits["slide"] = study.settings["slide"] | {"increment": setting.increment}
         return edits | {"pairing": study.settings["pairing"] | {"tangential_cutoff": setting.tangential_cutoff}}
 
-    def knob_values(self, settings: dict) -> dict[str, float]:
+    def knob_values(self, study: Study) -> dict[str, float]:
         """Return the increment, unless it is adaptive, and the tangential cutoff."""
+        settings = study.settings
         is_requested = settings["increments"]["kind"] == "requested"
         cutoff = {"tangential_cutoff": settings["pairing"].get("tangential_cutoff", Lattice.tangential_cutoff)}
         return cutoff | ({"increment": settings["slide"]["increment"]} if is_requested else {})
@@ -179,16 +183,19 @@ def find_case_kind(study: Study) -> SingleLoads | WholePath | None:
     return next((kind for kind in KINDS if kind.accepts(study)), None)
 
 
-def read_knobs(settings: dict, kind: SingleLoads | WholePath, file: Path, prefix: str) -> dict:
+def read_knobs(settings: Mapping[str, Any], kind: SingleLoads | WholePath, file: Path, prefix: str) -> dict[str, Any]:
     """Return the sections of a case about the knobs of its kind; every setting is coarser than the reference."""
 
-    def knobs(section: object, keys: dict[str, Key], key: str) -> dict:
+    def knobs(section: object, keys: Mapping[str, Key], key: str) -> dict[str, Any]:
         """A section with a value, or values, for each knob."""
-        for name in set(kind.unused_keys) & set(section if isinstance(section, dict) else ()):
-            raise InputError(f"{key}.{name}", section[name], kind.unused_keys[name], file)
+        for name, value in section.items() if isinstance(section, dict) else ():
+            if name in kind.unused_keys:
+                raise InputError(f"{key}.{name}", value, kind.unused_keys[name], file)
         return read(section, {name: keys[name] for name in kind.knobs}, file, key)
 
-    sections = {part: knobs(settings[part], SETTING_KEYS, f"{prefix}.{part}") for part in ("settled", "reference")}
+    sections: dict[str, Any] = {
+        part: knobs(settings[part], SETTING_KEYS, f"{prefix}.{part}") for part in ("settled", "reference")
+    }
     values_by_key = {f"{prefix}.settled": {name: [value] for name, value in sections["settled"].items()}}
     sections |= {"levels": knobs(settings["levels"], LEVEL_KEYS, f"{prefix}.levels"), "solvers": {}}
     for solver, section in settings["solvers"].items():

@@ -51,7 +51,7 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
     data = {job: dataset.load_dataset(path) for job, path in zip(jobs, files["data"], strict=True)}
     costs = {job: json.loads(Path(path).read_text()) for job, path in zip(jobs, files["costs"], strict=True)}
     study = dataset.load_dataset(files["study"]).sel(plan["selection"])
-    table = error_cost.error_table(settings, data, study, plan["default"])
+    table = error_cost.error_table(settings["quantities"], settings["load"], data, study, plan["default"])
     seconds = {job: cost["seconds"] for job, cost in costs.items() if job != REFERENCE}
     member = seconds_of_member(pd.read_csv(files["study_costs"]), plan["selection"] | plan["loads"])
     table = table.assign(seconds=seconds_of_rows(table, seconds, member))
