@@ -7,24 +7,17 @@ import pandas as pd
 import pytest
 
 from contactsim.analysis import claims
-from contactsim.analysis.claims import (
-    CONDITION,
-    FINDING,
-    NOT_DECIDABLE,
-    NOT_REPRODUCED,
-    REPRODUCED,
-    judge,
-    judge_number,
-)
+from contactsim.analysis.claims import judge
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.conditions import narrower_blocks
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import Estimate
+from contactsim.analysis.verdict import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, judge_number
 from contactsim.errors import InputError
 from contactsim.figures.diagnostics.claims import COLOURS, claims_figure
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
-from support.claims import BANDLESS, PLAN, STUDIES, VALUE, claim, made_up, path_claim, paths
+from support.claims import BANDLESS, PLAN, STUDIES, VALUE, claim, made_up, path_claim, paths, with_corrected
 from support.places import ROOT
 
 RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
@@ -171,27 +164,56 @@ def test_what_a_claim_compares_is_never_narrowed_to_a_single_value():
 # --- the grid of the thesis ---------------------------------------------------------------------------------------
 
 
-def test_where_either_grid_may_answer_the_grid_of_the_thesis_decides_what_the_grid_error_leaves_open():
-    settings = claim(grid="either")
-    assert judge(settings, [made_up(grid=0.5)])["verdict"] == CONDITION
-    assert judge(settings, [made_up(grid=0.5, points=1024)])["verdict"] == NOT_DECIDABLE
-    row = judge(settings, [made_up(3.0, grid=5.0)])
-    assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "on the thesis's own grid")
-    assert row["condition_value"] == pytest.approx(3.0)
-
-
-def test_the_grid_of_the_thesis_is_that_of_both_studies():
-    settings = claim(**RATIO, grid="either")
-    assert judge(settings, [made_up(1.8, grid=0.5), made_up(2.0)])["verdict"] == CONDITION
-    assert judge(settings, [made_up(1.8, grid=0.5), made_up(2.0, points=1024)])["verdict"] == NOT_DECIDABLE
-
-
 def test_a_statement_about_the_grid_of_the_thesis_is_open_on_another():
     settings = claim(
         quantity="kappa_grid_error", against="kappa", reduce="ratio", expect=0.05, tolerance=0.02, grid="thesis"
     )
     assert judge(settings, [made_up(grid=0.1)])["verdict"] == REPRODUCED
     assert judge(settings, [made_up(grid=0.1, points=1024)])["verdict"] == NOT_DECIDABLE
+
+
+# --- two rows -----------------------------------------------------------------------------------------------------
+
+
+def judged(settings, *data):
+    """The row of one claim."""
+    names = [settings[key] for key in ("study", "relative_to") if settings[key]]
+    return claims.judge_claims({"test": settings}, dict(zip(names, data, strict=True))).iloc[0]
+
+
+def test_a_second_row_is_judged_beside_the_one_that_counts():
+    settings = claim(quantity="kappa_corrected", beside="kappa")
+    row = judged(settings, with_corrected(made_up(2.5, grid=0.3), 2.0, change=0.01, subgrid=2.0))
+    assert (row.value, row.grid_error, row.verdict) == (pytest.approx(2.0), pytest.approx(0.01), REPRODUCED)
+    assert (row.beside, row.beside_value, row.beside_verdict) == ("kappa", pytest.approx(2.5), NOT_REPRODUCED)
+    assert row.beside_grid_error == 0  # on the thesis's own grid
+    other = judged(settings, with_corrected(made_up(2.5, grid=0.3, points=1024), 2.0, change=0.01, subgrid=2.0))
+    assert (other.beside_grid_error, other.beside_verdict) == (pytest.approx(0.3), NOT_DECIDABLE)
+
+
+def test_a_stated_number_is_that_of_the_thesis_s_grid_and_elsewhere_the_corrected_one():
+    settings = claim(beside="kappa_corrected", grid="thesis")
+    row = judged(settings, with_corrected(made_up(2.0, grid=0.3), 2.5, change=0.01, subgrid=2.5))
+    assert (row.measure, row.verdict, row.grid_error) == ("mean of kappa", REPRODUCED, 0)
+    assert (row.beside_value, row.beside_grid_error) == (pytest.approx(2.5), pytest.approx(0.01))
+    row = judged(settings, with_corrected(made_up(2.0, grid=0.3, points=1024), 2.5, change=0.01, subgrid=2.5))
+    assert (row.measure, row.verdict) == ("mean of kappa_corrected", NOT_REPRODUCED)
+    assert (row.beside, row.beside_verdict) == ("kappa", NOT_DECIDABLE)
+
+
+def test_the_grid_of_the_thesis_is_that_of_both_studies():
+    settings = claim(**RATIO, beside="kappa_corrected", grid="thesis")
+    lines, surfaces = (with_corrected(made_up(level), level, change=0.0, subgrid=level) for level in (1.8, 2.0))
+    assert judged(settings, lines, surfaces).beside == "kappa_corrected"
+    assert judged(settings, lines, surfaces.assign(points=1024)).beside == "kappa"
+
+
+def test_orders_have_second_rows_too():
+    settings = claim(
+        quantity="kappa_corrected", beside="kappa", reduce="rising_steps", along="reduced_pressure", **BANDLESS
+    )
+    row = judged(settings, with_corrected(made_up(2.0, tilt=0.3, scatter=0.01), 2.0, change=0.0, subgrid=2.0))
+    assert (row.verdict, row.beside_verdict) == (NOT_DECIDABLE, REPRODUCED)
 
 
 # --- two studies --------------------------------------------------------------------------------------------------
@@ -301,7 +323,9 @@ BAD = [
     ({"tolerance": None}, None, ["expect"], "expect with tolerance"),
     ({"at_most": 3.0}, None, ["at_most", "expect", "tolerance"], "expect with tolerance"),
     ({"tolerance": 0.0}, "tolerance", 0.0, "a positive number"),
-    ({"grid": "ours"}, "grid", "ours", "thesis, either"),
+    ({"grid": "ours"}, "grid", "ours", "thesis"),
+    ({"beside": "kapa"}, "beside", "kapa", "kappa_corrected"),
+    ({"beside": "kappa"}, "beside", "kappa", "kappa_corrected"),
     ({"relative_to": "rough_surface", "minus": "rough_line_coarse"}, None, ["relative_to", "minus"], "one of them"),
     ({"reduce": "rising_steps", "along": "hurst_exponent"}, None, ["expect", "tolerance"], "only a sense"),
     (BANDLESS | {"reduce": "rising_steps", "along": "hurst_exponent", "neutral": 0.0}, None, ["neutral"], "a sense"),
@@ -325,7 +349,6 @@ def test_a_bad_claim_is_refused_with_file_key_value_and_what_is_allowed(changes,
     [
         ({}, "", ["expect", "tolerance"]),
         (BANDLESS | {"neutral": 1.0}, "", ["neutral"]),
-        (BANDLESS | {"grid": "either"}, "", ["grid"]),
         (BANDLESS | {"reduce": "rising_steps", "along": "hurst_exponent"}, ".reduce", "rising_steps"),
         (BANDLESS | {"study": None}, ".study", None),
     ],

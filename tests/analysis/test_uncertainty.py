@@ -11,7 +11,7 @@ from contactsim import dataset, reference
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.quantities import mean_quantity
 from contactsim.analysis.uncertainty import estimate, estimate_on_thesis_grid, estimate_steps
-from support.claims import BANDLESS, claim, made_up, on_grids, path_claim, paths
+from support.claims import BANDLESS, claim, made_up, path_claim, paths, with_corrected
 
 RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
 
@@ -144,15 +144,19 @@ def test_on_the_grid_of_the_thesis_a_number_has_no_grid_error_and_on_another_an_
     assert np.isnan(on_thesis_grid(1024))
 
 
-def test_a_limit_on_finer_grids_has_the_distance_from_that_of_first_order_as_its_error():
-    settings = claim(study="surface_resolution", quantity="kappa_r_limit", expect=1.88, tolerance=0.02)
-    first = number(settings, on_grids([0.4, 0.2, 0.1]))
-    assert (first.value, first.grid_error) == pytest.approx((1.9, 0.0), abs=1e-12)
-    assert first.ensemble_error == pytest.approx(0.001 / np.sqrt(3), rel=1e-6)
-    second = number(settings, on_grids([0.32, 0.08, 0.02]))  # first order would end at 1.86
-    assert (second.value, second.grid_error) == pytest.approx((1.9, 0.04), rel=1e-9)
-    turning = on_grids([[0.4, 0.4, 0.1], [0.2, 0.2, 0.2], [0.1, 0.1, 0.1]])  # at the largest load it turns back
-    assert np.isnan(number(settings, turning).value)
+@pytest.mark.parametrize(
+    ("points", "error"),
+    [(262144, 0.07), (65536, 0.07), (65535, 0.02)],
+)
+def test_a_corrected_quantity_is_as_uncertain_as_its_second_estimator_where_the_grid_resolves_that(points, error):
+    data = with_corrected(made_up(points=points), 1.9, change=0.02, subgrid=1.83)
+    found = number(claim(quantity="kappa_corrected"), data)
+    assert (found.value, found.grid_error) == pytest.approx((1.9, error))
+
+
+def test_a_close_second_estimator_does_not_lower_the_error():
+    data = with_corrected(made_up(), 1.9, change=-0.02, subgrid=1.901)
+    assert number(claim(quantity="kappa_corrected"), data).grid_error == pytest.approx(0.02)
 
 
 # --- two studies --------------------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.verdict import NOT_REPRODUCED, REPRODUCED
 from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, figures_in_source
 from contactsim.solvers.registry import SOLVERS, solver_class

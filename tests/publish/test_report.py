@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, NOT_REPRODUCED
+from contactsim.analysis.verdict import CONDITION, NOT_REPRODUCED
 from contactsim.analysis.wording import rounded_texts
 from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.publish import report

@@ -7,7 +7,6 @@ import json
 import numpy as np
 import xarray as xr
 
-from contactsim.analysis import aggregate
 from contactsim.study.claim_plan import read_claim
 from contactsim.study.plan import Plan
 from support.places import ROOT
@@ -61,22 +60,18 @@ def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144
         "points": points,
     }
     places = {"hurst_exponent": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES}
-    settings = {"surface": {"kind": "self_affine"}, "thesis_points": 262144}
+    surface = {"kind": "self_affine", "length": 160000.0, "short_cutoff": 39.0625}  # 262144 points: 64 a wavelength
+    settings = {"surface": surface, "thesis_points": 262144}
     return xr.Dataset(values, places, {"problem": "hard_wall", "settings": json.dumps(settings)})
 
 
-def on_grids(errors, members=3):
-    """A dataset of surfaces on three grids: κ_r at 1.9 and, of each grid, an error; a scatter over members."""
-    dims = ("points", "hurst_exponent", "member", "reduced_pressure")
-    level = 1.9 + 0.001 * np.linspace(-1, 1, members)
-    values = np.reshape(errors, (3, 1, 1, -1)) + level[:, None] + np.zeros((3, 2, members, 3))
-    places = {"points": [1024, 2048, 4096], "hurst_exponent": [0.2, 0.8]}
-    data = xr.Dataset(
-        {"kappa_r": (dims, values), "status": (dims, np.zeros(values.shape, np.int8))},
-        places | {"member": range(members), "reduced_pressure": PRESSURES},
-        {"problem": "hard_wall", "settings": json.dumps({"surface": {"kind": "self_affine"}})},
+def with_corrected(data, level, change, subgrid):
+    """The same dataset with a corrected κ, its change on halving the grid, and κ with edges between points."""
+    return data.assign(
+        kappa_corrected=data.kappa * 0 + level,
+        kappa_subgrid=data.kappa * 0 + subgrid,
+        kappa_corrected_grid_change=data.kappa_grid_change * 0 + change,
     )
-    return data.merge(aggregate.finer_grid_limits(data))
 
 
 def paths(values, grid=0.0, increment=None, **places):

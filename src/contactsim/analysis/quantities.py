@@ -1,4 +1,4 @@
-"""Quantities that claims are about: means over members, limits on finer grids, and what is fitted to them.
+"""Quantities that claims are about: means over members, and what is fitted to them.
 
 A mean is unknown where one of its members is. `absent` values, of paths that were solved and have no such number, are
 left out of a mean if the claim says so.
@@ -10,8 +10,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset, reference
-from contactsim.analysis import grid_convergence
-from contactsim.analysis.ensemble import converged, on_all_grids
+from contactsim.analysis.ensemble import converged
 from contactsim.analysis.fits import fit_line_area
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
 from contactsim.status import is_solved
@@ -22,8 +21,6 @@ FITTED: dict[str, tuple[str, bool]] = {
     "kappa_fit_all": ("area", True),
 }
 """κ of Eq. 3.11 fitted to the selected loads: its weighting, and whether all Hurst exponents share one fit."""
-LIMIT = "_limit"
-"""End of the name of a quantity's limit on finer grids, from three grids."""
 SIZES = {
     "half_width": "relative_contact_area",
     "half_width_subgrid": "relative_contact_area_subgrid",
@@ -41,25 +38,21 @@ RESOLVED_WAVELENGTH = 16
 
 
 def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:
-    """Return a quantity as the mean over members, or as the limit of that mean on finer grids.
+    """Return a quantity as the mean over members.
 
     Parameters
     ----------
     data
         Dataset of a study.
     name
-        A variable, a variable with `LIMIT`, one of `FITTED` or one of `SIZES`.
+        A variable, one of `FITTED` or one of `SIZES`.
     leave_out_absent
         If True, members whose path was solved and has no such number are left out of the mean.
 
     Returns
     -------
-    The mean, NaN where it is unknown. If one of the means has no limit, all limits are NaN.
+    The mean, NaN where it is unknown.
     """
-    if name.removesuffix(LIMIT) in AVERAGED and name.endswith(LIMIT):
-        means = on_all_grids(data, name.removesuffix(LIMIT)).mean("member", skipna=False)
-        limit = grid_convergence.extrapolate(means).limit
-        return limit.where(limit.notnull().all())
     if name in FITTED:
         return _fitted_kappa(data, *FITTED[name])
     if name in SIZES:
@@ -111,13 +104,11 @@ def resolves_edges(data: xr.Dataset) -> bool:
 
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
-    source = "relative_contact_area" if name in FITTED else SIZES.get(name, name.removesuffix(LIMIT))
+    source = "relative_contact_area" if name in FITTED else SIZES.get(name, name)
     return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
 
 
 def grid_change_name(name: str) -> str | None:
     """Return the variable that holds the change of a quantity's source on halving the grid; None if it is exact."""
     source = source_quantity(name)
-    if source is None:
-        return None
-    return f"{source}_spread" if name.endswith(LIMIT) else f"{source}_grid_change"
+    return None if source is None else f"{source}_grid_change"

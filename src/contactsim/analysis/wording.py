@@ -14,8 +14,6 @@ from contactsim.analysis import ensemble
 
 TINY = 1e-9
 """Numbers below it are written with a power of ten."""
-LIMIT = "_limit"
-"""Ending of the name of a quantity in the limit of fine grids."""
 SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in ("kappa", "kappa_r", "kappa_r_pairs")} | {
     "final_contact_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
@@ -60,7 +58,7 @@ def _decimals(value: float, digits: int) -> int:
 def quantity_text(name: str) -> str:
     """Return a quantity's name as it is read in a sentence; an unknown word stays as it is."""
     errors = {f"_{kind}_error": f"{kind.replace('_', ' ')} error of " for kind in variables.ERRORS}
-    for suffix, words in (errors | {LIMIT: "limit of "}).items():
+    for suffix, words in errors.items():
         if name.endswith(suffix):
             return words + quantity_text(name.removesuffix(suffix))
     return REDUCTION_PHRASES.get(name) or variables.find_variable(name).phrase or name

@@ -17,7 +17,8 @@ import pandas as pd
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, SCALES
+from contactsim.analysis.claims import SCALES
+from contactsim.analysis.verdict import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import beside_text, error_texts, measure_text, rounded_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan

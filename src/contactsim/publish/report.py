@@ -24,7 +24,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from contactsim import dataset
-from contactsim.analysis.claims import FINDING
+from contactsim.analysis.verdict import FINDING
 from contactsim.analysis.wording import beside_text, dataset_summary, measure_text, printed, rounded_texts
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.figures import style

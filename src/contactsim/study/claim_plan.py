@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from contactsim.analysis.comparison import SECOND_STUDY
-from contactsim.analysis.grid_convergence import is_doubled
-from contactsim.analysis.quantities import FITTED, LIMIT
+from contactsim.analysis.quantities import FITTED
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
 from contactsim.observables.dataset_forms import AVERAGED
@@ -36,8 +35,8 @@ def read_selection(section: Mapping, dims: Iterable[str], file: object, prefix: 
     return {dim: ends for dim, ends in read(section, keys, file, prefix).items() if ends is not None}
 
 
-GRIDS = ("thesis", "either")
-"""Grids of a statement: the thesis's own number of points alone, or that one too, where it has no grid error."""
+GRIDS = ("thesis",)
+"""Grids of a statement: the thesis's own number of points, on which a number has no grid error."""
 WITHOUT_INPUTS = [name for name in REDUCTIONS if not reduction_inputs(name)]
 """Reductions that look at one quantity, value by value."""
 CLAIM_KEYS = {
@@ -126,7 +125,6 @@ def _check_band(settings: dict, file: object, prefix: str) -> None:
     band = {key for key in set.union(*BANDS) if settings[key] is not None}
     unused = sorted(band) + ["neutral"] * (settings["neutral"] is not None)
     if settings["is_finding"]:
-        unused += ["grid"] * (settings["grid"] == "either")
         if unused:
             raise InputError(prefix, unused, "no band: a finding is a number without a verdict", file)
         if settings["reduce"] in ORDERS:
@@ -195,8 +193,6 @@ def quantities(study: Study) -> list[str]:
         names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact"}
         names |= set() if is_sphere else {"half_width_array", "rms_gradient_array", "kappa_r_array"}
     names |= _error_names(study, names & {*AVERAGED})
-    if is_doubled(study.settings["vary"].get("points", [])):
-        names |= {f"{name}{LIMIT}" for name in AVERAGED if name in names}
     if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
         names |= set(FITTED)
     return sorted(names)

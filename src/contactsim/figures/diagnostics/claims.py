@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactsim import dataset
-from contactsim.analysis.claims import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.verdict import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import beside_text, measure_text, printed, rounded_texts, sample_texts
 from contactsim.figures import style
 from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save

@@ -1,0 +1,54 @@
+"""Tables of κ and κ_r without the first-order error of the grid, to be cited."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.uncertainty import Estimate, estimate
+from contactsim.analysis.wording import rounded_texts
+from contactsim.dataset import load_dataset
+from contactsim.study.claim_plan import read_claim
+from contactsim.study.plan import Plan
+
+FACTORS = {"kappa_corrected": "κ", "kappa_r_corrected": "κ_r"}
+"""Quantities of the table, and their symbols."""
+LARGEST_PRESSURE = 0.1
+"""Largest p* of the thesis."""
+
+
+def factor_estimate(plan: Plan, study: str, data: xr.Dataset, quantity: str, place: dict[str, float]) -> Estimate:
+    """Return a factor at one load and Hurst exponent with its errors, found as those of statements are."""
+    select = {dim: [value, value] for dim, value in place.items()}
+    texts = dict.fromkeys(("source", "statement", "rationale"), "")
+    section = texts | {"study": study, "quantity": quantity, "reduce": "mean", "select": select}
+    claim = read_claim(quantity, section, __file__, plan.studies, "findings").settings
+    return estimate(Comparison(claim, [data]).select(claim["select"]))
+
+
+def factor_table(plan: Plan, folder: Path, study: str) -> str:
+    """Return κ and κ_r of an ensemble as a Markdown table: mean ± ensemble error ± grid error.
+
+    Parameters
+    ----------
+    plan
+        Plan of the tier.
+    folder
+        Folder of the tier's results.
+    study
+        Name of a study of random surfaces at reduced pressures.
+    """
+    data = load_dataset(folder / "datasets" / f"{plan.dataset_name(study)}.nc")
+    exponents = [float(value) for value in data.hurst_exponent]
+    heads = [f"{symbol}, H = {hurst:g}" for symbol in FACTORS.values() for hurst in exponents]
+    lines = [f"| p* | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
+    for pressure in map(float, data.reduced_pressure):
+        if pressure > LARGEST_PRESSURE:
+            continue
+        places = [{"hurst_exponent": hurst, "reduced_pressure": pressure} for hurst in exponents]
+        numbers = [factor_estimate(plan, study, data, name, place) for name in FACTORS for place in places]
+        texts = [rounded_texts(number.value, number.ensemble_error, number.grid_error) for number in numbers]
+        lines.append(f"| {pressure:g} | {' | '.join(' ± '.join(cell) for cell in texts)} |")
+    return "\n".join(lines) + "\n"

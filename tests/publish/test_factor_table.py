@@ -1,0 +1,23 @@
+"""The table of κ and κ_r in the limit of fine grids."""
+
+import numpy as np
+import pytest
+
+from contactsim.publish import factor_table
+from support.claims import PLAN, made_up, with_corrected
+
+
+def test_each_factor_stands_with_the_errors_of_a_statement(monkeypatch, tmp_path):
+    data = with_corrected(made_up(scatter=0.01), 1.9, change=0.02, subgrid=1.83)
+    data["kappa_corrected"] = data.kappa - 0.1
+    renamed = {f"kappa{end}": f"kappa_r{end}" for end in ("_corrected", "_subgrid", "_corrected_grid_change")}
+    data = data.merge(data[list(renamed)].rename(renamed) / 2)
+    monkeypatch.setattr(factor_table, "load_dataset", lambda path: data)
+    head, _, *rows = factor_table.factor_table(PLAN, tmp_path, "rough_line").splitlines()
+    assert head == "| p* | κ, H = 0.2 | κ, H = 0.8 | κ_r, H = 0.2 | κ_r, H = 0.8 |"
+    assert [row.split(" | ")[0] for row in rows] == ["| 0.001", "| 0.01", "| 0.1"]
+    cells = rows[0].strip("| ").split(" | ")[1:]
+    values = [[float(part) for part in cell.split(" ± ")] for cell in cells]
+    spread = np.std(0.01 * np.linspace(-1, 1, 4), ddof=1) / 2
+    assert values[0] == values[1] == pytest.approx([1.9, spread, 0.07], rel=0.02)  # the second estimator decides
+    assert values[2] == pytest.approx([0.95, spread / 2, 0.035], rel=0.03)
