@@ -15,6 +15,7 @@ def test_a_full_and_an_empty_contact_have_no_edges():
     assert corrected_area(np.ones(16, bool)) == 1
     assert gradient_within(slopes, np.ones(16, bool), 1.0) == 2
     assert corrected_area(np.zeros(16, bool)) == 0
+    assert gradient_within(0 * slopes, np.ones(16, bool), 1.0) == 0  # flat
     assert np.isnan(gradient_within(slopes, np.zeros(16, bool), 0.0))
 
 

@@ -2,7 +2,7 @@
 
 A point counts as in contact if its pressure is positive. Counting such points puts the edge of a contact half a step
 beyond the last of them, which is too far on average. The excess is proportional to the number of pairs of neighbours of
-which one is in contact. It depends on the discrete elasticity alone, not on the surface.
+which one is in contact. The factor follows from the discrete elasticity, if edges have all directions alike.
 """
 
 from __future__ import annotations
@@ -51,4 +51,4 @@ def gradient_within(squared_gradient: Array, contact: Array, area: float) -> flo
     edge = edge_points(contact)
     lost = (np.count_nonzero(contact) - area * contact.size) / max(int(np.count_nonzero(edge)), 1)
     total = squared_gradient[contact].sum() - lost * squared_gradient[edge].sum()
-    return float(np.sqrt(total / (area * contact.size))) if area > 0 and total > 0 else float("nan")
+    return float(np.sqrt(total / (area * contact.size))) if area > 0 and total >= 0 else float("nan")

@@ -136,9 +136,7 @@ def _read_point(scene: Scene, result: Result, heights: Array, keep: Sequence[str
     certificate = result.record.certificate
     contact = result.contact
     spacing = Grid(heights.shape, scene.lengths).spacing
-    slopes = squared_gradient(
-        heights, scene.lengths, scene.modes
-    )  # again for each load, to hold no field while solving
+    slopes = squared_gradient(heights, scene.lengths, scene.modes)  # for each load: no field is held while solving
     numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap) | {
         "approach": result.approach,
         "iterations": result.record.iterations,
