@@ -148,8 +148,8 @@ def _convert_grid(text: Text, table: Array, unit: str | None) -> RawHeights:
     """Return a row of heights for each y; InputError for points x y z, which look like three columns of heights."""
     names = set(re.findall(r"[^\W\d_]+", re.sub(r"[\[(].*?[\])]", "", text.header[1].lower())))
     if table.shape[1] == 3 and (names >= {"x", "y", "z"} or _has_positions(table)):
-        found = "three columns, of which two are positions on a grid"
-        raise InputError("heights", found, "heights alone; name a file of points x y z .xyz", text.file)
+        content = "three columns, of which two are positions on a grid"
+        raise InputError("heights", content, "heights alone; name a file of points x y z .xyz", text.file)
     scale = io.unit_factor("heights", next(iter(text.units(1)), None), unit, text.file)
     return io.finite_numbers(table, "heights", text.file, scale, 2), (None, None)
 
