@@ -29,6 +29,7 @@ PUBLIC = {
     "HardWall": "interface.hard_wall",
     "CohesiveZone": "interface.cohesive_zone",
     "NormalCohesiveZone": "interface.cohesive_zone",
+    "UncoupledCohesiveZone": "interface.cohesive_zone",
     "Law": "interface.base",
     "Aligned": "interface.pairing",
     "Lattice": "interface.lattice",

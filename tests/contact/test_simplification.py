@@ -14,7 +14,7 @@ from contactsim.analysis.aggregate import aggregate
 from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.errors import InputError
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.observables.adhesion import summarise_load_curves
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
@@ -40,7 +40,7 @@ ASPERITY = {
 @pytest.mark.parametrize(
     ("name", "effect", "body"),
     [
-        ("coupling", NormalCohesiveZone(2.0, 1.5), LAYER),
+        ("coupling", UncoupledCohesiveZone(2.0, 0.5, 1.5, 2.0), LAYER),
         ("friction", CohesiveZone(2.0, 0.0, 1.5, 2.0), LAYER),
         ("height", SCENE.effects[0], HalfSpace(LAYER.contact_modulus, LAYER.poisson_ratio)),
         ("compressibility", SCENE.effects[0], replace(LAYER, poisson_ratio=0.5)),
@@ -92,12 +92,20 @@ def test_the_error_of_leaving_out_is_that_of_runs_with_nothing_left_out(tmp_path
     assert [run.error for run in study.runs()] == ["", "", "neglect", "neglect"]
     assert ["neglect" in run.settings for run in study.runs()] == [True, True, False, False]
     data = _aggregated(study, tmp_path)
-    assert float(np.ptp(data.pull_off_load_loading.values)) == 0.0  # without coupling friction changes nothing
+    assert float(np.ptp(data.pull_off_load_loading.values)) > 5  # friction is kept
     error = data.pull_off_load_loading_neglect_error
     files = [tmp_path / f"{run.variant}_neglect.nc" for run in study.runs() if run.measures_error]
     whole = [summarise_load_curves(dataset.load_dataset(file)).pull_off_load_loading for file in files]
-    assert np.allclose(error, [abs(float(one) - float(data.pull_off_load_loading[0, 0])) for one in whole])
-    assert (error > 5).all()
+    assert np.allclose(
+        error.values.ravel(), np.abs([float(one) for one in whole] - data.pull_off_load_loading.values[:, 0])
+    )
+    assert (error > 1).all()
+
+
+def test_friction_is_left_out_with_the_coupling_where_both_are_asked_for():
+    less = simplify(SCENE, ["coupling", "friction"])
+    assert less.effects == (NormalCohesiveZone(2.0, 1.5),)
+    assert less == simplify(SCENE, ["friction", "coupling"])
 
 
 def test_runs_with_nothing_left_out_measure_nothing_where_nothing_is():

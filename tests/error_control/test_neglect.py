@@ -183,9 +183,13 @@ def test_an_effect_far_from_negligible_is_not_even_checked(monkeypatch):
 def test_setups_have_the_same_fingerprint_where_their_scenes_are_the_same_without_an_effect():
     frictionless, frictional, other = setup_of(0.45, 0.0), setup_of(0.45, 0.5), setup_of(0.3, 0.0)
     assert frictionless.fingerprint != frictional.fingerprint
-    uncoupled = [neglect_effects(setup, ["coupling"]).fingerprint for setup in (frictionless, frictional, other)]
-    assert uncoupled[0] == uncoupled[1]
-    assert uncoupled[0] != uncoupled[2]
+    without_slip = [
+        neglect_effects(setup, ["coupling", "friction"]).fingerprint for setup in (frictionless, frictional, other)
+    ]
+    assert without_slip[0] == without_slip[1]
+    assert without_slip[0] != without_slip[2]
+    uncoupled = [neglect_effects(setup, ["coupling"]).fingerprint for setup in (frictionless, frictional)]
+    assert uncoupled[0] != uncoupled[1]  # friction stays where only the coupling is neglected
 
 
 @pytest.mark.parametrize(
@@ -216,9 +220,9 @@ def test_a_run_is_computed_without_what_was_decided_and_says_so_and_a_twin_is_ta
         return dataset.load_dataset(files.data)
 
     decision = tmp_path / "decision.json"
-    decision.write_text(decide_neglect([frictionless.setup], 0.05, PULL_OFF).text)
+    decision.write_text(decide_neglect([frictional.setup], 0.05, PULL_OFF).text)
     neglected = json.loads(decision.read_text())["neglected"]
-    assert "coupling" in neglected
+    assert {"coupling", "friction"} <= set(neglected)
     data = compute(frictionless, "first", decision)
     assert data.neglected.item() == ", ".join(neglected)
     assert data.neglect_change <= 0.05

@@ -7,7 +7,8 @@ import pytest
 
 from contactsim.errors import InputError
 from contactsim.interface.base import potential
-from contactsim.interface.cohesive_zone import MAX_OVERLAP, CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
+from contactsim.interface.exponentials import MAX_OVERLAP
 from contactsim.interface.superposition import Superposition, superpose
 from contactsim.traits import Trait
 from support.cases import refusal
@@ -17,6 +18,8 @@ LAWS = (
     NormalCohesiveZone(0.3, 2.5),
     CohesiveZone(2.0),
     CohesiveZone(2.0, 1.0),
+    UncoupledCohesiveZone(2.0, 1.0),
+    UncoupledCohesiveZone(0.7, 3.0, normal_length=0.4, tangential_length=2.5),
     CohesiveZone(0.7, 3.0, normal_length=0.4, tangential_length=2.5),
 )
 TWO = Superposition((NormalCohesiveZone(0.5, 2.0), CohesiveZone(1.5, 0.3)))
@@ -70,7 +73,7 @@ def test_the_traction_is_the_derivative_of_the_energy_where_there_is_one(law):
 
 
 def test_the_energy_of_a_law_without_a_potential_is_refused():
-    for law in (LAWS[-1], TWO):
+    for law in (LAWS[-1], LAWS[-2], TWO):
         with pytest.raises(InputError, match="potential"):
             potential(law, gaps(law))
 
@@ -141,13 +144,48 @@ def test_without_tangential_gap_the_mixed_law_is_the_uncoupled_one():
         assert not mixed[1:].any()
 
 
+def test_the_law_without_coupling_differs_from_the_coupled_one_by_the_slip_in_its_normal_traction_alone():
+    coupled = CohesiveZone(0.7, 3.0, normal_length=0.4, tangential_length=2.5)
+    law, gap = coupled.without_coupling(), gaps(coupled)
+    assert law == UncoupledCohesiveZone(0.7, 3.0, 0.4, 2.5)
+    (normal, tangential), tangent = law.tangent(gap)
+    near = gap[0] >= -MAX_OVERLAP * 0.4  # above the overlap from which both laws are continued
+    y = gap[0, near] / 0.4
+    assert np.allclose(normal[near], 0.7 / 0.4 * y * np.exp(-y), rtol=1e-13, atol=0)  # Eq. 4.1
+    assert not tangent[0, 1].any()  # ∂T_n/∂Δt
+    assert np.array_equal(tangential, coupled.traction(gap)[1])  # Eq. 2.17
+    assert np.array_equal(tangent[1], coupled.tangent(gap)[1][1])
+    assert np.abs(normal - coupled.traction(gap)[0]).max() > 0.1 * law.strength
+    assert np.abs(tangent[1, 0]).max() > 0.1 * law.stiffness  # no potential: ∂T_t/∂Δn is not zero
+
+
+def test_without_a_slip_the_laws_with_and_without_coupling_are_the_same():
+    gap = gaps(CohesiveZone(2.0))
+    gap[1] = 0.0
+    for ratio in (0.1, 1.0, 10.0):
+        coupled, uncoupled = CohesiveZone(2.0, ratio).tangent(gap), UncoupledCohesiveZone(2.0, ratio).tangent(gap)
+        for one, other in zip(coupled, uncoupled, strict=True):
+            assert np.allclose(one, other, rtol=1e-15, atol=0)
+
+
+def test_what_is_left_of_a_law_without_coupling_friction_or_slip():
+    coupled, uncoupled = CohesiveZone(2.0, 0.5, 1.5, 2.0), UncoupledCohesiveZone(2.0, 0.5, 1.5, 2.0)
+    normal = NormalCohesiveZone(2.0, 1.5)
+    assert coupled.without_coupling() == uncoupled == uncoupled.without_coupling()
+    assert coupled.without_friction().without_coupling() == normal == uncoupled.without_friction()
+    assert coupled.without_slip() == normal == uncoupled.without_slip()
+
+
 @pytest.mark.parametrize("value", [0, -1.0, float("nan"), float("inf"), "2", None, True])
 @pytest.mark.parametrize("name", ["work_of_separation", "normal_length", "tangential_length"])
 def test_works_and_lengths_that_are_not_positive_are_refused(name, value):
-    given = {"work_of_separation": 2.0} | {name: value}
-    kinds = [CohesiveZone] if name == "tangential_length" else [CohesiveZone, NormalCohesiveZone]
-    for kind in kinds:
-        error = refusal(name, "scene.yaml", lambda kind=kind: _read(kind, given))
+    options = {"work_of_separation": 2.0} | {name: value}
+    friction = {"work_ratio": 0.5}
+    kinds = {CohesiveZone: {}, UncoupledCohesiveZone: friction, NormalCohesiveZone: {}}
+    if name == "tangential_length":
+        del kinds[NormalCohesiveZone]
+    for kind, more in kinds.items():
+        error = refusal(name, "scene.yaml", lambda kind=kind, more=more: _read(kind, options | more))
         assert error.value is value
         assert "positive" in error.allowed
 
@@ -155,6 +193,11 @@ def test_works_and_lengths_that_are_not_positive_are_refused(name, value):
 @pytest.mark.parametrize("value", [-1e-9, float("nan"), float("inf"), "0.1", None])
 def test_a_work_ratio_below_zero_is_refused(value):
     assert refusal("work_ratio", "scene.yaml", lambda: _read(CohesiveZone, {"work_ratio": value})).value is value
+
+
+def test_the_law_that_drops_the_coupling_alone_needs_friction():
+    error = refusal("work_ratio", "scene.yaml", lambda: _read(UncoupledCohesiveZone, {"work_ratio": 0.0}))
+    assert "normal_cohesive_zone" in error.allowed
 
 
 def _read(kind, given):

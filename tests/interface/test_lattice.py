@@ -14,7 +14,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import ALIGNED
@@ -137,7 +137,14 @@ def test_a_cutoff_of_zero_joins_aligned_points():
 
 
 @pytest.mark.parametrize(
-    "law", [LAW, CohesiveZone(2.0), NormalCohesiveZone(1.5), superpose((LAW, NormalCohesiveZone(1.0)))]
+    "law",
+    [
+        LAW,
+        CohesiveZone(2.0),
+        UncoupledCohesiveZone(2.0, 0.5),
+        NormalCohesiveZone(1.5),
+        superpose((LAW, NormalCohesiveZone(1.0))),
+    ],
 )
 def test_any_law_can_be_a_spring(law):
     springs = Lattice(1.5, tangential_cutoff=3.0).join(law, np.zeros(10), 15.0)

@@ -13,7 +13,7 @@ from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.increments import Nested
@@ -29,7 +29,12 @@ from contactsim.traits import Trait
 from support.places import ROOT
 from support.smooth import LAWS, Walked, along, residual_of, scene_of, walk
 
-ROUGH_LAWS = {"normal": NormalCohesiveZone(10.5), "coupled": CohesiveZone(10.5), "frictional": CohesiveZone(10.5, 0.5)}
+ROUGH_LAWS = {
+    "normal": NormalCohesiveZone(10.5),
+    "coupled": CohesiveZone(10.5),
+    "frictional": CohesiveZone(10.5, 0.5),
+    "uncoupled_frictional": UncoupledCohesiveZone(10.5, 0.5),
+}
 FULL = [-4.0, 0.0, 3.0]
 
 

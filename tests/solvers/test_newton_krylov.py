@@ -103,7 +103,7 @@ def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
 
 
 @pytest.mark.parametrize("kind", ["newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation"])
-@pytest.mark.parametrize("trait", ["uncoupled", "frictionless", "frictional"])
+@pytest.mark.parametrize("trait", LAWS)
 def test_a_law_without_potential_is_refused_by_the_minimiser_alone(kind, trait):
     scene = scene_of(LAWS[trait])
     if kind == "energy_minimisation" and trait != "uncoupled":

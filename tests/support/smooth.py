@@ -13,7 +13,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.layer import Layer
 from contactsim.interface.base import Law
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.increments import Requested
 from contactsim.paths.state import PathState
@@ -27,6 +27,7 @@ LAWS = {
     "uncoupled": NormalCohesiveZone(2.0),
     "frictionless": CohesiveZone(2.0),
     "frictional": CohesiveZone(2.0, 1.0),
+    "uncoupled_frictional": UncoupledCohesiveZone(2.0, 1.0),
 }
 
 

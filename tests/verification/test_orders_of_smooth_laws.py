@@ -13,7 +13,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import Slide
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import contact_length, pull_off
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
@@ -27,7 +27,11 @@ BODIES = {
     "layer": Layer(77.0, 0.3, 200.0),
     "incompressible": Layer(77.0, 0.5, 200.0),
 }
-WEAK = {"uncoupled": NormalCohesiveZone(0.2), "frictional": CohesiveZone(0.2, 1.0)}
+WEAK = {
+    "uncoupled": NormalCohesiveZone(0.2),
+    "frictional": CohesiveZone(0.2, 1.0),
+    "uncoupled_frictional": UncoupledCohesiveZone(0.2, 1.0),
+}
 """Laws too weak for a jump."""
 PARTS = (0.0, 0.2, 0.4, 0.6, 0.8)
 """Where paths begin, in increments: the worst of them counts, for by chance one may meet the largest pull."""
@@ -146,7 +150,9 @@ def test_the_gap_comes_closer_with_the_tolerance_at_first_order(law, solver):
 # --- limits of the bodies -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("law", [CohesiveZone(1.0, 0.5), NormalCohesiveZone(1.0)], ids=repr)
+@pytest.mark.parametrize(
+    "law", [CohesiveZone(1.0, 0.5), UncoupledCohesiveZone(1.0, 0.5), NormalCohesiveZone(1.0)], ids=repr
+)
 def test_a_stiff_cylinder_pulls_off_like_a_rigid_one_at_first_order_in_its_compliance(law):
     exact = reference.rigid_cylinder_pull_off(1.0, 500.0, 1.0)
     errors = []

@@ -19,7 +19,7 @@ from contactsim.contact.loading import LoadPath
 from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.interface.base import Effect, Law, is_coupled
+from contactsim.interface.base import Effect, Law, reads_slip
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.surfaces.base import Surface
 from contactsim.surfaces.shapes import Flat
@@ -156,10 +156,10 @@ class Scene:
 
     @cached_property
     def acting(self) -> tuple[Effect, ...]:
-        """The effects as they act: without a slip, exactly, laws without their coupling."""
+        """The effects as they act: where nothing slips, exactly, laws without all that is tangential."""
         if self.slips:
             return self.effects
-        return tuple(effect.without_coupling() if is_coupled(effect) else effect for effect in self.effects)
+        return tuple(effect.without_slip() if reads_slip(effect) else effect for effect in self.effects)
 
     @property
     def laws(self) -> tuple[Law, ...]:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import HalfSpace
-from contactsim.interface.base import Effect, is_coupled
+from contactsim.interface.base import Effect, reads_slip
 from contactsim.surfaces.self_affine import SelfAffine
 
 SMOOTHING_RATIO = 2.0
@@ -21,12 +21,12 @@ SMOOTHING_RATIO = 2.0
 
 def without_friction(scene: Scene) -> Scene:
     """Return a scene without tangential work of separation."""
-    return _replace_effects(scene, lambda effect: effect.without_friction() if is_coupled(effect) else effect)
+    return _replace_effects(scene, lambda effect: effect.without_friction() if reads_slip(effect) else effect)
 
 
 def without_coupling(scene: Scene) -> Scene:
-    """Return a scene whose normal traction does not feel the tangential gap, which removes friction as well."""
-    return _replace_effects(scene, lambda effect: effect.without_coupling() if is_coupled(effect) else effect)
+    """Return a scene whose normal traction does not depend on the tangential gap; friction remains as it is."""
+    return _replace_effects(scene, lambda effect: effect.without_coupling() if reads_slip(effect) else effect)
 
 
 def without_compressibility(scene: Scene) -> Scene:

@@ -1,4 +1,4 @@
-"""Protocols of what acts at an interface: effects, laws, laws with a coupling, laws with an energy.
+"""Protocols of what acts at an interface: effects, laws, laws that read the slip, laws with an energy.
 
 Effects add: a scene lists them, and the traction is their sum. A law gives the traction at each point from the gap at
 that point. Normal traction is positive where it pulls the bodies together; tangential traction is positive where it
@@ -56,10 +56,13 @@ class Law(Effect, Protocol):
         """Return the traction (exerts, n), GPa, and its derivatives (exerts, reads, n), GPa/nm."""
 
 
-class CoupledLaw(Law, Protocol):
+class TangentialLaw(Law, Protocol):
     """A law that reads the tangential gap."""
 
     def without_coupling(self) -> Law:
+        """Return the law whose normal traction does not depend on the tangential gap; friction remains as it is."""
+
+    def without_slip(self) -> Law:
         """Return the law where the surfaces do not slip: it neither reads nor exerts anything tangential."""
 
     def without_friction(self) -> Law:
@@ -73,7 +76,7 @@ class ConservativeLaw(Law, Protocol):
         """Return the potential (n,), N/m, at a gap (reads, n), nm; zero where the surfaces are far apart."""
 
 
-def is_coupled(effect: Effect) -> TypeGuard[CoupledLaw]:
+def reads_slip(effect: Effect) -> TypeGuard[TangentialLaw]:
     """Return True if an effect reads the tangential gap."""
     return "t" in effect.reads
 

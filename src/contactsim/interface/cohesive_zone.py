@@ -5,14 +5,17 @@ The mixed-mode law (Eq. 2.17) has no potential: the cross derivatives of its two
     (2 Δt/(δn δt²)) exp(-Δn/δn - Δt²/δt²) (φt - φn Δn/δn),
 
 so no method that minimises an energy can solve it. Its repulsion is proportional to the work of separation as well: if
-this work tends to zero, the bodies do not touch at all, and a hard wall is not recovered. Below an overlap of
-MAX_OVERLAP characteristic lengths the dependence on Δn is continued by its tangent, because the exponential would
-overflow at a bad first guess. No solution of physical interest gets there.
+this work tends to zero, the bodies do not touch at all, and a hard wall is not recovered.
+
+Section 4.3.2 removes the coupling by "removing the dependency on the tangential component" from the normal traction
+alone. So without its coupling the law has T_n of Eq. 4.1, and T_t of Eq. 2.17 keeps its dependence on Δn, by which
+shear needs surfaces that are close. In the thesis such contacts are frictionless and only T_n is left.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf
 
 import numpy as np
@@ -20,12 +23,8 @@ import numpy as np
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
+from contactsim.interface.exponentials import MAX_OVERLAP, MAX_SLIP, decay, pull
 from contactsim.traits import Trait
-
-MAX_OVERLAP = 10.0
-"""Overlap, in characteristic lengths, beyond which a law is continued by its tangent."""
-MAX_SLIP = 30.0
-"""Tangential gap y, in characteristic lengths, beyond which exp(-y²) is zero to all digits: y is cut there."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +55,7 @@ class CohesiveZone:
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
 
     def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
+        _check_parameters(self)
         if not (is_number(self.work_ratio) and self.work_ratio >= 0):
             raise InputError("work_ratio", self.work_ratio, "0 or a positive number")
 
@@ -92,32 +90,40 @@ class CohesiveZone:
         """Return the traction (1 or 2, n), GPa, at a gap (2, n), nm."""
         normal, tangential = self._without_units(gap)
         shear = np.exp(-(tangential**2))
-        pull = self.work_of_separation / self.normal_length * _pull(normal)[0] * shear
+        normal_traction = self.work_of_separation / self.normal_length * pull(normal)[0] * shear
         if not self.tangential_work:
-            return pull[None]
+            return normal_traction[None]
         size = 2 * self.tangential_work / self.tangential_length
-        return np.stack((pull, size * tangential * _decay(normal)[0] * shear))
+        return np.stack((normal_traction, size * tangential * decay(normal)[0] * shear))
 
     def tangent(self, gap: Array) -> tuple[Array, Array]:
         """Return the traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
         normal, tangential = self._without_units(gap)
         shear = np.exp(-(tangential**2))
-        pull, slope = _pull(normal)
+        value, slope = pull(normal)
         size = self.work_of_separation / self.normal_length
         traction = np.empty((len(self.exerts), gap.shape[1]))
         derivative = np.empty((len(self.exerts), *gap.shape))
-        traction[0] = size * pull * shear
+        traction[0] = size * value * shear
         derivative[0, 0] = size / self.normal_length * slope * shear
         derivative[0, 1] = -2 / self.tangential_length * tangential * traction[0]
         if self.tangential_work:
-            decay, slope = _decay(normal)
+            value, slope = decay(normal)
             size = 2 * self.tangential_work / self.tangential_length
-            traction[1] = size * tangential * decay * shear
+            traction[1] = size * tangential * value * shear
             derivative[1, 0] = size / self.normal_length * tangential * slope * shear
-            derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * decay * shear
+            derivative[1, 1] = size / self.tangential_length * (1 - 2 * tangential**2) * value * shear
         return traction, derivative
 
-    def without_coupling(self) -> NormalCohesiveZone:
+    def without_coupling(self) -> UncoupledCohesiveZone | NormalCohesiveZone:
+        """Return the law whose normal traction does not depend on the tangential gap; friction remains as it is."""
+        if not self.tangential_work:
+            return self.without_slip()
+        return UncoupledCohesiveZone(
+            self.work_of_separation, self.work_ratio, self.normal_length, self.tangential_length
+        )
+
+    def without_slip(self) -> NormalCohesiveZone:
         """Return the law at zero tangential gap."""
         return NormalCohesiveZone(self.work_of_separation, self.normal_length)
 
@@ -170,32 +176,104 @@ class NormalCohesiveZone:
 
     def traction(self, gap: Array) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm."""
-        return self.work_of_separation / self.normal_length * _pull(gap / self.normal_length)[0]
+        return self.work_of_separation / self.normal_length * pull(gap / self.normal_length)[0]
 
     def tangent(self, gap: Array) -> tuple[Array, Array]:
         """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
-        pull, slope = _pull(gap / self.normal_length)
-        return self.work_of_separation / self.normal_length * pull, self.stiffness * slope[None]
+        value, slope = pull(gap / self.normal_length)
+        return self.work_of_separation / self.normal_length * value, self.stiffness * slope[None]
 
     def energy(self, gap: Array) -> Array:
         """Return the potential -φn (1 + Δn/δn) exp(-Δn/δn) of shape (n,), N/m, at a gap (1, n), nm."""
         normal = gap[0] / self.normal_length
         inside = np.maximum(normal, -MAX_OVERLAP)
         beyond = normal - inside
-        pull, slope = _pull(inside)
-        return self.work_of_separation * (beyond * (pull + beyond * slope / 2) - (1 + inside) * np.exp(-inside))
+        value, slope = pull(inside)
+        return self.work_of_separation * (beyond * (value + beyond * slope / 2) - (1 + inside) * np.exp(-inside))
 
 
-def _decay(normal: Array) -> tuple[Array, Array]:
-    """Return exp(-y), continued by its tangent below -MAX_OVERLAP, and its derivative."""
-    inside = np.maximum(normal, -MAX_OVERLAP)
-    decay = np.exp(-inside)
-    return decay * (1 + (inside - normal)), -decay
+@dataclass(frozen=True)
+class UncoupledCohesiveZone:
+    """Cohesive zone with friction whose normal traction does not depend on the tangential gap (Eqs 4.1 and 2.17).
+
+    The normal traction is that of Eq. 4.1, the tangential one that of Eq. 2.17, which decays with the normal gap. So it
+    has no potential: ∂T_n/∂Δt is zero and ∂T_t/∂Δn is not.
+
+    Parameters
+    ----------
+    work_of_separation
+        Normal work of separation φn > 0, N/m.
+    work_ratio
+        Tangential over normal work of separation φt/φn > 0; without friction the law is `NormalCohesiveZone`.
+    normal_length, tangential_length
+        Characteristic lengths δn and δt, nm.
+    """
+
+    work_of_separation: float
+    work_ratio: float
+    normal_length: float = 1.0
+    tangential_length: float = 1.0
+    reads = frozenset({"n", "t"})
+    exerts = frozenset({"n", "t"})
+    traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
+
+    def __post_init__(self) -> None:
+        if not (is_number(self.work_ratio) and self.work_ratio > 0):
+            raise InputError("work_ratio", self.work_ratio, "a positive number; without friction, normal_cohesive_zone")
+        _check_parameters(self)
+
+    @cached_property
+    def _normal(self) -> NormalCohesiveZone:
+        """Law of the normal traction."""
+        return self.without_slip()
+
+    @cached_property
+    def _coupled(self) -> CohesiveZone:
+        """Law of the tangential traction."""
+        return CohesiveZone(self.work_of_separation, self.work_ratio, self.normal_length, self.tangential_length)
+
+    @property
+    def strength(self) -> float:
+        """Largest normal traction φn/(e δn), GPa."""
+        return self._normal.strength
+
+    @property
+    def stiffness(self) -> float:
+        """Larger one of the two tangents at zero gap, GPa/nm."""
+        return self._coupled.stiffness
+
+    @property
+    def interaction_range(self) -> float:
+        """Length over which the normal traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Return the traction (2, n), GPa, at a gap (2, n), nm."""
+        traction = self._coupled.traction(gap)
+        traction[:1] = self._normal.traction(gap[:1])
+        return traction
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Return the traction (2, n), GPa, and its derivatives by both components (2, 2, n), GPa/nm."""
+        traction, derivative = self._coupled.tangent(gap)
+        traction[:1], derivative[:1, :1] = self._normal.tangent(gap[:1])
+        derivative[0, 1] = 0.0
+        return traction, derivative
+
+    def without_coupling(self) -> UncoupledCohesiveZone:
+        """Return the law itself."""
+        return self
+
+    def without_slip(self) -> NormalCohesiveZone:
+        """Return the law at zero tangential gap."""
+        return NormalCohesiveZone(self.work_of_separation, self.normal_length)
+
+    def without_friction(self) -> NormalCohesiveZone:
+        """Return the law without tangential work of separation."""
+        return self.without_slip()
 
 
-def _pull(normal: Array) -> tuple[Array, Array]:
-    """Return y exp(-y), continued by its tangent below -MAX_OVERLAP, and its derivative."""
-    inside = np.maximum(normal, -MAX_OVERLAP)
-    decay = np.exp(-inside)
-    slope = (1 - inside) * decay
-    return inside * decay + (normal - inside) * slope, slope
+def _check_parameters(law: CohesiveZone | UncoupledCohesiveZone) -> None:
+    """Raise InputError for a work or a length that is not positive."""
+    check_positive("N/m", work_of_separation=law.work_of_separation)
+    check_positive("nm", normal_length=law.normal_length, tangential_length=law.tangential_length)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import Aligned
@@ -13,5 +13,6 @@ EFFECTS: dict[str, Any] = {
     "hard_wall": HardWall,
     "cohesive_zone": CohesiveZone,
     "normal_cohesive_zone": NormalCohesiveZone,
+    "uncoupled_cohesive_zone": UncoupledCohesiveZone,
 }
 PAIRINGS = {"aligned": Aligned, "lattice": Lattice}

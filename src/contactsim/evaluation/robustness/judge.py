@@ -18,7 +18,7 @@ from contactsim.evaluation.robustness.cases import Case, displacement, mirror_fi
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import PathCase
 from contactsim.grid import Array
-from contactsim.interface.cohesive_zone import MAX_OVERLAP
+from contactsim.interface.exponentials import MAX_OVERLAP
 from contactsim.observables.adhesion import state_observables
 from contactsim.paths.state import PathState
 from contactsim.single_load import press

@@ -24,7 +24,7 @@ from contactsim.contact.steps import LoadStep
 from contactsim.evaluation.robustness.navier import surface_compliance
 from contactsim.grid import Array
 from contactsim.interface.base import Law
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.paths.increments import Requested
 from contactsim.paths.state import PathState
@@ -212,7 +212,7 @@ class PathCase:
         return None
 
 
-def _mixed_mode(law: CohesiveZone, normal: Array, tangential: Array) -> Array:
+def _mixed_mode(law: CohesiveZone | UncoupledCohesiveZone, normal: Array, tangential: Array) -> Array:
     """Eq. 2.17 as printed, (2, n), GPa."""
     y, s = normal / law.normal_length, tangential / law.tangential_length
     far = np.exp(-y - s**2)
@@ -226,4 +226,13 @@ def _normal(law: NormalCohesiveZone, normal: Array, tangential: Array) -> Array:
     return np.stack([law.work_of_separation / law.normal_length * y * np.exp(-y), np.zeros_like(tangential)])
 
 
-FORMULAS: dict[type, Callable[..., Array]] = {CohesiveZone: _mixed_mode, NormalCohesiveZone: _normal}
+def _uncoupled(law: UncoupledCohesiveZone, normal: Array, tangential: Array) -> Array:
+    """Eq. 4.1 and the tangential traction of Eq. 2.17 as printed, (2, n), GPa."""
+    return np.stack([_normal(law.without_slip(), normal, tangential)[0], _mixed_mode(law, normal, tangential)[1]])
+
+
+FORMULAS: dict[type, Callable[..., Array]] = {
+    CohesiveZone: _mixed_mode,
+    NormalCohesiveZone: _normal,
+    UncoupledCohesiveZone: _uncoupled,
+}
