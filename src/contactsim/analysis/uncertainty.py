@@ -16,6 +16,8 @@ from contactsim.analysis.quantities import grid_change_name, source_quantity
 from contactsim.grid import Array
 
 NAN = float("nan")
+PATH_ERRORS = ("increment", "approach")
+"""Errors of a path, and of what is fitted to several; those of two paths are independent."""
 Number = Callable[[Datasets], Any]
 """Function of datasets: one number, or an array of numbers that each have an error."""
 
@@ -92,25 +94,26 @@ def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> An
 
 
 def _grid_error(number: Number, comparison: Comparison) -> Any:
-    """Return the change of a number on the coarser grid, in quadrature with what the increments of paths leave open."""
+    """Return the change of a number on the coarser grid, in quadrature with the errors of paths and of their fits."""
     data, claim = comparison.data, comparison.claim
     names = {name for name in (claim["quantity"], claim["against"]) if name is not None and source_quantity(name)}
     changes = {str(source_quantity(name)): str(grid_change_name(name)) for name in sorted(names)}
     if any(change not in study for study in data for change in changes.values()):
         return NAN
     coarse = [study.assign({name: study[name] - study[change] for name, change in changes.items()}) for study in data]
-    moved = [coarse, *(parts for name in changes for parts in _moved_by_increments(data, name))]
+    moved = [coarse, *(parts for name in changes for parts in _moved_by_path_errors(data, name))]
     fine = number(data)
     return _in_quadrature(number(parts) - fine for parts in moved)
 
 
-def _moved_by_increments(data: Datasets, name: str) -> Iterator[list[xr.Dataset]]:
-    """Yield the datasets with a quantity moved by the increment error of one variant of one study after another."""
+def _moved_by_path_errors(data: Datasets, name: str) -> Iterator[list[xr.Dataset]]:
+    """Yield the datasets with a quantity moved by an error of one variant of one study after another."""
     for index, study in enumerate(data):
-        if f"{name}_increment_error" not in study:
-            continue
-        error = study[f"{name}_increment_error"].max("member", skipna=False)
-        for place in np.ndindex(error.shape):
-            step = xr.zeros_like(error)
-            step[place] = error[place]
-            yield [*data[:index], study.assign({name: study[name] + step}), *data[index + 1 :]]
+        for kind in PATH_ERRORS:
+            if f"{name}_{kind}_error" not in study:
+                continue
+            error = study[f"{name}_{kind}_error"].max("member", skipna=False)
+            for place in np.ndindex(error.shape):
+                step = xr.zeros_like(error)
+                step[place] = error[place]
+                yield [*data[:index], study.assign({name: study[name] + step}), *data[index + 1 :]]
