@@ -45,11 +45,14 @@ LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
 ERRORS = {
     "grid": "change of the mean on halving the grid",
     "increment": "what the increments of the path leave open",
+    "approach": "jackknife error over the approaches that are fitted together",
     "tolerance": "change of the mean on solving more tightly",
     "neglect": "change on neglecting nothing",
     "estimated": "error as estimated from a coarser run before",
 }
 """Kinds of error beside the standard one, and what each is: of a quantity NAME that of a kind is NAME_KIND_error."""
+GRID_ERROR, GRID_CHANGE = "_grid_error", "_grid_change"
+"""Ends of the names of the change on halving the grid: its size, and finer minus coarser with its sign."""
 SUFFIXES = {
     "_difference_standard_error": ": standard error of the difference, member by member",
     "_difference": ": mean difference from a reference, member by member",
@@ -58,7 +61,7 @@ SUFFIXES = {
     "_order_standard_error": ": standard error over members of the order of convergence",
     "_order": ": order of convergence of the mean with the grid, as observed",
     "_spread": ": the limit on finer grids less that of first order",
-    "_grid_change": ": mean on the finer grid minus that on the coarser one",
+    GRID_CHANGE: ": mean on the finer grid minus that on the coarser one",
     "_change_standard_error": ": standard error of the change, member by member",
     "_change": ": change from a reference, as a part of it",
     "_mean": ": mean over members",

@@ -130,6 +130,12 @@ def test_without_a_coarse_run_the_grid_error_is_unknown():
     assert np.isnan(number(claim(), made_up().drop_vars("kappa_grid_change")).grid_error)
 
 
+def test_the_error_of_a_fit_over_approaches_counts_with_the_grid():
+    data = paths([10.0], grid=0.3, work_ratio=[1.0]).isel(work_ratio=0)
+    data["pull_off_load_loading_approach_error"] = ("member", [0.4])
+    assert number(path_claim(reduce="mean"), data).grid_error == pytest.approx(0.5)
+
+
 def test_increments_of_variants_err_independently_and_count_with_the_grid():
     data = paths([[10.0, 20.0]], grid=0.2, increment=0.3, work_of_separation=[1.0], work_ratio=[0.0, 1.0])
     result = number(path_claim(), data)

@@ -20,7 +20,7 @@ from contactsim.elasticity.layer import Layer
 from contactsim.evaluation.work_precision.knobs import summarise_solutions
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice
-from contactsim.observables import friction, peeling, polyline, sliding
+from contactsim.observables import friction, peeling, polyline, sliding, threshold
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.state import PathState
@@ -312,23 +312,113 @@ def test_the_error_beside_a_slip_follows_from_its_width():
     assert line([0, 1, 2], [0, 1, 0]).extreme_error(1) == pytest.approx(0.25)
 
 
-def test_peeling_laws_are_fitted_to_data_that_follow_them():
-    force = np.linspace(0, 3, 20)
+def test_the_quadratic_law_is_fitted_to_data_that_follow_it():
+    force = np.linspace(0, 3, 40)
     coefficient, agreement = peeling.fit_quadratic_law(force, 100 - 2.5 * force**2)
     assert coefficient == pytest.approx(2.5)
     assert agreement == pytest.approx(1.0)
     assert np.isnan(peeling.fit_quadratic_law(force[:2], force[:2])).all()
-    slope, offset, agreement = peeling.fit_threshold_law(np.array([1.0, 2, 3, 0]), np.array([7.0, 9, 11, 1]))
-    assert (slope, offset, agreement) == pytest.approx((2.0, 5.0, 1.0))
-    assert np.isnan(peeling.fit_threshold_law(np.ones(3), np.ones(3))).all()
+    assert np.isnan(peeling.fit_quadratic_law(force, np.full(40, 5.0))).all()
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 6.5])
+def test_the_exponent_of_a_law_is_fitted(exponent):
+    force = np.linspace(0, 3, 40)
+    assert peeling.fit_exponent(force, 100 - 0.7 * force**exponent) == pytest.approx(exponent, rel=1e-4)
+    assert np.isnan(peeling.fit_exponent(force, 100 - 0.7 * (force >= 3)))  # no exponent is large enough
+    assert np.isnan(peeling.fit_exponent(force[:2], force[:2]))
+
+
+def test_the_rate_ratio_compares_the_ends_of_the_squared_force():
+    force = np.sqrt(np.linspace(0, 9, 101))
+    assert peeling.peel_rate_ratio(force, 100 - 2 * force**2) == pytest.approx(1.0)
+    bent = np.where(force**2 < 4.5, 2 * force**2, 9 + 6 * (force**2 - 4.5))
+    assert peeling.peel_rate_ratio(force, 100 - bent) == pytest.approx(3.0)
+    assert np.isnan(peeling.peel_rate_ratio(force, 100 + force**2))
+    assert np.isnan(peeling.peel_rate_ratio(force[::30], 100 - bent[::30]))
+
+
+def test_the_threshold_law_is_fitted_with_and_without_onsets_without_contact():
+    length, force = np.array([1.0, 2, 3, 4, 0]), np.array([7.0, 9, 11, 13, 1])
+    named = dict(zip(threshold.THRESHOLD, threshold.threshold_numbers(length, force)[:10], strict=True))
+    assert named["shear_strength_contacts_only"] == pytest.approx(2.0)
+    assert named["friction_without_contact_contacts_only"] == pytest.approx(5.0)
+    assert named["threshold_r_squared_contacts_only"] == pytest.approx(1.0)
+    assert named["threshold_residual_contacts_only"] < 1e-12
+    slope, offset = np.polyfit(length, force, 1)
+    assert (named["shear_strength"], named["friction_without_contact"]) == pytest.approx((slope, offset))
+    residual = np.sqrt(np.mean((force - slope * length - offset) ** 2)) / 12
+    assert named["threshold_residual"] == pytest.approx(residual)
+
+
+def test_an_unknown_onset_leaves_the_threshold_law_unknown():
+    length, force = np.array([1.0, 2, 3, 4]), np.array([7.0, 9, np.nan, 13])
+    assert np.isnan(threshold.threshold_numbers(length, force)).all()
+    assert np.isnan(threshold.threshold_numbers(np.ones(3), np.ones(3))).all()
+    assert np.isnan(threshold.threshold_numbers(np.full(3, np.nan), np.arange(3.0))).all()
+
+
+def test_curvature_is_a_square_term_in_its_errors():
+    rng = np.random.default_rng(1)
+    length = np.linspace(0, 5, 9)
+    noise = [threshold.fit_threshold_law(length, 2 * length + rng.normal(size=9)) for _ in range(400)]
+    spread = np.std([fit.threshold_curvature for fit in noise])
+    assert spread == pytest.approx(np.sqrt(6 / 4), rel=0.2)  # of Student's t with six degrees of freedom
+    bent = threshold.fit_threshold_law(length, 2 * length + 0.5 * length**2 + 0.1 * rng.normal(size=9))
+    assert bent.threshold_curvature > 5
+
+
+def test_leaving_out_approaches_measures_the_scatter_of_a_slope():
+    rng = np.random.default_rng(2)
+    length = np.linspace(0, 5, 9)
+    fits = [threshold.threshold_numbers(length, 2 * length + rng.normal(size=9)) for _ in range(300)]
+    slopes, errors = np.array(fits)[:, 0], np.array(fits)[:, 10]
+    assert np.sqrt(np.mean(errors**2)) == pytest.approx(slopes.std(), rel=0.25)
 
 
 def test_peeling_at_one_edge_is_asymmetric():
     trailing, leading = np.array([-5.0, -4.0, -2.0, np.nan]), np.array([5.0, 4.0, 4.0, np.nan])
-    assert peeling.peel_asymmetry(trailing, leading, 1) == 0.0
-    assert peeling.peel_asymmetry(trailing, leading, 2) == pytest.approx(0.5)
-    assert np.isnan(peeling.peel_asymmetry(trailing, leading, 0))
-    assert np.isnan(peeling.peel_asymmetry(trailing, leading, 3))
+    distance = np.arange(4.0)
+    assert peeling.edge_peel(trailing, leading, distance, 1.0) == (1.0, 1.0)
+    assert peeling.edge_peel(trailing, leading, distance, 1.5) == (2.0, 1.0)
+    assert np.isnan(peeling.edge_peel(trailing, leading, distance, 3.0)).all()
+    assert peeling.peel_asymmetry(1.0, 1.0) == 0.0
+    assert peeling.peel_asymmetry(3.0, 1.0) == pytest.approx(0.5)
+    assert np.isnan(peeling.peel_asymmetry(0.0, 0.0))
+
+
+def test_the_shift_is_half_the_difference_of_what_peels_over_the_contact():
+    data = friction.summarise_slides(dataset())
+    for suffix in ("", "_halfway"):
+        behind, ahead = (float(data[f"{edge}_peel{suffix}"]) for edge in ("trailing", "leading"))
+        shift = (behind - ahead) / 2 / float(data.initial_contact_length)
+        assert float(data[f"contact_shift{suffix}"]) == pytest.approx(shift)
+        assert behind + ahead > 0
+    before = np.flatnonzero(data.jump.values > 0)[0] - 1
+    centres = (data.contact_trailing_edge + data.contact_leading_edge).values / 2
+    shift = (centres[before] - centres[20]) / float(data.initial_contact_length)
+    assert float(data.contact_shift) == pytest.approx(shift)
+
+
+def test_a_contact_that_is_lost_has_no_reattached_share():
+    data = dataset()
+    found = friction.summarise_slides(data.assign(event_length_after=0 * data.event_length_after))
+    assert np.isnan(found.reattached_fraction)
+    assert found.regained_fraction < 0
+
+
+def test_stored_and_released_energy_are_those_of_one_degree_of_freedom():
+    for modulus in (70.0, 140.0):
+        found = friction.summarise_slides(simulate(flat(modulus, 0.2, [0.0, 8.0]), points=16, tolerance=1e-7))
+        stiffness = modulus / (2 * (1 + RATIO)) / 500.0
+        area = 100.0  # of the period
+        force = exact(modulus, 0.2, np.array([1.0, float(found.event_sliding_distance[0]) - 1e-3]))
+        assert float(found.stored_energy) == pytest.approx(area * force[0] ** 2 / 2 / stiffness, rel=2e-3)
+        before, after = (float(found[f"event_force_{side}"][0]) / area for side in ("before", "after"))
+        released = area * (before**2 - after**2) / 2 / stiffness
+        assert float(found.first_slip_released_energy) == pytest.approx(released, rel=1e-3)
+        assert before == pytest.approx(force[1], rel=5e-3)
+    assert np.isnan(friction.summarise_slides(simulate(flat(70.0, 0.2, [0.0, 0.8]), points=16)).stored_energy)
 
 
 def test_a_force_is_averaged_over_whole_lattice_constants():

@@ -16,19 +16,17 @@ from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import fit_line_areas
+from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.proportionality import proportionality
-from contactsim.variables import ERRORS
+from contactsim.variables import ERRORS, GRID_CHANGE, GRID_ERROR
 
 EXACT_CONTACTS = {
     "line": ("half_width_exact", reference.cylinder_rms_gradient),
     "surface": ("contact_radius_exact", reference.sphere_rms_gradient),
 }
 """Name of the exact contact size of a cylinder or a sphere, and the exact gradient in the contact."""
-
-GRID_ERROR, GRID_CHANGE = "_grid_error", "_grid_change"
-"""Ends of the names of the change on halving the grid: its size, and finer minus coarser with its sign."""
 
 
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
@@ -93,7 +91,7 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> x
             data = data.assign({f"{name}{GRID_CHANGE}": change.mean("member") for name, change in changes.items()})
         if data.member.size > 1 or form.compares_one_member:
             data = data.merge(_mean_changes(data, other, suffix, form.averaged))
-    return data
+    return leave_out_unresolved_peel(data)
 
 
 def _read_runs(runs: list[dict]) -> xr.Dataset:

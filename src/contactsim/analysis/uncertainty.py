@@ -16,6 +16,8 @@ from contactsim.analysis.quantities import SECOND_ESTIMATORS, grid_change_name, 
 from contactsim.grid import Array
 
 NAN = float("nan")
+PATH_ERRORS = ("increment", "approach")
+"""Errors of a path, and of what is fitted to several; those of two paths are independent."""
 Number = Callable[[Datasets], Any]
 """Function of datasets: one number, or an array of numbers that each have an error."""
 
@@ -96,7 +98,7 @@ def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> An
 
 
 def _grid_error(number: Number, comparison: Comparison) -> Any:
-    """Return the change of a number on the coarser grid, in quadrature with what the increments of paths leave open.
+    """Return the change of a number on the coarser grid, in quadrature with the errors of paths and of their fits.
 
     Of corrected quantities it is at least the distance to their second estimator, where the grid resolves that.
     """
@@ -114,17 +116,18 @@ def _grid_error(number: Number, comparison: Comparison) -> Any:
     if seconds and all(resolves_edges(study) for study in data):
         second = [study.assign({name: study[other] for name, other in seconds.items()}) for study in data]
         change = np.maximum(change, abs(number(second) - fine))
-    moved = [parts for name in changes for parts in _moved_by_increments(data, name)]
+    moved = [parts for name in changes for parts in _moved_by_path_errors(data, name)]
     return _in_quadrature([change, *(number(parts) - fine for parts in moved)])
 
 
-def _moved_by_increments(data: Datasets, name: str) -> Iterator[list[xr.Dataset]]:
-    """Yield the datasets with a quantity moved by the increment error of one variant of one study after another."""
+def _moved_by_path_errors(data: Datasets, name: str) -> Iterator[list[xr.Dataset]]:
+    """Yield the datasets with a quantity moved by an error of one variant of one study after another."""
     for index, study in enumerate(data):
-        if f"{name}_increment_error" not in study:
-            continue
-        error = study[f"{name}_increment_error"].max("member", skipna=False)
-        for place in np.ndindex(error.shape):
-            step = xr.zeros_like(error)
-            step[place] = error[place]
-            yield [*data[:index], study.assign({name: study[name] + step}), *data[index + 1 :]]
+        for kind in PATH_ERRORS:
+            if f"{name}_{kind}_error" not in study:
+                continue
+            error = study[f"{name}_{kind}_error"].max("member", skipna=False)
+            for place in np.ndindex(error.shape):
+                step = xr.zeros_like(error)
+                step[place] = error[place]
+                yield [*data[:index], study.assign({name: study[name] + step}), *data[index + 1 :]]

@@ -15,10 +15,11 @@ import xarray as xr
 from contactsim.contact.scene import ProblemKind
 from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.derived import summarise_approaches, summarise_paths
+from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.peeling import ONSET, THRESHOLD
 from contactsim.observables.proportionality import derive_contact_factors
+from contactsim.observables.threshold import THRESHOLD
 from contactsim.variables import LOADS
 
 STEP = "step"

@@ -13,27 +13,57 @@ import xarray as xr
 
 from contactsim.grid import Array
 from contactsim.observables.peeling import (
-    ALONG,
-    ERRORS,
-    ONSET,
-    THRESHOLD,
+    PEELING,
+    edge_peel,
+    fit_exponent,
     fit_quadratic_law,
-    fit_threshold_law,
     peel_asymmetry,
+    peel_rate_ratio,
 )
 from contactsim.observables.polyline import Polyline, average_force, loop_energy
 from contactsim.observables.sliding import EVENT, TOUCHING
+from contactsim.observables.threshold import fit_thresholds
 from contactsim.status import is_solved
 
+ONSET = (
+    "static_friction",
+    "mean_friction",
+    "average_friction",
+    "onset_sliding_distance",
+    "onset_contact_length",
+    "initial_contact_length",
+    "initial_load",
+    *PEELING,
+    "reattached_fraction",
+    "regained_fraction",
+    "slip_count",
+    "first_force_drop",
+    "first_slip_periods",
+    "first_slip_released_energy",
+    "stored_energy",
+    "loop_energy",
+)
+"""Numbers that summarise a slide."""
+ERRORS = (
+    "static_friction",
+    "mean_friction",
+    "average_friction",
+    "onset_sliding_distance",
+    "first_force_drop",
+    "loop_energy",
+)
+"""Numbers of a slide whose increment error is known."""
 STATE_NUMBERS = (
     *("sliding_distance", "friction_force", "line_load", "contact_length", "mean_gap"),
-    *("contact_trailing_edge", "contact_leading_edge"),
+    *("contact_trailing_edge", "contact_leading_edge", "elastic_energy"),
 )
 """Numbers of the states that the summary is computed from."""
 SLIDE_INPUTS = (*STATE_NUMBERS, *EVENT)
 """Variables that only a dataset of slides has all of."""
 MIN_STATES = 3
-"""Smallest number of states, or of slides, that is summarised."""
+"""Smallest number of states that is summarised."""
+STORING_SLIDE = 1.0
+"""Sliding distance, nm, up to which the stored energy is compared while the contact sticks."""
 
 
 def summarise_slide(
@@ -63,7 +93,7 @@ def summarise_slide(
     states["contact_length"] = np.where(touches_all_over, np.nan, states["contact_length"])
     line = Polyline.from_states(states, events, int(np.flatnonzero(on_slide)[0]))
     numbers["initial_contact_length"], numbers["initial_load"] = states["contact_length"][0], states["line_load"][0]
-    numbers["slip_count"] = float(line.slips.size)
+    numbers["slip_count"], numbers["stored_energy"] = float(line.slips.size), _stored_energy(line, states)
     onset = line.onset
     if onset is None:
         return numbers, errors
@@ -100,27 +130,57 @@ def _friction_numbers(
     return numbers, errors
 
 
+def _stored_energy(line: Polyline, states: Mapping[str, Array]) -> float:
+    """Return the elastic energy (nJ/m) that a slide by `STORING_SLIDE` adds; NaN if the contact slips before."""
+    end = line.slips[0] if line.slips.size else -1
+    if not line.sliding_distance[end] > STORING_SLIDE:
+        return np.nan
+    stored = np.interp(STORING_SLIDE, states["sliding_distance"], states["elastic_energy"])
+    return float(stored - states["elastic_energy"][0])
+
+
 def _peeling_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> dict[str, float]:
-    """Return how the contact peels up to the onset."""
-    edges = states["contact_trailing_edge"], states["contact_leading_edge"]
-    halfway = int(np.argmin(np.abs(states["sliding_distance"] - line.sliding_distance[onset] / 2)))
-    coefficient, r_squared = fit_quadratic_law(line.force[: onset + 1], line.length[: onset + 1])
+    """Return how the contact peels up to the onset; its laws are fitted to the states with contact."""
+    force, length = line.force[: onset + 1], line.length[: onset + 1]
+    contact = length > 0
+    coefficient, r_squared = fit_quadratic_law(force[contact], length[contact])
     return {
-        "peel_asymmetry": peel_asymmetry(*edges, int(line.state[onset])),
-        "peel_asymmetry_halfway": peel_asymmetry(*edges, halfway),
         "quadratic_coefficient": coefficient,
         "quadratic_r_squared": r_squared,
+        "quadratic_r_squared_all": fit_quadratic_law(force, length)[1],
+        "peel_rate_ratio": peel_rate_ratio(force[contact], length[contact]),
+        "peel_exponent": fit_exponent(force[contact], length[contact]),
         "peeled_fraction": 1 - line.length[onset] * _per_initial_length(states),
-    } | _reattachment(line, states)
+    } | (_edge_numbers(line, states, onset) | _reattachment(line, states))
+
+
+def _edge_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> dict[str, float]:
+    """Return what peels at each edge and how far the centre shifts, half way to the onset and at the state before."""
+    last = int(line.state[onset])
+    trailing, leading = (states[f"contact_{edge}_edge"][: last + 1] for edge in ("trailing", "leading"))
+    distance = states["sliding_distance"][: last + 1]
+    numbers: dict[str, float] = {}
+    for suffix, place in (("_halfway", line.sliding_distance[onset] / 2), ("", float(distance[-1]))):
+        behind, ahead = edge_peel(trailing, leading, distance, place)
+        numbers |= {
+            f"trailing_peel{suffix}": behind,
+            f"leading_peel{suffix}": ahead,
+            f"peel_asymmetry{suffix}": peel_asymmetry(behind, ahead),
+            f"contact_shift{suffix}": (behind - ahead) / 2 * _per_initial_length(states),
+        }
+    return numbers
 
 
 def _reattachment(line: Polyline, states: Mapping[str, Array]) -> dict[str, float]:
-    """Return the parts of the initial contact after the first slip, and regained at it; nothing without a slip."""
+    """Return the parts of the initial contact after the first slip, and regained at it; nothing without a slip.
+
+    A contact that is lost after the slip has no reattached part.
+    """
     if not line.slips.size:
         return {}
     first, share = line.slips[0], _per_initial_length(states)
     return {
-        "reattached_fraction": line.length[first] * share,
+        "reattached_fraction": line.length[first] * share if line.length[first] > 0 else np.nan,
         "regained_fraction": (line.length[first] - line.length[first - 1]) * share,
     }
 
@@ -171,14 +231,4 @@ def summarise_slides(data: xr.Dataset) -> xr.Dataset:
     )
     data = data.assign(dict(zip(names, values, strict=True)))
     data["event_periods"] = data.event_slip / data.lattice_constant
-    if data.sizes.get(ALONG, 0) < MIN_STATES:
-        return data
-    fitted = xr.apply_ufunc(
-        fit_threshold_law,
-        data.onset_contact_length,
-        data.static_friction,
-        input_core_dims=[[ALONG], [ALONG]],
-        output_core_dims=[[]] * len(THRESHOLD),
-        vectorize=True,
-    )
-    return data.assign(dict(zip(THRESHOLD, fitted, strict=True)))
+    return fit_thresholds(data)

@@ -1,8 +1,4 @@
-"""Laws of peeling, and the names of the numbers that summarise a slide.
-
-Up to the onset of sliding the contact peels, and its length falls with the square of the force (Eq. 6.8). Over several
-approaches the force at the onset grows with the contact length there (Eq. 6.9).
-"""
+"""Peeling of a contact up to the onset of sliding: its asymmetry, and the law of its area (Eq. 6.8)."""
 
 from __future__ import annotations
 
@@ -10,41 +6,27 @@ import numpy as np
 
 from contactsim.grid import Array
 
-ONSET = (
-    "static_friction",
-    "mean_friction",
-    "average_friction",
-    "onset_sliding_distance",
-    "onset_contact_length",
-    "initial_contact_length",
-    "initial_load",
+PEELING = (
     "peeled_fraction",
-    "reattached_fraction",
-    "regained_fraction",
+    "contact_shift_halfway",
+    "contact_shift",
+    "trailing_peel_halfway",
+    "leading_peel_halfway",
+    "trailing_peel",
+    "leading_peel",
     "peel_asymmetry_halfway",
     "peel_asymmetry",
     "quadratic_coefficient",
     "quadratic_r_squared",
-    "slip_count",
-    "first_force_drop",
-    "first_slip_periods",
-    "first_slip_released_energy",
-    "loop_energy",
+    "quadratic_r_squared_all",
+    "peel_rate_ratio",
+    "peel_exponent",
 )
-"""Numbers that summarise a slide."""
-ERRORS = (
-    "static_friction",
-    "mean_friction",
-    "average_friction",
-    "onset_sliding_distance",
-    "first_force_drop",
-    "loop_energy",
-)
-"""Numbers of a slide whose increment error is known."""
-THRESHOLD = ("shear_strength", "friction_without_contact", "threshold_r_squared")
-"""Numbers of Eq. 6.9, fitted over the approaches of a study."""
-ALONG = "slide_approach"
-"""The dimension along which Eq. 6.9 is fitted."""
+"""Numbers of the peeling of a slide."""
+MIN_STATES = 3
+"""Smallest number of states to which a law is fitted."""
+EXPONENTS = (0.1, 40.0)
+"""Smallest and largest exponent of the contact's law that is looked for."""
 
 
 def fit_quadratic_law(force: Array, length: Array) -> tuple[float, float]:
@@ -59,9 +41,9 @@ def fit_quadratic_law(force: Array, length: Array) -> tuple[float, float]:
 
     Returns
     -------
-    ζ in nm (m/N)² and R²; NaN for fewer than three states, or if force or length is constant.
+    ζ in nm (m/N)² and R²; NaN for fewer than `MIN_STATES` states, or if force or length is constant.
     """
-    if force.size < 3 or not np.ptp(length) > 0 or not np.ptp(force) > 0:
+    if not _is_varied(force, length):
         return np.nan, np.nan
     square, lost = force**2, length[0] - length
     coefficient = float((square @ lost) / (square @ square))
@@ -69,36 +51,73 @@ def fit_quadratic_law(force: Array, length: Array) -> tuple[float, float]:
     return coefficient, float(1 - residual / np.sum((length - length.mean()) ** 2))
 
 
-def fit_threshold_law(length: Array, force: Array) -> tuple[float, float, float]:
-    """Return slope τ, intercept F0 and R² of the threshold law F = τl + F0 (Eq. 6.9).
+def fit_exponent(force: Array, length: Array) -> float:
+    """Return the exponent m of the law l = l0 - ζF^m that fits best; NaN if none of `EXPONENTS` does.
 
     Parameters
     ----------
-    length, force
-        Contact length (nm) and force (N/m) at the onset of sliding, (approach,). Onsets without contact are left out.
-
-    Returns
-    -------
-    τ in GPa, F0 in N/m, and R²; NaN for fewer than three onsets with contact.
+    force, length
+        Tangential force (N/m) and contact length (nm), (state,); the first length is l0.
     """
-    usable = np.isfinite(force) & (length > 0)
-    if usable.sum() < 3 or not np.ptp(length[usable]) > 0:
-        return np.nan, np.nan, np.nan
-    slope, offset = np.polyfit(length[usable], force[usable], 1)
-    residual = np.sum((force[usable] - slope * length[usable] - offset) ** 2)
-    total = np.sum((force[usable] - force[usable].mean()) ** 2)
-    return float(slope), float(offset), float(1 - residual / total)
+    from scipy.optimize import minimize_scalar  # takes longer to import than to fit
+
+    if not _is_varied(force, length):
+        return np.nan
+    relative, lost = np.abs(force) / np.abs(force).max(), length[0] - length
+
+    def residual(logarithm: float) -> float:
+        """Return the sum of squares that the best ζ leaves with an exponent."""
+        power = relative ** np.exp(logarithm)
+        return float(np.sum((lost - (power @ lost) / (power @ power) * power) ** 2))
+
+    low, high = np.log(EXPONENTS)
+    best = minimize_scalar(residual, bounds=(low, high), method="bounded", options={"xatol": 1e-6}).x
+    return float(np.exp(best)) if min(best - low, high - best) > 1e-3 else np.nan
 
 
-def peel_asymmetry(trailing: Array, leading: Array, state: int) -> float:
-    """Return the difference of the lengths peeled at the trailing and the leading edge over their sum, -1 to 1.
+def peel_rate_ratio(force: Array, length: Array) -> float:
+    """Return the slope of the length against F² in the last quarter of F² over that in the first quarter.
+
+    It is 1 under the quadratic law, and larger if the contact peels faster near the onset. NaN for fewer than
+    `MIN_STATES` states in a quarter, or if the contact does not shrink in the first one.
+
+    Parameters
+    ----------
+    force, length
+        Tangential force (N/m) and contact length (nm), (state,).
+    """
+    if not _is_varied(force, length):
+        return np.nan
+    square = force**2 / np.max(force**2)
+    parts = [square <= 0.25, square >= 0.75]
+    if min(np.count_nonzero(part) for part in parts) < MIN_STATES:
+        return np.nan
+    first, last = (float(np.polyfit(square[part], length[part], 1)[0]) for part in parts)
+    return last / first if first < 0 else np.nan
+
+
+def edge_peel(trailing: Array, leading: Array, distance: Array, place: float) -> tuple[float, float]:
+    """Return the lengths (nm) peeled at the trailing and at the leading edge up to a sliding distance.
 
     Parameters
     ----------
     trailing, leading
-        Positions of the edges, nm, (state,).
-    state
-        State that is compared with the first one.
+        Positions of the edges on the undeformed probe, nm, (state,).
+    distance
+        Sliding distances, increasing, nm, (state,).
+    place
+        Sliding distance, nm; between states the edges are interpolated.
     """
-    behind, ahead = trailing[state] - trailing[0], leading[0] - leading[state]
-    return float((behind - ahead) / (abs(behind) + abs(ahead))) if behind or ahead else np.nan
+    behind, ahead = (float(np.interp(place, distance, edge)) for edge in (trailing, leading))
+    return behind - float(trailing[0]), float(leading[0]) - ahead
+
+
+def peel_asymmetry(behind: float, ahead: float) -> float:
+    """Return the difference of the lengths peeled at the trailing and the leading edge over their sum, -1 to 1."""
+    total = abs(behind) + abs(ahead)
+    return (behind - ahead) / total if total > 0 else np.nan
+
+
+def _is_varied(force: Array, length: Array) -> bool:
+    """Return True if a law can be fitted to states."""
+    return force.size >= MIN_STATES and bool(np.ptp(length) > 0) and bool(np.ptp(force) > 0)

@@ -10,9 +10,10 @@ from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
 from contactsim.observables.adhesion import FINAL, SUMMARY
+from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.peeling import ALONG, ONSET, THRESHOLD
+from contactsim.observables.threshold import ALONG, THRESHOLD
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.options import Setup
 

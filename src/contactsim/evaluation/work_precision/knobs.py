@@ -18,9 +18,9 @@ from contactsim.errors import InputError
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.dataset_forms import AVERAGED, form_of
+from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.peeling import ONSET
 from contactsim.status import is_solved
 from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, listed, positive, read, whole
