@@ -6,17 +6,19 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import Tangent
+from contactsim.contact.loading import approaches
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
+from contactsim.paths.adaptive import Adaptive
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.gmres import gmres
 from contactsim.solvers.cohesive.zone_preconditioner import COARSENING, ZonePreconditioner
 from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.surfaces.shapes import Cylinder, Sinusoid
 from support.cases import refusal
-from support.smooth import LAWS, along, scene_of, walk
+from support.smooth import LAWS, RADIUS, along, scene_of, walk
 
 
 def real_linear(seed, size, shape):
@@ -204,3 +206,13 @@ def _dense(problem, tangent):
         moved = problem.add_elastic(tangent(unit), unit)
         columns.append(np.concatenate([moved.real.ravel(), moved[:, 1:-1].imag.ravel()]))
     return np.array(columns).T
+
+
+def test_a_flow_that_does_not_come_to_rest_goes_on_in_smaller_steps():
+    law, cylinder = UncoupledCohesiveZone(2.002, 0.1), Cylinder(length=5000.0, radius=RADIUS)
+    scene = scene_of(
+        law, approaches(np.linspace(-10, 10, 542)[1:].tolist()), Layer(70.0, 0.0, 5000.0), surface=cylinder
+    )
+    coarse, fine = (walk(scene, points, increments=Adaptive(), tolerance=5e-5) for points in (144, 288))
+    assert coarse.statuses | fine.statuses == {"CONVERGED", "INTERPOLATED"}
+    assert coarse.load[-1] == pytest.approx(fine.load[-1], rel=0.01)

@@ -14,11 +14,13 @@ Newton's.
 A symmetric scene has symmetric equilibria, which no symmetric method leaves, stable or not. The stability of each state
 is therefore checked: by the sign of the determinant of K + T' and by its eigenvalue nearest zero, by-products of the
 preconditioner, and at the end of a flow by all eigenvalues. An unstable state is left along a growing displacement.
+Laws without a potential have tangents that are not symmetric, and there such a displacement may yet decay. A state to
+which the flow returns, in steps in which growth would double, is stable.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -43,8 +45,20 @@ MAX_CHANGE_RATIO = 3.0
 """Newton's method ends once it has moved this many times as far as is of use."""
 MAX_SHARED_ITERATIONS = 5
 """A preconditioner is made anew after a linear solve with more iterations than this."""
+STEP_DIVISIONS = 1, 3
+"""Parts into which the largest step of a flow is divided, one after the other, until the flow comes to rest."""
+GROWTH_SHIFT, GROWTH_STEPS = 2.0, 12
+"""Least shift over the rate of growth, and for how many steps, after an unstable state: growth doubles in each step."""
 NUDGE, MAX_NUDGES = 0.03, 5
 """Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
+
+
+@dataclass(frozen=True)
+class Growth:
+    """A displacement (exerted, m) of largest value 1 that grows at an unstable state, and its rate, GPa/nm."""
+
+    wave: Array
+    rate: float
 
 
 class Memory:
@@ -150,10 +164,34 @@ class NewtonKrylov:
         return Equilibrium(displacement, gap, traction, status, worst, distance, count, unstable)
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """Return the end of the overdamped flow from a state."""
+        """Return the end of the overdamped flow from a state, in smaller steps where it does not come to rest."""
+        iterations = 0
+        for parts in STEP_DIVISIONS:
+            state = self._flow(problem, start, self.flow_step / parts, self.flow_budget * parts)
+            iterations += state.iterations
+            if state.status is not Status.MAX_ITERATIONS:
+                break
+        return replace(state, iterations=iterations)
+
+    def _flow(self, problem: CohesiveProblem, start: Array, largest_step: float, budget: int) -> Equilibrium:
+        """Return the end of the overdamped flow from a state.
+
+        Parameters
+        ----------
+        problem
+            The problem at the load step.
+        start
+            Coefficients of a displacement (exerted, m), nm.
+        largest_step
+            Largest change of the displacement in a step, over the interaction range.
+        budget
+            Largest number of steps.
+        """
         displacement, shift = start, INITIAL_SHIFT * problem.law_stiffness
         status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
-        while count < self.flow_budget:
+        least_shift, growth_steps = 0.0, 0  # of a flow that leaves an unstable state
+        left: Array | None = None  # the state that the flow was made to leave, since it seemed to be unstable
+        while count < budget:
             count += 1
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
@@ -168,37 +206,47 @@ class NewtonKrylov:
             precondition = ZonePreconditioner(problem, tangent, shift)
             if shift == 0 and worst <= problem.tolerance:
                 growing = self._growing(problem, tangent, precondition)
-                if growing is None:
+                nudge = NUDGE * problem.interaction_range
+                returned = left is not None and largest_change(problem, displacement - left) < nudge / 2
+                if growing is None or returned:
                     status = Status.CONVERGED
                     break
                 if nudges == MAX_NUDGES:
                     break
-                nudges, shift = nudges + 1, INITIAL_SHIFT * problem.law_stiffness
-                displacement = displacement + NUDGE * problem.interaction_range * growing
+                nudges, least_shift, growth_steps = nudges + 1, GROWTH_SHIFT * growing.rate, GROWTH_STEPS
+                shift = max(INITIAL_SHIFT * problem.law_stiffness, least_shift)
+                left, displacement = displacement, displacement + nudge * growing.wave
                 continue
             forcing = np.clip(SAFETY * problem.tolerance / worst, MIN_FORCING, MAX_FLOW_FORCING)
             change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
-            accepted, shift = self._judge_step(problem, change, residual, shift)
+            accepted, shift = self._judge_step(problem, change, residual, shift, largest_step)
+            growth_steps -= accepted
+            shift = max(shift, least_shift) if growth_steps > 0 else shift
             displacement = displacement + change if accepted else displacement
         distance = largest_change(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
-    def _judge_step(self, problem: CohesiveProblem, change: Array, residual: Array, shift: float) -> tuple[bool, float]:
+    def _judge_step(
+        self, problem: CohesiveProblem, change: Array, residual: Array, shift: float, largest_step: float
+    ) -> tuple[bool, float]:
         """Return whether a step of the flow is accepted, and the shift of the next step."""
         size = float(np.abs(problem.field(change)[: len(change)]).max())
-        largest, stiffness = self.flow_step * problem.interaction_range, problem.law_stiffness
+        largest, stiffness = largest_step * problem.interaction_range, problem.law_stiffness
         downhill = float(np.vdot(change, residual).real) < 0
         if not (downhill and size <= 2 * largest):
             return False, max(3 * shift, MIN_REFUSED_SHIFT * stiffness)
         shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1
         return True, shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0
 
-    def _growing(self, problem: CohesiveProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Array | None:
-        """Return a displacement of largest value 1 that grows on its own at a state; None if there is none."""
+    def _growing(self, problem: CohesiveProblem, tangent: Tangent, precondition: ZonePreconditioner) -> Growth | None:
+        """Return how a displacement grows on its own at a state; None if none does."""
         wave = precondition.growing()
-        if wave is None or np.vdot(wave, problem.add_elastic(tangent(wave), wave)).real >= 0:
+        if wave is None:
             return None
-        return wave / np.abs(problem.field(wave)[: len(wave)]).max()
+        rate = -float(np.vdot(wave, problem.add_elastic(tangent(wave), wave)).real / np.vdot(wave, wave).real)
+        if rate <= 0:
+            return None
+        return Growth(wave / np.abs(problem.field(wave)[: len(wave)]).max(), rate)
 
     def _solve(
         self,
