@@ -67,6 +67,14 @@ def test_the_ensembles_of_a_ratio_are_independent():
     assert np.isnan(number(claim(**RATIO), one, made_up(2.0, members=1)).ensemble_error)
 
 
+def test_members_of_a_large_ensemble_are_left_out_in_ten_blocks():
+    data = noisy(members=40, seed=5)
+    blocks = data.kappa.mean("reduced_pressure").mean(set(data.kappa.dims) - {"member", "reduced_pressure"})
+    means = blocks.values.reshape(10, 4).mean(axis=1)
+    expected = means.std(ddof=1) / np.sqrt(10)
+    assert number(claim(**BANDLESS, at_most=2.0), data).ensemble_error == pytest.approx(expected)
+
+
 # --- unknown and absent -------------------------------------------------------------------------------------------
 
 

@@ -29,6 +29,8 @@ SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
     "minus": ("minus", operator.sub),
 }
 """Keys of a claim that name a second study: the word for what is done with it, and the operation."""
+MAX_BLOCKS = 10
+"""Largest number of blocks into which an ensemble is divided to leave out one after the other."""
 PATH_DIMENSIONS = ("step", "snapshot", "x", "event")
 """Dimensions along a path: two studies need not share them, as summaries of paths do not have them."""
 
@@ -166,6 +168,7 @@ def _places_text(data: xr.Dataset, marks: xr.DataArray) -> str:
 
 
 def members_left_out(data: Datasets, group: Sequence[int]) -> Iterator[list[xr.Dataset]]:
-    """Yield the datasets without one member of a group after another."""
-    for member in range(data[group[0]].member.size):
-        yield [study.drop_isel(member=member) if index in group else study for index, study in enumerate(data)]
+    """Yield the datasets without one member of a group after another, or without one block of a large ensemble."""
+    count = data[group[0]].member.size
+    for block in np.array_split(np.arange(count), min(count, MAX_BLOCKS)):
+        yield [study.drop_isel(member=block) if index in group else study for index, study in enumerate(data)]

@@ -87,14 +87,15 @@ def _ensemble_error(number: Number, comparison: Comparison) -> Any:
 
 
 def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> Any:
-    """Return the standard error from leaving out each member of a group of datasets; of a mean it is the usual one.
+    """Return the standard error from leaving out members of a group of datasets; of a mean it is the usual one.
 
     One member has no error if the surface is not random, else an unknown one.
     """
     count = data[group[0]].member.size
     if count == 1:
         return NAN if dataset.settings_of(data[group[0]])["surface"]["kind"] == "self_affine" else 0.0
-    return np.sqrt((count - 1) * np.var([number(parts) for parts in members_left_out(data, group)], axis=0))
+    numbers = [number(parts) for parts in members_left_out(data, group)]
+    return np.sqrt((len(numbers) - 1) * np.var(numbers, axis=0))
 
 
 def _grid_error(number: Number, comparison: Comparison) -> Any:
