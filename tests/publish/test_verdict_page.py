@@ -42,9 +42,8 @@ def test_each_statement_stands_with_its_number_and_failures_with_their_cause(ver
 
 
 def test_changes_are_listed_with_their_reasons(verdicts):
-    before = pd.DataFrame(
-        {"claim": ["holds", "fails", "gone"], "verdict": ["reproduced", "reproduced", "not decidable"]}
-    )
+    earlier = {"holds": "reproduced", "fails": "reproduced", "gone": "not decidable"}
+    before = pd.DataFrame(earlier.items(), columns=["claim", "verdict"])
     reasons = pd.DataFrame({"claim": ["fails", "fails"], "reason": ["band", "grid"]})
     page = changes_page(before, verdicts, reasons)
     assert "| fails | reproduced | not reproduced | band; grid |" in page

@@ -21,11 +21,12 @@ LARGE = 99
 ABSENT = "–"
 INTRODUCTION = """# Verdicts on the statements of the thesis
 
-Each row is a sentence of the thesis, held against our own data; [how statements are judged](judging.md) gives the rules.
+Each row is a sentence of the thesis, held against our own data; [the rules](judging.md)
+stand on a page of their own.
 
-- *Reading*: the number that we compute for the sentence. *Allowed*: the band of values with which the sentence is true.
-- *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and its grid error. A dash: none,
-  or not known. For statements of order the number is the worst step over its error.
+- *Reading*: the number that we compute for the sentence. *Allowed*: the band of values that agree with it.
+- *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and its grid error.
+  A dash: none, or not known. For statements of order the number is the worst step over its error.
 - *Margin*: the distance to the edge of the band in errors. Below 2 there is no verdict: *not decidable*.
 - *Place*: 0 at the value stated, 1 at the edge of the band. Near 1 our choice of the band decides.
 - *Reproduced with a condition*: it fails on the whole selection and holds on the part named under the table.
@@ -78,7 +79,7 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
     same = [row for row in rows if row[1] == row[2]]
     heads = ("statement", "before", "now", "what changed it")
     introduction = (
-        "# Verdicts before and now\n\nBefore: one error decided, the number of the chosen grid was taken as it was, and "
+        "# Verdicts before and now\n\nBefore: one error decided, the number of the grid was taken as it was, and "
         "unknown states were dropped. Now: the rules of [how statements are judged](judging.md). A dash: no such "
         f"statement. Of {len(rows)} statements and findings {len(changed)} have another verdict, or are new or gone.\n"
     )
@@ -122,6 +123,8 @@ def _failure_text(row: Mapping) -> str:
 
 def _number_text(row: Mapping) -> str:
     """Return a number with its errors, rounded to them."""
+    if np.isnan(row["value"]):
+        return ABSENT
     return " ± ".join(rounded_texts(*(float(row[name]) for name in NUMBERS)))
 
 
