@@ -1,4 +1,4 @@
-"""Put gallery, pictures, verdicts and the table of κ of the standard tier into docs/, counts of verdicts into README.md.
+"""Put gallery, pictures, verdicts and the table of κ of the standard tier into docs/, their counts into README.md.
 
 Run `make all` and `make gallery` before.
 """

@@ -54,8 +54,11 @@ def verdict_page(claims: pd.DataFrame) -> str:
         parts.append(_table(("number", "reading", "value ± errors"), cells))
     choices = choices_table(claims)
     if len(choices):
-        cells = ((row["claim"], row["choice"], _number_text(row), row["verdict"]) for row in choices.to_dict("records"))
-        parts += ["## What the text leaves open\n", _table(("statement", "choice", "value ± errors", "verdict"), cells)]
+        readings = map(_choice_cells, choices.to_dict("records"))
+        parts += [
+            "## What the text leaves open\n",
+            _table(("statement", "choice", "value ± errors", "verdict"), readings),
+        ]
     return "\n".join(parts)
 
 
@@ -107,6 +110,11 @@ def _statement_cells(row: Mapping) -> tuple[str, ...]:
         ABSENT if np.isnan(margin) else f"{margin:.2g}" if margin < LARGE else f"> {LARGE}",
         ABSENT if np.isnan(place) else f"{place:.2g}",
     )
+
+
+def _choice_cells(row: Mapping) -> tuple[str, ...]:
+    """Return the cells of an admissible reading."""
+    return row["claim"], row["choice"], _number_text(row), row["verdict"]
 
 
 def _failure_text(row: Mapping) -> str:
