@@ -1,4 +1,4 @@
-"""Put gallery, pictures and the table of κ of the standard tier into docs/, its verdicts into README.md.
+"""Put gallery, pictures, verdicts and the table of κ of the standard tier into docs/, their counts into README.md.
 
 Run `make all` and `make gallery` before.
 """
@@ -9,6 +9,7 @@ from pathlib import Path
 
 from contactsim.publish import gallery
 from contactsim.publish.factor_table import factor_table
+from contactsim.publish.verdict_page import write_verdict_pages
 from contactsim.study.plan import Plan
 
 DOCS = Path(__file__).parent
@@ -26,6 +27,7 @@ def between(text: str, name: str, new: str) -> str:
 
 shutil.rmtree(DOCS / "gallery", ignore_errors=True)
 shutil.copytree(RESULTS / "gallery", DOCS / "gallery")
+write_verdict_pages(DOCS)
 for name in PICTURES:
     gallery.write_thumbnail(RESULTS / f"figures/{name}.png", DOCS / f"{name}.png", width=1600)
 shutil.copyfile(RESULTS / "figures/trials.csv", DOCS / "trials.csv")

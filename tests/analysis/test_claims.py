@@ -268,7 +268,7 @@ def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
     names = {verdict: Claim("x", claim()) for verdict in COLOURS}
     rows = claims.judge_claims({name: one.settings for name, one in names.items()}, {"rough_line": made_up()})
     rows["verdict"] = list(COLOURS)
-    rows["condition"] = ["", "somewhere " * 9, "", "", ""]
+    rows["condition"] = ["", "somewhere " * 9, *[""] * (len(COLOURS) - 2)]
     axes = claims_figure(rows, "Title", "footer " * 80).axes[0]
     shown = [text.get_text() for text in axes.texts]
     assert set(rows.statement) <= {text.replace("\n", " ") for text in shown}

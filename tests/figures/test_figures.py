@@ -19,9 +19,9 @@ from contactsim.evaluation.work_precision.case_config import MEASURED_QUANTITIES
 from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
-from contactsim.study.claim_plan import quantities
 from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
+from contactsim.study.quantity_names import quantities
 from contactsim.surfaces.shapes import Flat, Sinusoid
 from contactsim.variables import RESULTS
 from support.places import ROOT

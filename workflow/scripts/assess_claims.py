@@ -1,14 +1,17 @@
 """The claims of a chapter: verdicts as CSV, and as a table in PNG and PDF."""
 
 import json
+from pathlib import Path
 
 from joblog import open_log
 
 from contactsim import dataset
+from contactsim.analysis.admissible import read_candidates
 from contactsim.analysis.claims import judge_claims
 from contactsim.figures.diagnostics.claims import write_claims
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
 data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input), strict=True))
-write_claims(judge_claims(dict(plan["claims"]), data), plan["chapter"], data, snakemake.output)
+candidates = read_candidates(Path(snakemake.output.csv).with_name("candidates.csv"))
+write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)

@@ -12,6 +12,8 @@ from dataclasses import replace
 import pandas as pd
 import xarray as xr
 
+from contactsim.analysis.admissible import Choice, candidate_choices, choice_entries
+from contactsim.analysis.causes import Cause, cause_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
@@ -139,7 +141,23 @@ def _condition_entries(words: str, number: Estimate, share: float) -> dict[str, 
     return {"condition": words, "condition_share": share} | numbers
 
 
-def judge_claims(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) -> pd.DataFrame:
+def judge_choices(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[Choice]:
+    """Return the verdicts with the admissible readings of a claim beside the default; data: dataset of each study."""
+    choices = []
+    for name, settings in (claim["admissible"] or {}).items():
+        studied = _studied(settings, data)
+        choices.append(Choice.of(name, judge(counted_row(settings, studied), studied)))
+    return choices
+
+
+def _studied(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[xr.Dataset]:
+    """Return the datasets of the studies of a claim."""
+    return [data[claim[key]] for key in ("study", *SECOND_STUDY) if claim[key]]
+
+
+def judge_claims(
+    claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset], candidates: pd.DataFrame | None = None
+) -> pd.DataFrame:
     """Return a table with one row for each claim of a chapter.
 
     Parameters
@@ -148,12 +166,18 @@ def judge_claims(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) 
         Settings of each claim.
     data
         Dataset of each study.
+    candidates
+        Verdicts of sets of parameters that the text admits, of `contactsim.analysis.admissible.read_candidates`.
     """
     rows = []
     for name, settings in claims.items():
-        studies = {key: settings[key] or "" for key in ("study", *SECOND_STUDY)}
-        studied = [data[study] for study in studies.values() if study]
+        studied = _studied(settings, data)
         claim = counted_row(settings, studied)
+        choices = judge_choices(settings, data)
+        choices += [] if candidates is None else candidate_choices(candidates, name)
+        row = judge(claim, studied)
+        row |= choice_entries(row, choices)
+        cause = None if claim["cause"] is None else Cause(**claim["cause"])
         rows.append(
             {
                 "claim": name,
@@ -161,9 +185,10 @@ def judge_claims(claims: Mapping[str, Mapping], data: Mapping[str, xr.Dataset]) 
                 "measure": comparison_text(claim),
                 "expected": band_text(claim),
                 "beside": claim["beside"] or "",
-                **judge(claim, studied),
+                **row,
+                "cause": cause_text(cause, str(row["verdict"])),
                 "rationale": claim["rationale"],
-                **studies,
+                **{key: settings[key] or "" for key in ("study", *SECOND_STUDY)},
             }
         )
     return pd.DataFrame(rows)

@@ -12,6 +12,8 @@ from contactsim.analysis.uncertainty import NAN, Estimate
 
 REPRODUCED, CONDITION = "reproduced", "reproduced with a condition"
 NOT_REPRODUCED, NOT_DECIDABLE = "not reproduced", "not decidable"
+DEPENDS = "depends on what the text leaves open"
+"""The statement holds with one admissible reading and fails with another; see `contactsim.analysis.admissible`."""
 FINDING = "finding"
 """In place of a verdict: a number that no sentence of the thesis states."""
 MIN_MARGIN = 2.0

@@ -86,6 +86,15 @@ def beside_text(row: Mapping[str, Any]) -> str:
     return f"{quantity_text(name)} {' ± '.join(numbers)}, {row['beside_verdict']}"
 
 
+def choices_text(row: Mapping[str, Any]) -> str:
+    """Return with how many admissible readings a claim holds, and the verdict of the default; or nothing."""
+    if not isinstance(row.get("choices"), str) or not row["choices"]:
+        return ""
+    count = int(row["choices_decided"])
+    share = f"{row['choices_share']:.0%}" if count else "none"
+    return f"holds with {share} of {count} decided readings; as judged: {row['default_verdict']}"
+
+
 def printed(text: str) -> str:
     """Return a statement with its symbols as they are printed."""
     for plain, letters in INDEX_LETTERS.items():

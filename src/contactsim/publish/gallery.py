@@ -17,13 +17,14 @@ import pandas as pd
 from PIL import Image
 
 from contactsim import dataset
+from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.claims import SCALES
-from contactsim.analysis.verdict import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import beside_text, error_texts, measure_text, rounded_texts
+from contactsim.analysis.verdict import CONDITION, DEPENDS, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.wording import beside_text, choices_text, error_texts, measure_text, rounded_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
 
-VERDICTS = (REPRODUCED, CONDITION, NOT_REPRODUCED, NOT_DECIDABLE)
+VERDICTS = (REPRODUCED, CONDITION, DEPENDS, NOT_REPRODUCED, NOT_DECIDABLE)
 COLUMNS = 3
 """Pictures side by side."""
 WIDTH, COLOURS = 760, 128
@@ -138,7 +139,7 @@ def verdicts_markdown(claims: pd.DataFrame, tier: str) -> str:
     parts = [f"# Verdicts on all statements at the {tier} tier\n", counts_markdown(claims)]
     parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
     findings = [FINDING] if (claims.verdict == FINDING).any() else []
-    for verdict in (NOT_REPRODUCED, CONDITION, NOT_DECIDABLE, REPRODUCED, *findings):
+    for verdict in (NOT_REPRODUCED, DEPENDS, CONDITION, NOT_DECIDABLE, REPRODUCED, *findings):
         parts += [
             f"## {verdict.capitalize()}\n",
             "| thesis | statement | compared | expected | found | why this band |",
@@ -163,6 +164,10 @@ def _statement(row: Mapping) -> str:
             result += f"; {words} {row[name]:.2g}"
     if beside := beside_text(row):
         result += f"; beside it {beside}"
+    if texts.get("choices"):
+        result += f"; {choices_text(row)}"
+    if texts.get("cause"):
+        result += f"; {texts['cause']}"
     cells = (
         texts["source"],
         texts["statement"],
@@ -211,6 +216,7 @@ def write_gallery(plan: Plan, folder: Path, target: Path, others: Mapping[str, s
     for name in rows.figure:
         write_thumbnail(folder / "figures" / f"{name}.png", target / f"{name}.png")
     claims.to_csv(target / "verdicts.csv", index=False)
+    choices_table(claims).to_csv(target / "choices.csv", index=False)
     (target / "verdicts.md").write_text(verdicts_markdown(claims, plan.tier), encoding="utf-8")
     (target / "gallery.md").write_text(gallery_page(rows), encoding="utf-8")
     (target / "counts.md").write_text(counts_markdown(claims), encoding="utf-8")

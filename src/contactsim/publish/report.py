@@ -25,7 +25,7 @@ from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.verdict import FINDING
-from contactsim.analysis.wording import beside_text, dataset_summary, measure_text, printed, rounded_texts
+from contactsim.analysis.wording import beside_text, choices_text, dataset_summary, measure_text, printed, rounded_texts
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
@@ -42,7 +42,7 @@ COLOURS, PIXEL_RATIO = 256, 2
 """Colours of a picture on the page, and its pixels for each pixel of the page, along one side."""
 SECTION_POINTS = 2000
 """Points of a drawn section of a surface."""
-MARKS = dict(zip(VERDICTS, ("yes", "condition", "no", "open"), strict=True))
+MARKS = dict(zip(VERDICTS, ("yes", "condition", "depends", "no", "open"), strict=True))
 """Classes of the verdicts in the style sheet."""
 ROW_MARKS = MARKS | {FINDING: "finding"}
 """Classes of the rows of statements and findings."""
@@ -159,6 +159,7 @@ def _statements(claims: pd.DataFrame, plan: Plan) -> list[dict]:
         texts["measure"] = measure_text(texts["measure"])
         if texts["condition"]:
             texts["there"] = " ± ".join(rounded_texts(*(row[f"condition_{name}"] for name in numbers)))
+        texts["readings"] = choices_text(row)
         texts["second_row"] = beside_text(row)
         texts["figures"] = sorted(figures_in_source(row["source"]) & set(plan.figures))
         texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies

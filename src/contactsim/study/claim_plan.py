@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
+from contactsim.analysis.causes import KINDS, Cause
 from contactsim.analysis.comparison import SECOND_STUDY
-from contactsim.analysis.quantities import FITTED
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
-from contactsim.observables.dataset_forms import AVERAGED
-from contactsim.study.keys import ERROR_RUNS
-from contactsim.study.kinds import study_kind
+from contactsim.study.quantity_names import quantities
 from contactsim.study.reading import Key, choice, mapping, number, positive, read, text
 from contactsim.study.study import Study
 
@@ -60,9 +58,19 @@ CLAIM_KEYS = {
     "neutral": Key(number, "the value that the statement names, or that would mean no change", None),
     "absent": Key(text, "what a variant lacks that has no such number", None),
     "grid": Key(choice(GRIDS), f"one of {', '.join(GRIDS)}", None),
+    "admissible": Key(mapping, "a mapping from what the text leaves open to its alternatives", None),
+    "cause": Key(mapping, "a mapping with `kind` and `text`", None),
 }
+CAUSE_KEYS = {
+    "kind": Key(choice(KINDS), f"one of {', '.join(KINDS)}"),
+    "text": Key(text, "a short text with the number that shows it"),
+}
+CHOICE_KEYS = {key: CLAIM_KEYS[key] for key in ("study", "relative_to", "minus", "quantity", "against", "select")}
+"""Keys that an admissible alternative may replace."""
 BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
 """Sets of keys that give a band."""
+WITHOUT_STUDY = ("source", "statement", "rationale", "cause", "is_finding")
+"""Settings of a claim that no study answers."""
 INPUTS = ("against", "along", "across")
 """Keys that a reduction may need beside the quantity."""
 
@@ -76,8 +84,10 @@ class Claim:
 
     @property
     def studies(self) -> list[str]:
-        """Names of the studies that answer the claim: none, one, or two for a comparison."""
-        return [self.settings[key] for key in ("study", *SECOND_STUDY) if self.settings[key] is not None]
+        """Names of the studies that answer the claim: none, one, two for a comparison, and those of alternatives."""
+        readings = [self.settings, *(self.settings["admissible"] or {}).values()]
+        names = [reading[key] for reading in readings for key in ("study", *SECOND_STUDY)]
+        return list(dict.fromkeys(name for name in names if name is not None))
 
 
 def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study], part: str = "claims") -> Claim:
@@ -104,11 +114,16 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     prefix = f"{part}.{name}"
     is_finding = part == "findings"
     settings = read(section, CLAIM_KEYS, file, prefix) | {"is_finding": is_finding}
+    settings["cause"] = read_cause(settings["cause"], file, f"{prefix}.cause")
+    if is_finding:
+        _check_no_verdict(settings, file, prefix)
     if settings["study"] is None and not is_finding:
         for key in settings:
-            if key not in ("source", "statement", "rationale", "is_finding") and settings[key] is not None:
+            if key not in WITHOUT_STUDY and settings[key] is not None:
                 raise InputError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
         return Claim(name, settings)
+    alternatives, settings["admissible"] = settings["admissible"] or {}, None
+    given = dict(settings)
     _check_one_of(settings, "study", studies, file, prefix)
     claim = Claim(name, settings)
     dims = list(dict.fromkeys(dim for study in claim.studies for dim in _dimensions(studies, study)))
@@ -117,7 +132,56 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     _check_band(settings, file, prefix)
     if settings["absent"] is not None and settings["reduce"] not in WITHOUT_INPUTS:
         raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)
+    settings["admissible"] = read_alternatives(given, alternatives, file, f"{prefix}.admissible", studies)
     return claim
+
+
+def read_cause(section: Mapping | None, file: object, prefix: str) -> dict[str, str] | None:
+    """Return the cause of a failure as settings; None where the config gives none."""
+    return None if section is None else asdict(Cause(**read(section, CAUSE_KEYS, file, prefix)))
+
+
+def read_alternatives(
+    claim: Mapping, section: Mapping, file: object, prefix: str, studies: Mapping[str, Study]
+) -> dict[str, dict]:
+    """Return the settings of the claim with each alternative for what the text leaves open, checked as a claim is.
+
+    Parameters
+    ----------
+    claim
+        Keys of the claim as given, with defaults.
+    section
+        By what is open, the alternatives by name: each a mapping of the keys that it replaces.
+    file
+        The file of the chapter.
+    prefix
+        Place of the section in the file.
+    studies
+        Studies of the chapter by name.
+    """
+    given = {key: value for key, value in claim.items() if key != "is_finding" and value is not None}
+    readings = {}
+    for topic, alternatives in section.items():
+        if not isinstance(alternatives, dict) or not alternatives:
+            raise InputError(f"{prefix}.{topic}", alternatives, "a mapping from a name to the keys replaced", file)
+        for name, replaced in alternatives.items():
+            place = f"{prefix}.{topic}.{name}"
+            changes = {
+                key: value for key, value in read(replaced, CHOICE_KEYS, file, place).items() if value is not None
+            }
+            if not changes:
+                raise InputError(place, replaced, f"at least one of {', '.join(CHOICE_KEYS)}", file)
+            dropped = {"beside", "cause"} if "quantity" in changes else {"cause"}
+            reading = {key: value for key, value in given.items() if key not in dropped} | changes
+            readings[f"{topic}: {name}"] = read_claim(place.removeprefix("claims."), reading, file, studies).settings
+    return readings
+
+
+def _check_no_verdict(settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for a finding with a key that speaks of a verdict."""
+    for key in ("admissible", "cause"):
+        if settings[key] is not None:
+            raise InputError(f"{prefix}.{key}", settings[key], "left out: a finding has no verdict", file)
 
 
 def _check_band(settings: dict, file: object, prefix: str) -> None:
@@ -179,33 +243,3 @@ def _check_one_of(settings: dict, key: str, allowed: Iterable[str], file: object
     """Raise InputError for a value that is not allowed."""
     if settings[key] not in allowed:
         raise InputError(f"{prefix}.{key}", settings[key], f"one of {', '.join(allowed)}", file)
-
-
-def quantities(study: Study) -> list[str]:
-    """Return the names of the quantities that the dataset of a study holds or gives."""
-    if study.settings["path"] is not None:
-        return _path_quantities(study)
-    load = study.settings["load"]["name"]
-    names = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
-    if load == "contact_ratio":
-        is_sphere = study.settings["surface"]["kind"] == "sphere"
-        size = "contact_radius" if is_sphere else "half_width"
-        names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact"}
-        names |= set() if is_sphere else {"half_width_array", "rms_gradient_array", "kappa_r_array"}
-    names |= _error_names(study, names & {*AVERAGED})
-    if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
-        names |= set(FITTED)
-    return sorted(names)
-
-
-def _path_quantities(study: Study) -> list[str]:
-    """Return the summaries of a path, the errors measured of them, and the varied keys."""
-    scene = study.runs()[0].setup.scene
-    names = study_kind(study.settings).path_quantities(scene, study.dimensions)
-    return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
-
-
-def _error_names(study: Study, names: set[str]) -> set[str]:
-    """Return the names of the errors of quantities that a study measures."""
-    kinds = [error for part, (_, error, _) in ERROR_RUNS.items() if study.settings[part] is not None]
-    return {f"{name}_{error}_error" for name in names for error in kinds}

@@ -23,9 +23,9 @@ from contactsim.evaluation.work_precision.knobs import (
 from contactsim.provenance import digest
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import SOLVERS, solver_class
-from contactsim.study.claim_plan import quantities
 from contactsim.study.kinds import study_kind
 from contactsim.study.plan import Plan
+from contactsim.study.quantity_names import quantities
 from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, text, whole
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study

@@ -14,14 +14,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactsim import dataset
-from contactsim.analysis.verdict import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import beside_text, measure_text, printed, rounded_texts, sample_texts
+from contactsim.analysis.verdict import CONDITION, DEPENDS, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed, rounded_texts, sample_texts
 from contactsim.figures import style
 from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save
 
 COLOURS = {
     REPRODUCED: "#cfe8d5",
     CONDITION: "#e9efc4",
+    DEPENDS: "#f6e6c2",
     NOT_REPRODUCED: "#f3cfcb",
     NOT_DECIDABLE: "#e4e4e4",
     FINDING: "#eef2f8",
@@ -109,6 +110,8 @@ def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
         )
     if beside := beside_text(row):
         texts["verdict"] += f"; beside it {beside}"
+    if readings := choices_text(row):
+        texts["verdict"] += f": {readings}"
     if row["unknown"]:
         texts["verdict"] += f": unknown is {row['unknown']}"
     texts |= {name: _short_number(row[name]) for name in ("margin", "place")}

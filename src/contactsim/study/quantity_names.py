@@ -1,0 +1,39 @@
+"""Names of the quantities that the dataset of a study holds or gives."""
+
+from __future__ import annotations
+
+from contactsim.analysis.quantities import FITTED
+from contactsim.observables.dataset_forms import AVERAGED
+from contactsim.study.keys import ERROR_RUNS
+from contactsim.study.kinds import study_kind
+from contactsim.study.study import Study
+
+
+def quantities(study: Study) -> list[str]:
+    """Return the names of the quantities that the dataset of a study holds or gives."""
+    if study.settings["path"] is not None:
+        return _path_quantities(study)
+    load = study.settings["load"]["name"]
+    names = {*AVERAGED, "mean_pressure", load} - ({"kappa"} if load != "reduced_pressure" else set())
+    if load == "contact_ratio":
+        is_sphere = study.settings["surface"]["kind"] == "sphere"
+        size = "contact_radius" if is_sphere else "half_width"
+        names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact"}
+        names |= set() if is_sphere else {"half_width_array", "rms_gradient_array", "kappa_r_array"}
+    names |= _error_names(study, names & {*AVERAGED})
+    if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
+        names |= set(FITTED)
+    return sorted(names)
+
+
+def _path_quantities(study: Study) -> list[str]:
+    """Return the summaries of a path, the errors measured of them, and the varied keys."""
+    scene = study.runs()[0].setup.scene
+    names = study_kind(study.settings).path_quantities(scene, study.dimensions)
+    return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
+
+
+def _error_names(study: Study, names: set[str]) -> set[str]:
+    """Return the names of the errors of quantities that a study measures."""
+    kinds = [error for part, (_, error, _) in ERROR_RUNS.items() if study.settings[part] is not None]
+    return {f"{name}_{error}_error" for name in names for error in kinds}
