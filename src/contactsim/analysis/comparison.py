@@ -29,7 +29,7 @@ SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
     "minus": ("minus", operator.sub),
 }
 """Keys of a claim that name a second study: the word for what is done with it, and the operation."""
-PATH_DIMENSIONS = ("step", "snapshot", "x", "event")
+PATH_DIMENSIONS = ("step", "snapshot", "x", "fold", "event")
 """Dimensions along a path: two studies need not share them, as summaries of paths do not have them."""
 
 

@@ -135,4 +135,6 @@ class FinerGrid:
             self._prefers_flow = state.largest_change > FLOW_DISTANCE * trusted
         iterations += state.iterations
         numbers = state.status, state.residual, coarse.jump, iterations, 0.0
-        return PathState(coarse.step, here, state.displacement, *numbers, state, coarse.jumps)
+        return PathState(
+            coarse.step, here, state.displacement, *numbers, state
+        )  # loads beside jumps are the coarse grid's
