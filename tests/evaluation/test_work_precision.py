@@ -219,11 +219,11 @@ def test_a_path_is_measured_whole(followed):
     assert data.increment.values[-1] == 0.2
     assert data.transforms.values[-1, 0] == alone.transforms.sum()
     loading = alone.line_load.values[: int(np.argmax(alone.approach.values)) + 1]
-    assert data.pull_off_load_loading.values[-1, 0] == -loading.min()
+    assert data.pull_off_load_loading.values[-1, 0] == -float(alone.fold_load_after[0]) > -loading.min()
     assert (data.status == 0).all()
 
 
-def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_the_same_by_another_solver(followed):
+def test_the_error_of_increments_is_that_by_hand_and_falls_with_them_and_flows_do_not_locate_the_jump(followed):
     one, jobs = followed
     jobs = {job: data for job, (data, _) in jobs.items()}
     table = error_cost.error_table(
@@ -236,7 +236,7 @@ def test_the_error_of_increments_is_that_by_hand_falls_with_them_and_is_nearly_t
     assert own.pull_off_load_loading.iloc[1] < own.pull_off_load_loading.iloc[0]
     assert own.work.tolist() == (jobs["newton"].transforms.values[3:, 0] * 64).tolist()
     slow = table[table.solver == "mass_weighted_verlet"]
-    assert slow.pull_off_load_loading.iloc[0] == pytest.approx(own.pull_off_load_loading.iloc[0], rel=0.02)
+    assert slow.pull_off_load_loading.iloc[0] > 10 * own.pull_off_load_loading.iloc[0]
 
 
 @pytest.mark.parametrize(("place", "share"), [(None, 0.0), (0, 1.0), (20, 1.0), (-1, 1.0)])

@@ -23,26 +23,32 @@ from contactsim.observables.adhesion import (
     state_observables,
     summarise_load_curves,
 )
+from contactsim.observables.load_curve import LoadCurve, join_folds
 from contactsim.simulation import simulate
 from contactsim.study.law_table import tabulate_law
 from contactsim.surfaces.statistics import local_squares, rms_gradient
 from support.smooth import LAWS, LENGTH, along, scene_of, walk
 
 APPROACH = np.array([-3.0, -2.0, -1.0, 0.0, -1.0, -2.0, -3.0])
-LOAD = np.array([-0.1, -5.0, -4.5, 2.0, -4.5, -6.0, -0.1])  # jumps to -2 on loading, from -2 on unloading
+LOAD = np.array([-0.1, -5.0, -4.5, 2.0, -4.5, -6.0, -0.1])
+
+
+def curve(approach: np.ndarray, load: np.ndarray) -> LoadCurve:
+    """The curve of a path without a jump."""
+    return LoadCurve.from_states(approach, load, np.zeros(load.size))
 
 
 def test_pull_off_is_found_on_each_leg_with_what_the_increments_leave_open():
-    found = pull_off(APPROACH, LOAD)
+    found = pull_off(curve(APPROACH, LOAD))
     assert (found["pull_off_load_loading"], found["pull_off_approach_loading"]) == (5.0, -2.0)
     assert (found["pull_off_load_unloading"], found["pull_off_approach_unloading"]) == (6.0, -2.0)
-    assert found["pull_off_load_loading_increment_error"] == pytest.approx(0.5)  # not the 4.9 of the jump
+    assert found["pull_off_load_loading_increment_error"] == pytest.approx(0.5)  # the nearer state, not 4.9 away
     assert found["pull_off_load_unloading_increment_error"] == pytest.approx(1.5)
     assert found["pull_off_approach_loading_increment_error"] == 1.0
 
 
 def test_a_path_that_only_loads_has_no_unloading():
-    found = pull_off(APPROACH[:4], LOAD[:4]) | largest_jumps(APPROACH[:4], np.zeros(4))
+    found = pull_off(curve(APPROACH[:4], LOAD[:4])) | largest_jumps(APPROACH[:4], np.zeros(4))
     assert all(np.isnan(found[name]) for name in found if "unloading" in name)
     assert found["max_jump_loading"] == 0.0
     assert legs(APPROACH) == (slice(0, 4), slice(4, 7))
@@ -60,7 +66,7 @@ def test_a_path_that_only_loads_has_no_unloading():
     ],
 )
 def test_a_leg_that_does_not_pass_its_largest_pull_has_no_pull_off(approach, load, loading, unloading):
-    found = pull_off(np.array(approach, float), np.array(load, float))
+    found = pull_off(curve(np.array(approach, float), np.array(load, float)))
     both = [found[f"pull_off_load_{name}"] for name in ("loading", "unloading")]
     assert np.array_equal(both, [loading, unloading], equal_nan=True)
     missing = [
@@ -75,7 +81,7 @@ def test_states_that_did_not_converge_are_no_pull_off_and_no_last_state():
     numbers = {name: ("step", np.arange(7.0)) for name in {*FINAL.values(), "jump"}}
     data = xr.Dataset(numbers | {"approach": ("step", APPROACH), "line_load": ("step", LOAD)})
     data["status"] = ("step", np.array([0, 1, 0, 1, 0, 0, 0], np.int8))
-    found = summarise_load_curves(data)
+    found = summarise_load_curves(data.merge(join_folds([])))
     assert set(SUMMARY) <= set(found)
     assert float(found.pull_off_load_loading) == 4.5
     assert (float(found.max_jump_loading), float(found.max_jump_unloading)) == (2.0, 6.0)

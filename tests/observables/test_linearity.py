@@ -16,6 +16,7 @@ from contactsim.observables.linearity import (
     summarise_area_load,
     value_at_level,
 )
+from contactsim.observables.load_curve import FOLD, LoadCurve, join_folds
 
 AREA = np.linspace(0.01, 0.3, 30)
 
@@ -75,7 +76,7 @@ def path(load, jump=None, status=0) -> xr.Dataset:
     approach = np.array([-2.0, 0.0, 2.0, 4.0, 2.0, 0.0, -2.0])
     columns = {"approach": approach, "line_load": load, "jump": jump or [0.0] * 7, "status": [status] * 7}
     data = xr.Dataset({name: ("step", np.array(values, float)) for name, values in columns.items()})
-    return data.assign(length=100.0, approach_first_touch=-10.0)
+    return data.assign(length=100.0, approach_first_touch=-10.0).merge(join_folds([]))
 
 
 def test_a_cycle_dissipates_the_area_of_its_loop():
@@ -97,15 +98,28 @@ def test_a_jump_has_an_error_of_half_its_step_and_a_smooth_cycle_has_none():
     assert float(found.dissipated_energy_increment_error) == pytest.approx(2.0)
 
 
+def test_a_jump_that_is_located_leaves_half_its_width_and_its_place_open():
+    data = path([0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0], [0.0] * 6 + [0.5])
+    fold = dict(zip(FOLD, (6.0, -0.5, -0.6, -2.5, -0.1), strict=True))
+    found = summarise_cycles(data.drop_dims("fold").merge(join_folds([fold])))
+    # up -1 + 1 + 5, down 4 - 1 to the state before the jump, and pulls of 1.125, 0.13 across the jump, and 0.07
+    assert float(found.dissipated_energy) == pytest.approx(5.0 - 3.0 + 1.125 + 0.13 + 0.07)
+    assert float(found.dissipated_energy_increment_error) == pytest.approx(0.1 * 2.4 / 2)
+
+
 def test_an_open_or_incomplete_loop_has_no_dissipated_energy():
     closed = np.array([0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0])
     approach = path(closed).approach.values
-    assert np.isfinite(dissipated_energy(approach, closed, 0 * closed)[0])
+
+    def energy(load: np.ndarray) -> float:
+        return dissipated_energy(LoadCurve.from_states(approach[: load.size], load, 0 * load))[0]
+
+    assert np.isfinite(energy(closed))
     for place, value in ((-1, -1.0), (0, 0.5), (3, np.nan)):
         load = closed.copy()
         load[place] = value
-        assert np.isnan(dissipated_energy(approach, load, 0 * closed)[0])
-    assert np.isnan(dissipated_energy(approach[:4], closed[:4], 0 * closed[:4])[0])
+        assert np.isnan(energy(load))
+    assert np.isnan(energy(closed[:4]))
     assert np.isnan(float(summarise_cycles(path(closed, status=1)).dissipated_energy))
 
 

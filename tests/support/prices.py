@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
+from contactsim.observables.load_curve import join_folds
 
 LOADS = [0.01, 0.1]
 WALL, COHESIVE = ({"problem": kind.value} for kind in (ProblemKind.HARD_WALL, ProblemKind.COHESIVE))
@@ -73,7 +74,8 @@ def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
     states |= {name: np.ones(shape) for name in of_area} | {"mean_pressure": load / 1000.0}
     variables = {name: (dims, value) for name, value in states.items()}
     variables |= {"points": points, "length": 1000.0, "contact_modulus": 1.0, "approach_first_touch": 0.0}
-    return xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)}, COHESIVE)
+    data = xr.Dataset(variables, {"member": range(len(pulls)), "step": range(3)}, COHESIVE)
+    return data.merge(join_folds([]))
 
 
 REFERENCE = job([("points", 1024, 1e-6), ("tolerance", 32, 1e-6)], [2.0, 4.0])

@@ -31,7 +31,7 @@ SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
 """Keys of a claim that name a second study: the word for what is done with it, and the operation."""
 MAX_BLOCKS = 10
 """Largest number of blocks into which an ensemble is divided to leave out one after the other."""
-PATH_DIMENSIONS = ("step", "snapshot", "x", "event")
+PATH_DIMENSIONS = ("step", "snapshot", "x", "fold", "event")
 """Dimensions along a path: two studies need not share them, as summaries of paths do not have them."""
 
 

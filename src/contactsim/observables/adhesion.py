@@ -12,6 +12,7 @@ import xarray as xr
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
+from contactsim.observables.load_curve import LoadCurve, curve_inputs
 from contactsim.status import is_solved
 
 INTERACTING = {
@@ -142,17 +143,12 @@ def histograms(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[st
     }
 
 
-def pull_off(approach: Array, load: Array) -> dict[str, float]:
+def pull_off(curve: LoadCurve) -> dict[str, float]:
     """Return the largest pull (N/m) and its approach (nm) on loading and on unloading, with their errors.
 
-    A leg that begins or ends with its largest pull does not pass it. A leg that ends without a solution passes it, as
-    under a load that pulls the bodies apart. The increments leave an `_increment_error`: of the approach one increment,
-    of the pull its change to the nearer of the two states beside it, which at a jump is the one before the jump.
-
-    Parameters
-    ----------
-    approach, load : array, shape (step,)
-        Approach, nm, and line load, N/m; NaN where there is no solution.
+    Both sides of a jump count as states. A leg that begins or ends with its largest pull does not pass it. A leg that
+    ends without a solution passes it, as under a load that pulls the bodies apart. The increments leave an
+    `_increment_error`, of `LoadCurve.extreme_errors`.
 
     Returns
     -------
@@ -160,17 +156,16 @@ def pull_off(approach: Array, load: Array) -> dict[str, float]:
         NaN where a leg does not pass its largest pull.
     """
     numbers = {}
-    for name, leg in zip(LEGS, legs(approach), strict=True):
-        part = slice(max(leg.start - 1, 0), leg.stop)  # from the turn on
-        pull, places = -load[part], approach[part]
+    for name, leg in zip(LEGS, legs(curve.approach), strict=True):
+        part = curve.part(slice(max(leg.start - 1, 0), leg.stop))  # from the turn on
+        pull = -part.load
         best = 0 if np.isnan(pull).all() else int(np.nanargmax(pull))
         is_passed = 0 < best < pull.size - 1 and pull[best] > 0
-        beside = [other for other in (best - 1, best + 1) if is_passed]
-        numbers[f"pull_off_load_{name}"] = float(pull[best]) if is_passed else np.nan
-        numbers[f"pull_off_approach_{name}"] = float(places[best]) if is_passed else np.nan
-        for quantity, values in (("load", pull), ("approach", places)):
-            changes = [abs(float(values[best] - values[other])) for other in beside]
-            numbers[f"pull_off_{quantity}_{name}_increment_error"] = min(changes, default=np.nan)
+        values = float(pull[best]), float(part.approach[best])
+        errors = part.extreme_errors(best) if is_passed else (np.nan, np.nan)
+        for quantity, value, error in zip(("load", "approach"), values, errors, strict=True):
+            numbers[f"pull_off_{quantity}_{name}"] = value if is_passed else np.nan
+            numbers[f"pull_off_{quantity}_{name}_increment_error"] = error
     return numbers
 
 
@@ -193,16 +188,18 @@ def summarise_load_curves(data: xr.Dataset) -> xr.Dataset:
     """Return a study of paths with their summaries (`SUMMARY`); states that did not converge do not count."""
     names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
 
-    def per_path(approach: Array, load: Array, jump: Array) -> tuple[float, ...]:
+    def per_path(approach: Array, load: Array, jump: Array, *folds: Array) -> tuple[float, ...]:
         """Return the summary of one path, in the order of `names`."""
-        numbers = pull_off(approach, load) | largest_jumps(approach, jump)
+        curve = LoadCurve.from_states(approach, load, jump, folds)
+        numbers = pull_off(curve) | largest_jumps(approach, np.where(np.isnan(load), np.nan, jump))
         return tuple(numbers[name] for name in names)
 
+    inputs, dimensions = curve_inputs(data)
     converged = is_solved(data.status)
     columns = xr.apply_ufunc(
         per_path,
-        *(data.approach, data.line_load.where(converged), data.jump.where(converged)),
-        input_core_dims=[["step"]] * 3,
+        *inputs,
+        input_core_dims=dimensions,
         output_core_dims=[[]] * len(names),
         vectorize=True,
     )

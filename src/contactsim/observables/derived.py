@@ -31,7 +31,7 @@ def combine_runs(runs: Sequence[tuple[xr.Dataset, dict[str, object]]]) -> xr.Dat
     -------
     Dataset with a dimension for each coordinate. Paths of unequal length are filled up with NaN.
     """
-    for dim in ("step", "event"):  # paths of a study may differ in length, and in how often they slip
+    for dim in ("step", "fold", "event"):  # paths of a study may differ in length, and in how often they jump or slip
         longest = max((data.sizes.get(dim, 0) for data, _ in runs), default=0)
         if any(data.sizes.get(dim, longest) < longest for data, _ in runs):
             runs = [(data.reindex({dim: np.arange(longest)}), coordinates) for data, coordinates in runs]

@@ -17,10 +17,10 @@ from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError, is_number
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.increment_control import ROUNDING, IncrementController
-from contactsim.paths.jumps import Jump
+from contactsim.paths.jumps import FOLD_WIDTH, Jump
 from contactsim.paths.legs import Leg, leg_end
 from contactsim.paths.state import PathState
-from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
+from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -39,6 +39,8 @@ class Adaptive:
     least, most
         Smallest and largest increment, nm or GPa; 0.01 and 1 of the laws' length by default. A mean pressure has no
         default.
+    fold_width
+        Largest distance (nm) that the load moves the surface between both sides of a jump: the step is divided.
 
     Raises
     ------
@@ -49,9 +51,10 @@ class Adaptive:
     error: float | None = None
     least: float | None = None
     most: float | None = None
+    fold_width: float = FOLD_WIDTH
 
     def __post_init__(self) -> None:
-        for name in ("error", "least", "most"):
+        for name in ("error", "least", "most", "fold_width"):
             value = getattr(self, name)
             if value is not None and not (is_number(value) and value > 0):
                 raise InputError(name, value, "a positive number")
@@ -75,7 +78,7 @@ class Adaptive:
     ) -> Iterator[PathState]:
         """Yield the states at all steps, in order, interpolated between solved states."""
         self.check(problem.grid.size, steps, solver)
-        path, begin = Continuation(problem, solver), 0
+        path, begin = Continuation(problem, solver, self.fold_width), 0
         while begin < len(steps):
             end = leg_end(steps, begin, path.parameter(steps[begin]))
             transforms = problem.counter.transforms
@@ -107,8 +110,8 @@ class Adaptive:
     def _solve_leg(self, path: Continuation, steps: Sequence[LoadStep]) -> Leg:
         """Solve states from the current one to the last step of a leg.
 
-        Where a flow is needed, it goes to the next requested step if that is within the increment. A jump is then
-        found between the same two states as without adaptive increments.
+        Where continuation fails, the path goes on to the next requested step if that is within the increment. A jump is
+        then found in the same step as without adaptive increments.
         """
         leg, controller = Leg(steps), self._controller(path.problem)
         first, last = steps[0], steps[-1]
@@ -128,7 +131,7 @@ class Adaptive:
             flowed = not path.is_on_branch(state)
             if flowed:
                 goal = next((step.value for step in steps if _is_between(parameter, step.value, goal)), goal)
-                state, jumps, iterations = _flow_to(path, replace(first, value=goal))
+                state, jumps, iterations = path.advance_to(replace(first, value=goal))
                 leg.iterations += iterations
             else:
                 path.accept(replace(first, value=goal), state, False)
@@ -158,15 +161,6 @@ class Adaptive:
         jumps = leg.jumps_before(step.value)
         distance = sum(jump.distance for jump in jumps)
         return PathState(step, problem, state.displacement, state.status, state.residual, distance, *cost, state, jumps)
-
-
-def _flow_to(path: Continuation, step: LoadStep) -> tuple[Equilibrium, tuple[Jump, ...], int]:
-    """Return the state that the flow reaches, the jumps and the iterations; over a lattice in divided steps."""
-    if path.jumps.has_lattice:
-        return path.advance_to(step)
-    state = path.flow_to(step)
-    jump = path.accept(step, state, True) if state.is_stable else None
-    return state, (jump,) if jump else (), state.iterations
 
 
 def _is_between(parameter: float | None, value: float, goal: float) -> bool:

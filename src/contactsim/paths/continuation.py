@@ -14,7 +14,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import History
-from contactsim.paths.jumps import Jump, JumpCriterion
+from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
 from contactsim.status import Status
@@ -37,11 +37,15 @@ class Continuation:
         The problem that the path solves.
     solver
         Solver of its states.
+    fold_width
+        Largest distance (nm) that the load moves the surface between both sides of a jump.
     divides
         If True, steps that continuation fails to take are divided.
     """
 
-    def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver, divides: bool = True) -> None:
+    def __init__(
+        self, problem: CohesiveProblem, solver: CohesiveSolver, fold_width: float = FOLD_WIDTH, divides: bool = True
+    ) -> None:
         self.problem, self.solver = problem, solver
         self._divides = divides and solver.uses_guess
         self.history = History()
@@ -49,7 +53,7 @@ class Continuation:
         self._failures = 0
         self._memory = solver.new_memory()
         self.current: tuple[LoadStep, Equilibrium] | None = None  # step and state accepted last
-        self.jumps = JumpCriterion(problem)
+        self.jumps = JumpCriterion(problem, fold_width)
 
     def parameter(self, target: LoadStep) -> float | None:
         """Return the load parameter of the current state, under the control of a target step; None at the beginning.

@@ -8,8 +8,10 @@ from typing import Protocol
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
+from contactsim.errors import InputError, is_number
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
+from contactsim.paths.jumps import FOLD_WIDTH
 from contactsim.paths.nested import Nested
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
@@ -35,7 +37,24 @@ class Increments(Protocol):
 
 @dataclass(frozen=True)
 class Requested:
-    """Every increment of the path as requested."""
+    """Every increment of the path as requested.
+
+    Parameters
+    ----------
+    fold_width
+        Largest distance (nm) that the load moves the surface between both sides of a jump: the step is divided.
+
+    Raises
+    ------
+    InputError
+        If the width is not positive.
+    """
+
+    fold_width: float = FOLD_WIDTH
+
+    def __post_init__(self) -> None:
+        if not (is_number(self.fold_width) and self.fold_width > 0):
+            raise InputError("fold_width", self.fold_width, "a positive number")
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Accept any path."""
@@ -48,7 +67,7 @@ class Requested:
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
         """Yield the states at all steps, in order."""
-        path = Continuation(problem, solver)
+        path = Continuation(problem, solver, self.fold_width)
         for step in steps:
             yield path.advance(step)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
+from contactsim.grid import Array
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import TOUCHING, slide_observables
 from contactsim.solvers.cohesive.base import Equilibrium
@@ -21,6 +22,8 @@ JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
 A step under load counts as the length that a step of that size moved the surface before."""
 SLIP_RATIO = 250.0
 """Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
+FOLD_WIDTH = 0.002
+"""Largest width of a jump by default, nm."""
 
 
 @dataclass(frozen=True)
@@ -51,10 +54,12 @@ class JumpCriterion:
     ----------
     problem
         The problem that the path solves.
+    fold_width
+        Largest distance (nm) that the load moves the surface between both sides of a jump.
     """
 
-    def __init__(self, problem: CohesiveProblem) -> None:
-        self.problem = problem
+    def __init__(self, problem: CohesiveProblem, fold_width: float = FOLD_WIDTH) -> None:
+        self.problem, self._fold_width = problem, fold_width
         self._pace: float | None = None  # distance that the surface moved per mean pressure, nm/GPa
 
     def learn_pace(self, pace: float) -> None:
@@ -90,15 +95,41 @@ class JumpCriterion:
         return distance > smooth
 
     def may_hide_in(self, step: LoadStep, increment: float) -> bool:
-        """Return True if smooth motion during a step might be taken for a jump, so that the step is divided."""
+        """Return True if a step is divided: it might take smooth motion for a jump, or is wider than a jump may be."""
         ratio = SLIP_RATIO if self.has_lattice else JUMP_RATIO
-        return self._length(step, increment) > JUMP_LENGTH * self.problem.interaction_range / ratio
+        longest = min(JUMP_LENGTH * self.problem.interaction_range / ratio, self._fold_width)
+        return self._length(step, increment) > longest
 
     def _length(self, step: LoadStep, increment: float) -> float:
         """Return the distance (nm) that a step moves the surface without a jump; infinite if unknown."""
         if step.control is not Trait.MEAN_PRESSURE:
             return increment
         return np.inf if self._pace is None else self._pace * increment
+
+
+def fold_numbers(problem: CohesiveProblem, jump: Jump, step: int) -> dict[str, float]:
+    """Return the numbers of one jump on a path of approach or load (`FOLD`).
+
+    Parameters
+    ----------
+    problem
+        The problem that the path solves.
+    jump
+        The jump, with the states on both sides.
+    step
+        Number of the step of the path during which the jump came.
+    """
+    numbers: dict[str, float] = {"fold_step": step}
+    for side, at, state in (("before", jump.step_before, jump.before), ("after", jump.step, jump.after)):
+        numbers[f"fold_approach_{side}"] = approach_of(problem.at(at), state.displacement)
+        numbers[f"fold_load_{side}"] = -float(state.traction[0].mean() * problem.grid.lengths[0])
+    return numbers
+
+
+def approach_of(problem: CohesiveProblem, displacement: Array) -> float:
+    """Return the approach (nm) of a state, prescribed or by its displacement (exerted, m)."""
+    approach = problem.approach
+    return problem.mean_displacement - float(displacement[0, 0].real) if approach is None else approach
 
 
 def slip_numbers(problem: CohesiveProblem, slip: Jump, step: int) -> dict[str, float]:

@@ -135,4 +135,5 @@ class FinerGrid:
             self._prefers_flow = state.largest_change > FLOW_DISTANCE * trusted
         iterations += state.iterations
         numbers = state.status, state.residual, coarse.jump, iterations, 0.0
-        return PathState(coarse.step, here, state.displacement, *numbers, state, coarse.jumps)
+        # the jumps stay with the coarse grid: the loads beside them are not those of this one
+        return PathState(coarse.step, here, state.displacement, *numbers, state)

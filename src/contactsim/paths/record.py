@@ -17,9 +17,10 @@ from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
+from contactsim.observables.load_curve import join_folds
 from contactsim.observables.sliding import join_slips, slide_observables
 from contactsim.paths.increments import Increments
-from contactsim.paths.jumps import slip_numbers
+from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.surfaces.statistics import local_squares
@@ -78,11 +79,12 @@ def simulate_path(
     snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
     fields: dict[int, dict[str, Array]] = {}
-    rows, slips, begin, total, marks = [], [], time.process_time(), 0.0, [0.0]
+    rows, folds, slips, begin, total, marks = [], [], [], time.process_time(), 0.0, [0.0]
     for count, state in enumerate(increments.follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
         rows.append(_state_numbers(scene, state, slopes))
+        folds += [fold_numbers(problem, jump, count) for jump in state.jumps if not jump.step.held]
         slips += [slip_numbers(problem, jump, count) for jump in state.jumps if jump.step.held]
         if count in snapshot_steps:
             fields[count] = _state_fields(problem.at(state.step), state, keep_fields)
@@ -95,9 +97,8 @@ def simulate_path(
                 state.status.sentence,
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
-    data = _join_states(scene, problem, rows, fields)
-    if scene.sliding:
-        data = dataset.describe(data.merge(join_slips(slips)))
+    data = _join_states(scene, problem, rows, fields).merge(join_folds(folds))
+    data = dataset.describe(data.merge(join_slips(slips)) if scene.sliding else data)
     for words in status.describe_excess(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
@@ -109,11 +110,8 @@ def _state_numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> 
     zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
     if state.points not in slopes:
         slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
-    approach = problem.approach
-    if approach is None:
-        approach = problem.mean_displacement - float(state.displacement[0, 0].real)
     numbers: dict[str, float] = {
-        "approach": approach,
+        "approach": approach_of(problem, state.displacement),
         **state_observables(problem, gap, traction),
         **gradients(slopes[state.points], problem, gap, traction),
         "process_zone_step": problem.grid.spacing[0] / zone,
@@ -177,4 +175,4 @@ def _join_states(
     if scene.sliding:
         lattice = problem.lattice_constant
         variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan
-    return dataset.describe(xr.Dataset(variables, coordinates, {"problem": scene.kind.value}))
+    return xr.Dataset(variables, coordinates, {"problem": scene.kind.value})
