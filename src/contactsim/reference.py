@@ -191,6 +191,16 @@ def tangential_strength(work: float, length: float, opening: Array | float) -> A
     return np.sqrt(2 / np.e) * work / length * np.exp(-np.asarray(opening))
 
 
+def bsg_factor(opening: Array | float) -> Array:
+    """Tangential traction of the BSG law over that of Eq. 2.17, 1 + y at y = Δn/δn.
+
+    The strength of that law is proportional to (1 + y) exp(-y): largest at Δn = 0, zero at an overclosure of δn, and
+    negative beyond (van den Bosch et al., Eng. Fract. Mech. 73, 2006; McGarry et al., J. Mech. Phys. Solids
+    63, 2014).
+    """
+    return 1 + np.asarray(opening)
+
+
 def spring_sum(offset: Array | float, lattice_constant: float, length: float = 1.0) -> tuple[Array, Array]:
     """Sums over a lattice of what springs contribute, C = Σ exp(-s²) and S = Σ 2s exp(-s²), s = (Δt + jl)/δt.
 
