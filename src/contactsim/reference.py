@@ -2,8 +2,8 @@
 
 Line contacts without adhesion on a half-space: a parabolic cylinder (Hertz), a sinusoid (Westergaard), and the
 complete contact of any profile; Persson's estimate of the contact area of rough surfaces. With adhesion: the pull-off
-of a cylinder in its two limits, and the strengths of the mixed-mode cohesive zone. Loads are per unit thickness;
-units nm, GPa, N/m, in which E* times a length is a line load without further factors.
+of a cylinder in its two limits and between them, and the strengths of the mixed-mode cohesive zone. Loads are per unit
+thickness; units nm, GPa, N/m, in which E* times a length is a line load without further factors.
 """
 
 from __future__ import annotations
@@ -11,6 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from contactsim.grid import Array, Grid
+
+DUGDALE_ZONES = (1e-6, 1e8, 20001)
+"""Least and largest m - 1, m the width of Dugdale's zone over that of the contact, and their number."""
 
 
 def cylinder_load(half_width: Array | float, radius: float, contact_modulus: float) -> Array:
@@ -148,6 +151,27 @@ def cylinder_pull_off(work: Array | float, radius: float, contact_modulus: float
     return 3 * (np.pi * contact_modulus * np.asarray(work) ** 2 * radius / 16) ** (1 / 3)
 
 
+def maugis_cylinder_pull_off(work: Array | float, radius: float, contact_modulus: float, strength: float) -> Array:
+    """Pull-off of a cylinder on a half-space by the model of Maugis and Dugdale; N/m, nm, GPa to N/m.
+
+    Around the contact |x| < c the traction is the strength σ up to |x| = mc, where the gap is w/σ:
+
+        w/σ = c²/(2R) (m √(m²-1) - arcosh m) + 4σc/(πE*) (√(m²-1) arcosh m - m ln m),
+
+    and the load is πE*c²/(4R) - 2σc √(m²-1). For each m the first is quadratic in c; the pull-off is the largest pull
+    over m (Baney and Hui, J. Adhesion Sci. Technol. 11, 1997; Johnson and Greenwood, J. Phys. D 41, 2008). Its limits
+    are `cylinder_pull_off` for high strength and 2σ √(2Rw/σ) of rigid bodies.
+    """
+    m = 1 + np.geomspace(*DUGDALE_ZONES)
+    root, angle = np.sqrt(m**2 - 1), np.arccosh(m)
+    undeformed = (m * root - angle) / (2 * radius)
+    elastic = 4 * strength / (np.pi * contact_modulus) * (root * angle - m * np.log(m))
+    opening = np.asarray(work)[..., None] / strength
+    half_width = 2 * opening / (elastic + np.sqrt(elastic**2 + 4 * undeformed * opening))
+    pull = 2 * strength * half_width * root - cylinder_load(half_width, radius, contact_modulus)
+    return pull.max(-1)
+
+
 def rigid_cylinder_pull_off(work: Array | float, radius: float, length: float) -> Array:
     """Pull-off w √(2π R/(e δ)) of a rigid cylinder by the exponential cohesive zone; N/m, nm to N/m.
 
@@ -165,6 +189,16 @@ def normal_strength(work: float, length: float, slip: Array | float) -> Array:
 def tangential_strength(work: float, length: float, opening: Array | float) -> Array:
     """Largest tangential traction √(2/e) φt/δt exp(-y) of the mixed-mode cohesive zone at y = Δn/δn (Eq. 2.18); GPa."""
     return np.sqrt(2 / np.e) * work / length * np.exp(-np.asarray(opening))
+
+
+def bsg_factor(opening: Array | float) -> Array:
+    """Tangential traction of the BSG law over that of Eq. 2.17, 1 + y at y = Δn/δn.
+
+    The strength of that law is proportional to (1 + y) exp(-y): largest at Δn = 0, zero at an overclosure of δn, and
+    negative beyond (van den Bosch et al., Eng. Fract. Mech. 73, 2006; McGarry et al., J. Mech. Phys. Solids
+    63, 2014).
+    """
+    return 1 + np.asarray(opening)
 
 
 def spring_sum(offset: Array | float, lattice_constant: float, length: float = 1.0) -> tuple[Array, Array]:

@@ -45,6 +45,8 @@ CASES = [
     ("ratio", BOTH, {"against": LOAD}, 2.0),
     ("least", GRID, {}, 10.0),
     ("largest", GRID, {}, 30.0),
+    ("furthest_from_one", 0.05 * GRID, {}, 0.5),
+    ("furthest_from_one", 0.1 * GRID, {}, 3.0),
 ]  # fmt: skip
 
 
@@ -69,6 +71,12 @@ def test_one_unknown_value_makes_every_reduction_unknown(name, values, inputs, e
 def test_steps_of_an_order_are_positive_in_its_sense_and_unknown_beside_an_unknown_value(name, sign):
     steps = ORDERS[name](array([1.0, 3.0, np.nan, 2.0], hurst_exponent=[0.2, 0.4, 0.6, 0.8]), "hurst_exponent")
     assert np.array_equal(steps, [2.0 * sign, np.nan, np.nan], equal_nan=True)
+
+
+def test_steps_to_one_count_the_distance_from_either_side():
+    values = array([0.8, 1.1, 1.1, 0.7], work_ratio=[0.0, 0.1, 1.0, 10.0])
+    assert np.allclose(ORDERS["steps_to_one"](values, "work_ratio"), [0.1, 0.0, -0.2])
+    assert np.allclose(ORDERS["steps_from_one"](values, "work_ratio"), [-0.1, 0.0, 0.2])
 
 
 def test_places_of_extremes_can_come_from_other_data():

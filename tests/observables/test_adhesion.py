@@ -176,3 +176,15 @@ def test_fields_of_some_members_alone_are_kept_and_histograms_of_all():
     assert left.normal_gap_share.dims == ("snapshot", "normal_gap_bin")
     assert np.allclose(left.normal_gap_share.sum("normal_gap_bin"), 1.0)
     assert left.mean_pressure[-1] == pytest.approx(float(left.line_load[-1]) / LENGTH)
+
+
+def test_the_pull_off_of_maugis_lies_between_a_crack_and_rigid_bodies():
+    work, radius, modulus = np.array([0.5, 2.0]), 1000.0, 70.0
+    crack = reference.maugis_cylinder_pull_off(work, radius, modulus, 1e3)
+    assert crack == pytest.approx(reference.cylinder_pull_off(work, radius, modulus), rel=2e-3)
+    strength = 0.01
+    rigid = reference.maugis_cylinder_pull_off(work, 10.0, 1e6, strength)
+    assert rigid == pytest.approx(2 * strength * np.sqrt(2 * 10.0 * work / strength), rel=2e-3)
+    between = reference.maugis_cylinder_pull_off(work, radius, modulus, 1.0)
+    assert (between < reference.cylinder_pull_off(work, radius, modulus)).all()
+    assert (between < 2 * np.sqrt(2 * radius * work)).all()

@@ -54,13 +54,27 @@ def pull_off_table(data: xr.Dataset, legs: Sequence[str]) -> pd.DataFrame:
 
 
 def pull_off_limits(data: xr.Dataset, poisson_ratio: float, work: Array) -> dict[str, Array]:
-    """Return the reduced pull-off loads of a cylinder in its two limits.
+    """Return the reduced pull-off loads of a cylinder in its two limits, and between them.
 
-    "JKR": on an elastic half-space; "rigid": of rigid bodies under the normal law.
+    "JKR": on an elastic half-space; "rigid": of rigid bodies under the normal law; "Maugis": on a half-space under a
+    uniform traction with the strength and the work of the law, which is proportional to the work.
     """
     radius, modulus = scales.radius(data), scales.plane_strain_modulus(data, poisson_ratio)
+    length = scales.LawScales.of(data).normal_length
+    maugis = [
+        float(
+            reference.maugis_cylinder_pull_off(own, radius, modulus, float(reference.normal_strength(own, length, 0.0)))
+        )
+        for own in work
+    ]
     limits = {
         "JKR": reference.cylinder_pull_off(work, radius, modulus),
-        "rigid": reference.rigid_cylinder_pull_off(work, radius, scales.LawScales.of(data).normal_length),
+        "Maugis": np.array(maugis),
+        "rigid": reference.rigid_cylinder_pull_off(work, radius, length),
     }
     return {name: scales.reduced_line_load(load, data) for name, load in limits.items()}
+
+
+def local_slopes(work: Array, load: Array) -> tuple[Array, Array]:
+    """Return the middles of neighbouring works of separation, and d ln load / d ln work between them."""
+    return np.sqrt(work[1:] * work[:-1]), np.diff(np.log(load)) / np.diff(np.log(work))

@@ -150,6 +150,11 @@ def ratio(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
     return float((values / against).isel(places))
 
 
+def furthest_from_one(values: xr.DataArray, places: Places) -> float:
+    """Return the value that is furthest from one, such as the ratio of two studies that are said to agree."""
+    return float(values.isel(places))
+
+
 def rising_steps(values: xr.DataArray, along: str) -> xr.DataArray:
     """Return the changes from one value of a dimension to the next, positive where the quantity rises."""
     return values.diff(along)
@@ -158,6 +163,16 @@ def rising_steps(values: xr.DataArray, along: str) -> xr.DataArray:
 def falling_steps(values: xr.DataArray, along: str) -> xr.DataArray:
     """Return the changes from one value of a dimension to the next, positive where the quantity falls."""
     return -values.diff(along)
+
+
+def steps_from_one(values: xr.DataArray, along: str) -> xr.DataArray:
+    """Return the changes of the distance to one along a dimension, positive where the quantity departs from one."""
+    return abs(values - 1).diff(along)
+
+
+def steps_to_one(values: xr.DataArray, along: str) -> xr.DataArray:
+    """Return the changes of the distance to one along a dimension, positive where the quantity comes closer to one."""
+    return -abs(values - 1).diff(along)
 
 
 def _logarithm(values: xr.DataArray) -> xr.DataArray:
@@ -221,11 +236,14 @@ REDUCTIONS: dict[str, Reduction] = {
     "ratio": Reduction(ratio, lambda values, against: _place_of_largest(values / against), neutral=0.0),
     "least": Reduction(least, lambda values: _place_of_largest(-values)),
     "largest": Reduction(largest, _place_of_largest),
+    "furthest_from_one": Reduction(furthest_from_one, lambda values: _place_of_largest(abs(values - 1)), neutral=1.0),
 }
 """Reductions to one number, by the name that claims give them."""
 ORDERS: dict[str, Callable[[xr.DataArray, str], xr.DataArray]] = {
     "rising_steps": rising_steps,
     "falling_steps": falling_steps,
+    "steps_from_one": steps_from_one,
+    "steps_to_one": steps_to_one,
 }
 """Reductions to the steps of an ordered quantity, `along` a dimension; each step has its own error."""
 

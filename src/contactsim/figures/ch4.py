@@ -14,7 +14,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim.analysis.asperities import centred_nodes, pull_off_limits
+from contactsim.analysis.asperities import centred_nodes, local_slopes, pull_off_limits
 from contactsim.analysis.scales import reduced_line_load
 from contactsim.analysis.stress import stress_below_contact
 from contactsim.figures import style
@@ -170,12 +170,14 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
     """
     tables = []
     colours = style.shades(pulled.work_ratio)
-    for panel, ratio in zip(axes, (0.45, 0.1), strict=True):
+    *loads, slopes = axes
+    for panel, ratio in zip(loads, (0.45, 0.1), strict=True):
         body = pulled.sel(poisson_ratio=ratio).isel(member=0)
         for work_ratio, colour in colours.items():
             curve = asperities.plot_pull_off(panel, body.sel(work_ratio=work_ratio), colour)
             tables.append(curve.assign(poisson_ratio=ratio, work_ratio=work_ratio))
         lines = _plot_pull_off_limits(panel, body, ratio, slope)
+        tables.append(_plot_local_slopes(slopes, body, ratio))
         panel.set(xscale="log", yscale="log", xlabel=r"work of separation $\varphi_n/\varphi_0$")
         for axis, limits in ((panel.xaxis, panel.get_xlim()), (panel.yaxis, panel.get_ylim())):
             style.set_log_ticks(axis, *limits)
@@ -188,8 +190,28 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
     labels = {asperities.work_ratio_label(ratio): colour for ratio, colour in colours.items()}
     handles = style.colour_handles(labels) + style.line_handles(lines) + legs
     axes[0].legend(handles=handles, loc="upper left")
+    for exponent, line in ((slope, ":"), (1.0, style.THESIS)):
+        slopes.axhline(exponent, color=style.EXACT, lw=0.8, ls=line)
+    slopes.set(xscale="log", xlabel=r"work of separation $\varphi_n/\varphi_0$")
+    slopes.set_ylabel(r"local slope $\mathrm{d}\ln|\bar L|/\mathrm{d}\ln\varphi_n$")
+    style.set_log_ticks(slopes.xaxis, *slopes.get_xlim())
+    slopes.legend(loc="lower left")
     style.add_letters(axes)
     return pd.concat(tables)
+
+
+def _plot_local_slopes(axes: Axes, body: xr.Dataset, poisson_ratio: float) -> pd.DataFrame:
+    """Plot the local slopes of the frictionless pull-off on loading, and of the model of Maugis and Dugdale."""
+    colour = style.CONTACT if poisson_ratio > POISSON_RATIO else style.WHOLE
+    work = body.work_of_separation.values
+    middle, slope = local_slopes(work, body.pull_off_load_loading.sel(work_ratio=0.0).values)
+    label = rf"$\nu={poisson_ratio:g}$, $\varphi_t=0$"
+    axes.plot(middle, slope, lw=0.8, label=label, color=colour, marker="o", ms=4)
+    fine = np.geomspace(work[0], work[-1], 50)
+    exact = local_slopes(fine, pull_off_limits(body, poisson_ratio, fine)["Maugis"])
+    axes.plot(*exact, color=colour, lw=0.8, ls="-.", label=rf"Maugis–Dugdale, $\nu={poisson_ratio:g}$")
+    table = pd.DataFrame({"work_of_separation": middle, "local_slope": slope})
+    return table.assign(poisson_ratio=poisson_ratio, work_ratio=0.0)
 
 
 def _plot_pull_off_limits(axes: Axes, body: xr.Dataset, poisson_ratio: float, slope: float) -> dict[str, Any]:
@@ -205,6 +227,7 @@ def _plot_pull_off_limits(axes: Axes, body: xr.Dataset, poisson_ratio: float, sl
     curves = {
         rf"$\bar\varphi_n^{{{exponent}}}$": (float(reduced_line_load(first, body)) * (work / works[0]) ** slope, ":"),
         "JKR, half-space": (limits["JKR"], "-"),
+        "Maugis–Dugdale": (limits["Maugis"], "-."),
         "rigid": (limits["rigid"], style.THESIS),
     }
     for load, line in curves.values():

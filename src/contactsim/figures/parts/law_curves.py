@@ -19,7 +19,7 @@ def plot_tractions(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     law = LawScales.of(data)
     normal = _plot_normal(axes[0], data, law)
     tangential = _plot_tangential(axes[1], data, law)
-    return pd.concat([*normal, *tangential])[["component", "fixed_gap", "gap", "traction", "strength"]]
+    return pd.concat([*normal, *tangential])[["component", "fixed_gap", "gap", "traction", "strength", "bsg_traction"]]
 
 
 def _plot_normal(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.DataFrame]:
@@ -38,7 +38,7 @@ def _plot_normal(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.DataFr
 
 
 def _plot_tangential(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.DataFrame]:
-    """Plot the tangential traction against the tangential gap, with the strengths in both directions."""
+    """Plot the tangential traction and the BSG law's against the tangential gap, with strengths in both directions."""
     tables, length, unit = [], law.tangential_length, law.tangential_work / law.tangential_length
     for gap, colour in style.shades(data.normal_gap).items():
         ratio = gap / law.normal_length
@@ -46,9 +46,11 @@ def _plot_tangential(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.Da
         label = rf"$\Delta_n/\delta_n={ratio:g}$"
         axes.plot(data.slip_gap / length, traction / unit, color=colour, lw=1.2, label=label)
         strength = reference.tangential_strength(law.tangential_work, length, ratio) / unit
+        bsg = reference.bsg_factor(ratio) * traction
+        axes.plot(data.slip_gap / length, bsg / unit, color=colour, lw=1.0, ls=":")
         for sign in (1, -1):
             axes.plot([sign * TANGENTIAL_PEAK], [sign * strength], **style.marker_look(colour))
-        tables.append(_table("tangential", gap, data.slip_gap, traction, strength * unit))
+        tables.append(_table("tangential", gap, data.slip_gap, traction, strength * unit).assign(bsg_traction=bsg))
     _label(axes, "t", data.slip_gap / length)
     return tables
 
