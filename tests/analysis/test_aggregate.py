@@ -131,6 +131,9 @@ def test_proportionality_factors_follow_from_area_gradient_and_pressure(runs):
         bond = found["rms_gradient_contact_pairs"]
         np.testing.assert_allclose(one.kappa_r_pairs, area * bond * MODULUS / pressure, rtol=1e-14)
         np.testing.assert_allclose(one.reduced_pressure_contact, pressure / (gradient * MODULUS), rtol=1e-14)
+        corrected = found["rms_gradient_contact_corrected"]
+        expected = pressure / (corrected * MODULUS)
+        np.testing.assert_allclose(one.reduced_pressure_contact_corrected, expected, rtol=1e-14)
 
 
 def test_a_cylinder_has_its_half_width_beside_the_exact_one(runs):

@@ -40,6 +40,7 @@ AVERAGED = (
     "rms_gradient_contact_subgrid",
     "rms_gradient_contact_pairs",
     "reduced_pressure_contact",
+    "reduced_pressure_contact_corrected",
     "mean_gap",
 )
 """Numbers of a state at a hard wall that are averaged over members."""

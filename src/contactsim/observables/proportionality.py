@@ -33,6 +33,7 @@ def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
         kappa_r_corrected=kappa(data.relative_contact_area_corrected, data.rms_gradient_contact_corrected),
         kappa_r_subgrid=kappa(data.relative_contact_area_subgrid, data.rms_gradient_contact_subgrid),
         reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
+        reduced_pressure_contact_corrected=pressure / (data.rms_gradient_contact_corrected * modulus),
     )
     if "reduced_pressure" in data.dims:
         data["kappa"] = area / data.reduced_pressure
