@@ -49,14 +49,19 @@ def fig_5_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     return style.mean_table(data, AVERAGES)
 
 
-def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
+def fig_5_3(
+    data: xr.Dataset, wall: xr.Dataset, repulsive: xr.Dataset, stiff: xr.Dataset, axes: list[Axes], *, kappa_r: float
+) -> pd.DataFrame:
     """Plot the area against the reduced pressure for works of separation and a hard wall (thesis Fig. 5.3).
 
-    kappa_r: the thesis's constant without adhesion.
+    Thin: the repulsion of each law alone, and adhesion with a stiff one. kappa_r: the thesis's constant without
+    adhesion.
     """
-    data, wall, ends = with_indentation(data), with_indentation(wall), np.array([0.0, 2.0])
+    data, wall, repulsive, stiff = (with_indentation(paths) for paths in (data, wall, repulsive, stiff))
+    ends, works = np.array([0.0, 2.0]), data.work_of_separation.values.tolist()
     for panel in axes:
         tables = rough.plot_works(panel, data, wall, rough.AREA, reduced_pressure)
+        tables += rough.plot_repulsions(panel, repulsive, stiff, works, rough.AREA, reduced_pressure)
         thesis = {"color": style.EXACT, "lw": 0.8, "ls": style.THESIS, "label": f"thesis, {kappa_r:g}"}
         panel.plot(ends, kappa_r * ends, **thesis)
         panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS[rough.AREA])
@@ -68,13 +73,18 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
     return pd.concat(tables)
 
 
-def fig_5_4(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+def fig_5_4(
+    data: xr.Dataset, wall: xr.Dataset, repulsive: xr.Dataset, stiff: xr.Dataset, axes: list[Axes]
+) -> pd.DataFrame:
     """Plot pressure, gradient in contact and area against the approach (thesis Fig. 5.4)."""
-    data, wall = with_indentation(data), with_indentation(wall)
+    data, wall, repulsive, stiff = (with_indentation(paths) for paths in (data, wall, repulsive, stiff))
+    works = data.work_of_separation.values.tolist()
     names = ("normalised_pressure", "gradient_ratio_interacting", rough.AREA)
     tables = {}
     for panel, name in zip(axes, names, strict=True):
-        tables[name] = pd.concat(rough.plot_works(panel, data, wall, name, rough.indentation))
+        curves = rough.plot_works(panel, data, wall, name, rough.indentation)
+        curves += rough.plot_repulsions(panel, repulsive, stiff, works, name, rough.indentation)
+        tables[name] = pd.concat(curves)
         panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[name], xlim=(-7, 24.5))
     axes[0].set_yscale("symlog", linthresh=1e-3)
     axes[1].set_ylim(0, 1.4)
