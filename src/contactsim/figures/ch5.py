@@ -13,6 +13,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
+from contactsim.analysis.body_heights import compare_heights, heights_to_compare
 from contactsim.analysis.ensemble import relative_change
 from contactsim.analysis.rough_paths import (
     Saving,
@@ -21,6 +22,7 @@ from contactsim.analysis.rough_paths import (
 )
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import style
+from contactsim.figures.parts import body_heights as bodies
 from contactsim.figures.parts import interfaces, savings, thicknesses
 from contactsim.figures.parts import rough_curves as rough
 from contactsim.observables.adhesion import LEGS
@@ -209,6 +211,14 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
     savings.label_savings(axes[1], lines)
     style.add_letters(axes)
     return pd.DataFrame(rows)
+
+
+def body_heights(data: xr.Dataset, wall: xr.Dataset, repulsive: xr.Dataset, axes: Axes) -> pd.DataFrame:
+    """Plot the largest difference between load curves against the body's height, last of all on a half-space."""
+    table = compare_heights((data, wall, repulsive), heights_to_compare(data))
+    table = pd.concat([table.iloc[1:], table.iloc[:1]], ignore_index=True)
+    bodies.plot_differences(axes, table)
+    return table
 
 
 def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
