@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
+from contactsim.observables.adhesion import GRADIENTS
 
 LOADS = [0.01, 0.1]
 WALL, COHESIVE = ({"problem": kind.value} for kind in (ProblemKind.HARD_WALL, ProblemKind.COHESIVE))
