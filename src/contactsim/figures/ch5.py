@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from contactsim.analysis.body_heights import compare_heights, heights_to_compare
+from contactsim.analysis.contact_criteria import compare_criteria
 from contactsim.analysis.ensemble import relative_change
 from contactsim.analysis.rough_paths import (
     Saving,
@@ -248,7 +249,10 @@ def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 
 
 def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the relative area by every criterion, for the strongest and the weakest adhesion (beyond the thesis)."""
+    """Plot the relative area by every criterion, for the strongest and the weakest adhesion (beyond the thesis).
+
+    The table ends with what statements are about, by every criterion.
+    """
     strongest, weakest = float(data.work_of_separation.max()), float(data.work_of_separation.min())
     tables = []
     for panel, work, ratio_panel in ((axes[0], strongest, axes[2]), (axes[1], weakest, None)):
@@ -258,4 +262,4 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     axes[0].legend(loc="upper left")
     axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
     style.add_letters(axes)
-    return pd.concat(tables)
+    return pd.concat([*tables, compare_criteria(data.sel(work_of_separation=[weakest, strongest]))])
