@@ -30,6 +30,8 @@ PUBLIC = {
     "CohesiveZone": "interface.cohesive_zone",
     "NormalCohesiveZone": "interface.cohesive_zone",
     "UncoupledCohesiveZone": "interface.cohesive_zone",
+    "RepulsiveZone": "interface.repulsion",
+    "StiffCohesiveZone": "interface.repulsion",
     "Law": "interface.base",
     "Aligned": "interface.pairing",
     "Lattice": "interface.lattice",

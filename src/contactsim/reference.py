@@ -127,6 +127,22 @@ def complete_contact(heights: Array, length: float, contact_modulus: float) -> A
     return grid.backward(grid.forward(heights) * (contact_modulus * grid.wavenumber / 2))
 
 
+def uniaxial_modulus(youngs_modulus: float, poisson_ratio: float) -> float:
+    """Stiffness C11 = E(1-ν)/((1+ν)(1-2ν)) of a body that cannot expand sideways, GPa; infinite at ν = 1/2."""
+    if poisson_ratio == 0.5:
+        return np.inf
+    return youngs_modulus * (1 - poisson_ratio) / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))
+
+
+def body_compression(pressure: Array | float, height: float, youngs_modulus: float, poisson_ratio: float) -> Array:
+    """Approach p h/C11 (nm) that a body of a height takes up under a mean pressure, beside that of a half-space.
+
+    This is all that a finite height changes if it is at least the period: there the compliance of the longest wave
+    differs from that of a half-space by 0.05 %, at half the period by 8 %.
+    """
+    return np.asarray(pressure) * height / uniaxial_modulus(youngs_modulus, poisson_ratio)
+
+
 def persson_area(reduced_pressure: Array | float) -> Array:
     """Relative contact area erf(√2 p*) of a rough surface (J. Chem. Phys. 115, 3840, doi:10.1063/1.1388626)."""
     from scipy.special import erf  # takes longer to import than most of this package

@@ -23,6 +23,8 @@ ROUGH = (
     "rough_adhesive_64",
     "rough_adhesive_coupled",
     "rough_adhesive_unloading",
+    "rough_repulsive",
+    "rough_stiff",
 )
 
 
@@ -70,10 +72,19 @@ def test_areas_shrink_with_the_threshold_and_those_that_repel_are_the_least(stud
 
 def test_curves_go_through_every_state_and_symbols_through_those_of_the_whole_grid(studies):
     axes = panels(2)
-    shown = ch5.fig_5_3(studies["rough_adhesive"], studies["rough_wall"], axes, kappa_r=1.75)
-    data = studies["rough_adhesive"]
-    assert len(shown) == data.step.size * data.work_of_separation.size + studies["rough_wall"].step.size
+    names = ("rough_adhesive", "rough_wall", "rough_repulsive", "rough_stiff")
+    data, wall, repulsive, stiff = (studies[name] for name in names)
+    shown = ch5.fig_5_3(data, wall, repulsive, stiff, axes, kappa_r=1.75)
+    paths = (data, repulsive, stiff)
+    assert len(shown) == sum(part.step.size * part.work_of_separation.size for part in paths) + wall.step.size
     assert shown[shown.case.str.contains("0.15")].whole_grid.sum() == 10
+
+
+def test_repulsion_alone_never_pulls_and_a_stiff_one_takes_more_load(studies):
+    repulsive, stiff = studies["rough_repulsive"], studies["rough_stiff"]
+    assert (repulsive.adhesive_load == 0).all() and (repulsive.mean_pressure >= 0).all()
+    last = {"step": -1, "work_of_separation": 0}
+    assert (stiff.mean_pressure.isel(last) > repulsive.mean_pressure.isel(last)).all()
 
 
 def test_the_pictures_show_the_rigid_profile_above_both_surfaces(studies):

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
+from contactsim.observables.adhesion import GRADIENTS
 from contactsim.observables.load_curve import join_folds
 
 LOADS = [0.01, 0.1]
@@ -70,7 +71,7 @@ def path_study(pulls: Sequence[float], points: int = 64) -> xr.Dataset:
     states |= {name: np.ones(shape) for name in ("contact_length", "repulsive_load", "adhesive_load")}
     states |= {name: np.ones(shape) for name in ("max_pressure", "max_tensile_traction", "jump")}
     states |= {"transforms": np.full(shape, 10.0), "status": np.zeros(shape, np.int8)}
-    of_area = ("interacting_length_0_01", "rms_gradient_repulsive", "rms_gradient_interacting", "rms_gradient")
+    of_area = ("interacting_length_0_01", "rms_gradient_repulsive", *GRADIENTS, "rms_gradient")
     states |= {name: np.ones(shape) for name in of_area} | {"mean_pressure": load / 1000.0}
     variables = {name: (dims, value) for name, value in states.items()}
     variables |= {"points": points, "length": 1000.0, "contact_modulus": 1.0, "approach_first_touch": 0.0}

@@ -55,3 +55,26 @@ def test_in_a_layer_half_as_thick_as_the_long_cutoff_poissons_ratio_changes_the_
     thin, thick = study["vary"]["body.thickness"]
     assert thin == study["surface"]["long_cutoff"] / 2
     assert thick / study["surface"]["length"] > 9e4
+
+
+@pytest.mark.parametrize("scale", [0.1, 3.0])
+def test_scaling_heights_and_the_laws_length_together_scales_pressures_and_nothing_else(scale):
+    # With φn*/ḡ and δn/h_rms unchanged, curves at large slopes are exactly those of a contact of small slopes.
+    points, length = 1024, 1280.0
+    heights = rough(points, 0.5) * 5.0
+    plain, scaled = (
+        contactsim.simulate(
+            contactsim.Scene(
+                contactsim.HalfSpace(88.0, 0.45),
+                contactsim.Topography(size * heights, spacing=length / points),
+                contactsim.NormalCohesiveZone(2.0 * size**2, size),
+                contactsim.approaches((size * np.arange(-3.0, 9.0, 1.0)).tolist(), from_touch=True),
+            ),
+            tolerance=1e-10,
+        )
+        for size in (1.0, scale)
+    )
+    assert (plain.status == 0).all() and plain.contact_length.max() > 0
+    for name in ("contact_length", "interacting_length_0_01", "max_interpenetration"):
+        assert np.allclose(scaled[name], plain[name], rtol=1e-6, atol=1e-6)
+    assert np.allclose(scaled.mean_pressure, scale * plain.mean_pressure, rtol=1e-6, atol=1e-9)

@@ -13,6 +13,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
+from contactsim.analysis.body_heights import compare_heights, heights_to_compare
+from contactsim.analysis.contact_criteria import compare_criteria
 from contactsim.analysis.ensemble import relative_change
 from contactsim.analysis.rough_paths import (
     Saving,
@@ -21,6 +23,7 @@ from contactsim.analysis.rough_paths import (
 )
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import style
+from contactsim.figures.parts import body_heights as bodies
 from contactsim.figures.parts import interfaces, savings, thicknesses
 from contactsim.figures.parts import rough_curves as rough
 from contactsim.observables.adhesion import LEGS
@@ -49,14 +52,19 @@ def fig_5_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     return style.mean_table(data, AVERAGES)
 
 
-def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
+def fig_5_3(
+    data: xr.Dataset, wall: xr.Dataset, repulsive: xr.Dataset, stiff: xr.Dataset, axes: list[Axes], *, kappa_r: float
+) -> pd.DataFrame:
     """Plot the area against the reduced pressure for works of separation and a hard wall (thesis Fig. 5.3).
 
-    kappa_r: the thesis's constant without adhesion.
+    Thin: the repulsion of each law alone, and adhesion with a stiff one. kappa_r: the thesis's constant without
+    adhesion.
     """
-    data, wall, ends = with_indentation(data), with_indentation(wall), np.array([0.0, 2.0])
+    data, wall, repulsive, stiff = (with_indentation(paths) for paths in (data, wall, repulsive, stiff))
+    ends, works = np.array([0.0, 2.0]), data.work_of_separation.values.tolist()
     for panel in axes:
         tables = rough.plot_works(panel, data, wall, rough.AREA, reduced_pressure)
+        tables += rough.plot_repulsions(panel, repulsive, stiff, works, rough.AREA, reduced_pressure)
         thesis = {"color": style.EXACT, "lw": 0.8, "ls": style.THESIS, "label": f"thesis, {kappa_r:g}"}
         panel.plot(ends, kappa_r * ends, **thesis)
         panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS[rough.AREA])
@@ -68,13 +76,18 @@ def fig_5_3(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes], *, kappa_r: fl
     return pd.concat(tables)
 
 
-def fig_5_4(data: xr.Dataset, wall: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+def fig_5_4(
+    data: xr.Dataset, wall: xr.Dataset, repulsive: xr.Dataset, stiff: xr.Dataset, axes: list[Axes]
+) -> pd.DataFrame:
     """Plot pressure, gradient in contact and area against the approach (thesis Fig. 5.4)."""
-    data, wall = with_indentation(data), with_indentation(wall)
+    data, wall, repulsive, stiff = (with_indentation(paths) for paths in (data, wall, repulsive, stiff))
+    works = data.work_of_separation.values.tolist()
     names = ("normalised_pressure", "gradient_ratio_interacting", rough.AREA)
     tables = {}
     for panel, name in zip(axes, names, strict=True):
-        tables[name] = pd.concat(rough.plot_works(panel, data, wall, name, rough.indentation))
+        curves = rough.plot_works(panel, data, wall, name, rough.indentation)
+        curves += rough.plot_repulsions(panel, repulsive, stiff, works, name, rough.indentation)
+        tables[name] = pd.concat(curves)
         panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[name], xlim=(-7, 24.5))
     axes[0].set_yscale("symlog", linthresh=1e-3)
     axes[1].set_ylim(0, 1.4)
@@ -201,6 +214,14 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
     return pd.DataFrame(rows)
 
 
+def body_heights(data: xr.Dataset, wall: xr.Dataset, repulsive: xr.Dataset, axes: Axes) -> pd.DataFrame:
+    """Plot the largest difference between load curves against the body's height, last of all on a half-space."""
+    table = compare_heights((data, wall, repulsive), heights_to_compare(data))
+    table = pd.concat([table.iloc[1:], table.iloc[:1]], ignore_index=True)
+    bodies.plot_differences(axes, table)
+    return table
+
+
 def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot cycles of approach and retraction for rms heights, pull-off and dissipated energy (beyond the thesis)."""
     panels = {"normalised_pressure": axes[0], rough.AREA: axes[1]}
@@ -228,7 +249,10 @@ def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 
 
 def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the relative area by every criterion, for the strongest and the weakest adhesion (beyond the thesis)."""
+    """Plot the relative area by every criterion, for the strongest and the weakest adhesion (beyond the thesis).
+
+    The table ends with what statements are about, by every criterion.
+    """
     strongest, weakest = float(data.work_of_separation.max()), float(data.work_of_separation.min())
     tables = []
     for panel, work, ratio_panel in ((axes[0], strongest, axes[2]), (axes[1], weakest, None)):
@@ -238,4 +262,4 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     axes[0].legend(loc="upper left")
     axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
     style.add_letters(axes)
-    return pd.concat(tables)
+    return pd.concat([*tables, compare_criteria(data.sel(work_of_separation=[weakest, strongest]))])

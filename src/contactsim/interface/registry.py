@@ -8,11 +8,14 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone,
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import Aligned
+from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
 
 EFFECTS: dict[str, Any] = {
     "hard_wall": HardWall,
     "cohesive_zone": CohesiveZone,
     "normal_cohesive_zone": NormalCohesiveZone,
     "uncoupled_cohesive_zone": UncoupledCohesiveZone,
+    "repulsive_zone": RepulsiveZone,
+    "stiff_cohesive_zone": StiffCohesiveZone,
 }
 PAIRINGS = {"aligned": Aligned, "lattice": Lattice}

@@ -24,6 +24,13 @@ INTERACTING = {
 """Parts of the strength beyond which two surfaces interact."""
 CRITERION = "interacting_length_0_01"
 """Criterion of Chapter 5, which says only that its threshold approaches zero."""
+GRADIENTS = {
+    "rms_gradient_interacting_0_1": "interacting_length_0_1",
+    "rms_gradient_interacting": CRITERION,
+    "rms_gradient_interacting_0_001": "interacting_length_0_001",
+    "rms_gradient_interacting_1e_6": "interacting_length_1e_6",
+}
+"""Rms gradients over what interacts, and the criteria of contact that they belong to."""
 AREAS = {"relative_repulsive_area": "contact_length", "relative_interacting_area": CRITERION}
 """Parts of the period, and the lengths that they come from."""
 OPENINGS, PULLS = np.linspace(-3.0, 12.0, 61), np.linspace(-6.0, 1.0, 71)
@@ -109,7 +116,7 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
 
 
 def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, float]:
-    """Return the rms gradient of the undeformed surface over the contact, by both criteria of area, and over all of it.
+    """Return the rms gradient of the undeformed surface over the contact, by all criteria, and over all of it.
 
     Parameters
     ----------
@@ -123,10 +130,9 @@ def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Arr
     dict
         NaN without contact.
     """
-    squares = {
-        "rms_gradient_repulsive": square[gap[0] < 0],
-        "rms_gradient_interacting": square[np.abs(traction[0]) > INTERACTING[CRITERION] * problem.strength],
-    }
+    size = np.abs(traction[0]) / problem.strength
+    squares = {"rms_gradient_repulsive": square[gap[0] < 0]}
+    squares |= {name: square[size > INTERACTING[criterion]] for name, criterion in GRADIENTS.items()}
     numbers = {name: float(np.sqrt(values.mean())) if values.size else np.nan for name, values in squares.items()}
     return numbers | {"rms_gradient": float(np.sqrt(square.mean()))}
 

@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 import xarray as xr
 
-from contactsim.observables.adhesion import AREAS, summarise_load_curves
+from contactsim.observables.adhesion import AREAS, GRADIENTS, summarise_load_curves
 from contactsim.observables.friction import SLIDE_INPUTS, summarise_slides
 from contactsim.observables.hysteresis import summarise_cycles
 from contactsim.observables.linearity import summarise_area_load
@@ -62,7 +62,7 @@ def summarise_paths(data: xr.Dataset) -> xr.Dataset:
     data = summarise_cycles(summarise_load_curves(data))
     data = summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
-    for part in ("repulsive", "interacting"):
-        ratios[f"gradient_ratio_{part}"] = data[f"rms_gradient_{part}"] / data.rms_gradient
+    for name in ("rms_gradient_repulsive", *GRADIENTS):
+        ratios[name.replace("rms_gradient", "gradient_ratio")] = data[name] / data.rms_gradient
     data = data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus})
     return summarise_area_load(data, "relative_interacting_area", "rms_gradient_interacting")

@@ -92,6 +92,30 @@ def plot_works(
     return [*tables, plot_path(axes, wall, across(wall), name, "hard wall", **WALL_LOOK)]
 
 
+def plot_repulsions(
+    axes: Axes,
+    repulsive: xr.Dataset,
+    stiff: xr.Dataset,
+    works: list[float],
+    name: str,
+    across: Callable[[xr.Dataset], xr.DataArray],
+) -> list[pd.DataFrame]:
+    """Plot the repulsion of each law alone, and the adhesion of a stiff repulsion, each as a thin line.
+
+    works: of all adhesive laws, whose colours the lines have; across: as in `plot_works`
+    """
+    colours, tables = style.shades(works), []
+    for data, line, words in ((repulsive, ":", "repulsion alone"), (stiff, "-.", "stiff repulsion")):
+        for work in data.work_of_separation.values:
+            variant = data.sel(work_of_separation=work)
+            x, mean = across(variant), variant[f"{name}_mean"]
+            axes.plot(x, mean, color=colours[float(work)], ls=line, lw=0.6)
+            table = {"case": f"{words}, {work:g} N/m", "indentation": variant.indentation, "x": x}
+            table |= {f"{name}_{end}": variant[f"{name}_{end}"] for end in ENDS}
+            tables.append(pd.DataFrame(table))
+    return tables
+
+
 def indentation(data: xr.Dataset) -> xr.DataArray:
     """Return the approach beyond first touch, nm; data: of `contactsim.analysis.rough_paths.with_indentation`."""
     return data.indentation
