@@ -8,29 +8,36 @@ import xarray as xr
 
 from contactsim.observables.hysteresis import dissipated_energy, summarise_cycles
 from contactsim.observables.linearity import (
+    AREA_LEVELS,
     AREA_LOAD,
-    LEVELS,
+    LINE_LOADS,
     area_load_numbers,
     curvature,
     nonlinearity,
     summarise_area_load,
     value_at_level,
+    values_at_loads,
 )
 from contactsim.observables.load_curve import FOLD, LoadCurve, join_folds
 
 AREA = np.linspace(0.01, 0.3, 30)
+FINE = np.linspace(0.0, 1.0, 20001)
 
 
 def test_a_straight_line_through_the_origin_is_neither_nonlinear_nor_curved():
-    assert nonlinearity(AREA, 0.5 * AREA) == pytest.approx(0.0, abs=1e-7)
+    assert nonlinearity(FINE, 0.5 * FINE, 0.5 * FINE, 0.1) == pytest.approx(0.0, abs=1e-12)
+    assert nonlinearity(FINE, 0.5 * FINE, 3 * FINE, 0.1) == pytest.approx(0.0, abs=1e-12)
     assert abs(curvature(AREA, 0.5 * AREA)) < 1e-12
 
 
-@pytest.mark.parametrize("scale", [-3.0, 1e-3])
-def test_a_parabola_is_all_curvature_whatever_its_unit(scale):
-    assert abs(curvature(AREA, scale * AREA**2)) == pytest.approx(1.0)
-    wanted = np.sqrt(1 - (AREA**3).sum() ** 2 / ((AREA**2).sum() * (AREA**4).sum()))
-    assert nonlinearity(AREA, scale * AREA**2) == pytest.approx(wanted)
+@pytest.mark.parametrize("scale", [3.0, 1e-3])
+def test_the_misfit_of_a_parabola_is_that_of_its_best_line_whatever_its_unit(scale):
+    loads = np.linspace(0, 1, LINE_LOADS + 1)[1:]
+    areas = np.sqrt(loads)
+    misfit = areas - loads * (areas * loads).sum() / (loads**2).sum()
+    expected = np.sqrt((misfit**2).mean())
+    assert nonlinearity(FINE, scale * FINE**2, scale * FINE**2, scale) == pytest.approx(expected, rel=1e-3)
+    assert abs(curvature(FINE, scale * FINE**2)) == pytest.approx(1.0)
 
 
 def test_equal_parts_of_line_and_square_are_half_curved_and_a_load_that_bends_back_is_so_with_its_sign():
@@ -39,14 +46,22 @@ def test_equal_parts_of_line_and_square_are_half_curved_and_a_load_that_bends_ba
     assert curvature(AREA, 3 * share - share**2) == pytest.approx(-0.25)
 
 
-def test_loads_that_pull_first_are_far_from_a_straight_line():
-    assert nonlinearity(AREA, AREA**2 - 0.2 * AREA) > 0.5
+def test_loads_that_pull_first_are_far_from_a_straight_line_and_loads_that_only_pull_have_no_measure():
+    pulls = FINE**2 - 0.5 * FINE
+    assert nonlinearity(FINE, pulls, pulls, 0.1) > 0.3
+    assert np.isnan(nonlinearity(FINE, -0.5 * FINE, -0.5 * FINE, 0.1))
+    assert np.isnan(nonlinearity(FINE, pulls, pulls, 0.6))  # the curve ends at 0.5
 
 
-def test_too_few_states_or_no_contact_give_no_measure_of_linearity():
-    assert np.isnan(nonlinearity(AREA[:2], AREA[:2]))
-    assert np.isnan(nonlinearity(AREA, 0 * AREA))
+def test_a_curve_without_contact_has_no_curvature():
     assert np.isnan(curvature(0 * AREA, AREA))
+    assert np.isnan(curvature(AREA[:2], AREA[:2]))
+
+
+def test_a_load_is_read_where_it_is_last_reached():
+    pressure, area = np.array([0.0, 1.0, -1.0, 3.0, np.nan]), np.array([0.0, 0.1, 0.2, 0.6, 0.9])
+    assert values_at_loads(pressure, area, np.array([0.0, 0.5, 3.0])) == pytest.approx([0.3, 0.35, 0.6])
+    assert np.isnan(values_at_loads(pressure, area, np.array([-2.0, 4.0]))).all()
 
 
 def test_a_level_is_interpolated_where_a_curve_reaches_it_and_missing_elsewhere():
@@ -56,18 +71,42 @@ def test_a_level_is_interpolated_where_a_curve_reaches_it_and_missing_elsewhere(
     assert np.isnan(value_at_level(area[1:], 0.05, load[1:]))
 
 
-def test_a_curve_is_read_on_loading_alone_and_ends_where_a_state_is_unknown():
-    deep = np.concatenate((np.linspace(-1.0, 20.0, 22), np.linspace(19.0, -1.0, 21)))
-    area = np.maximum(deep, 0.0) / 40 + 0.2 * (np.arange(deep.size) > 21)
-    found = dict(zip(AREA_LOAD, area_load_numbers(deep, area, 0.01 * area, np.full(43, 0.1), 0.2), strict=True))
-    assert found["nonlinearity"] == found["nonlinearity_reduced"] == pytest.approx(0.0, abs=1e-7)
+def numbers_of(deep, area, pressure):
+    """Numbers of a curve by their names, and what bridged gaps leave open of them."""
+    numbers = area_load_numbers(deep, area, pressure, np.full(deep.size, 0.1), 0.2)
+    return (dict(zip(AREA_LOAD, part, strict=True)) for part in np.split(np.array(numbers), 2))
+
+
+def test_a_curve_is_read_on_loading_alone():
+    deep = np.concatenate((np.linspace(-1.0, 21.0, 23), np.linspace(20.0, -1.0, 22)))
+    area = np.maximum(deep, 0.0) / 40 + 0.2 * (np.arange(deep.size) > 22)
+    found, errors = numbers_of(deep, area, 0.01 * area)
+    assert [found["nonlinearity"], found["nonlinearity_reduced"]] == pytest.approx([0.0, 0.0], abs=1e-7)
     assert found["area_at_12nm"] == pytest.approx(0.3)
-    assert found["pressure_at_12nm"] == pytest.approx(0.003)
+    assert found["pressure_at_20nm"] == pytest.approx(0.005)
+    assert found["area_at_load_0_003"] == pytest.approx(0.3)
     assert found["gradient_ratio_at_area_0_02"] == pytest.approx(0.5)
-    assert [found[name] for name in LEVELS] == pytest.approx([0.01 * level for level in LEVELS.values()])
-    pressure = np.where(deep == 10.0, np.nan, 0.01 * area)
-    found = dict(zip(AREA_LOAD, area_load_numbers(deep, area, pressure, np.full(43, 0.1), 0.2), strict=True))
-    assert np.isnan(found["area_at_12nm"])
+    assert [found[name] for name in AREA_LEVELS] == pytest.approx([0.01 * level for level in AREA_LEVELS.values()])
+    assert {error for error in errors.values() if np.isfinite(error)} == {0.0}
+
+
+def test_a_single_unknown_state_is_bridged_with_the_distance_to_its_neighbours_as_error():
+    deep = np.linspace(-1.0, 21.0, 23)
+    area = np.maximum(deep, 0.0) / 40
+    pressure = np.where(deep == 12.0, np.nan, 0.01 * area)
+    found, errors = numbers_of(deep, area, pressure)
+    assert found["area_at_12nm"] == pytest.approx(0.3)
+    assert errors["area_at_12nm"] == pytest.approx(1 / 40)
+    assert found["area_at_20nm"] == pytest.approx(0.5) and errors["area_at_20nm"] == 0.0
+
+
+@pytest.mark.parametrize("unknown", [(12.0, 13.0), (21.0,)])
+def test_two_unknown_states_in_a_row_or_the_last_one_end_a_curve(unknown):
+    deep = np.linspace(-1.0, 21.0, 23)
+    area = np.maximum(deep, 0.0) / 40
+    pressure = np.where(np.isin(deep, unknown), np.nan, 0.01 * area)
+    found, _ = numbers_of(deep, area, pressure)
+    assert np.isnan(found["area_at_20nm"]) == (unknown[0] < 20)
     assert found["pressure_at_area_0_1"] == pytest.approx(0.001)
 
 

@@ -9,11 +9,11 @@ import xarray as xr
 from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
 from contactsim.observables.adhesion import GRADIENTS
-from contactsim.observables.linearity import LEVELS, READING_DEPTH, value_at_level
+from contactsim.observables.linearity import APPROACH_LEVELS, AREA_LEVELS, value_at_level
 
 CRITERIA = {"rms_gradient_repulsive": "contact_length", **GRADIENTS}
 """Length of contact by each criterion, by the gradient over it."""
-SMALL_AREA = LEVELS["pressure_at_area_0_02"]
+SMALL_AREA = AREA_LEVELS["pressure_at_area_0_02"]
 """Relative area at which pressure and gradient are read."""
 HALF_WAY, NEARLY = 0.5, 0.95
 """Parts of the rise of the gradient between which its approach is measured."""
@@ -36,7 +36,7 @@ def rise_distance(approach: Array, ratio: Array) -> float:
 def criterion_numbers(approach: Array, area: Array, pressure: Array, ratio: Array) -> tuple[float, ...]:
     """Return the numbers `NUMBERS` of one path by one criterion; all (step,)."""
     return (
-        value_at_level(approach, READING_DEPTH, area),
+        value_at_level(approach, APPROACH_LEVELS["12nm"], area),
         value_at_level(area, SMALL_AREA, pressure),
         value_at_level(area, SMALL_AREA, ratio),
         rise_distance(approach, ratio),

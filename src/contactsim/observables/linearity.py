@@ -1,8 +1,9 @@
 """Measure how far the relation of contact area and load is from a straight line.
 
-Adhesion makes loads negative at large areas, so neither the ratio of area and load nor an exponent exists. Four kinds
-of numbers exist for every curve: the angle between area and load, taken as vectors over the states; the share of the
-square in a parabola of load against area; the load at a given area; and area and load at a given approach.
+Adhesion makes loads negative at large areas, so neither the ratio of area and load nor an exponent exists. A curve is
+read where load rises with area, that is at the last crossing of a load: the area at a load, and the misfit of the best
+straight line through the origin. Besides, the share of the square in a parabola of load against area, the load at a
+given area, and area and load at a given approach.
 """
 
 from __future__ import annotations
@@ -17,30 +18,69 @@ from contactsim.observables.adhesion import legs
 from contactsim.status import is_solved
 
 MAX_AREA = 0.3
-"""Largest relative area that is compared with a straight line; beyond it a contact begins to be complete."""
-LEVELS = {"pressure_at_area_0_02": 0.02, "pressure_at_area_0_1": 0.1, "pressure_at_area_one_third": 1 / 3}
+"""Largest relative area that a parabola is fitted to; beyond it a contact begins to be complete."""
+AREA_LEVELS = {"pressure_at_area_0_02": 0.02, "pressure_at_area_0_1": 0.1, "pressure_at_area_one_third": 1 / 3}
 """Relative areas at which the pressure is read."""
-READING_DEPTH = 12.0
-"""Approach (nm) beyond first touch at which area and pressure are read."""
+LOAD_LEVELS = {"area_at_zero_load": 0.0, "area_at_load_0_001": 0.001, "area_at_load_0_003": 0.003}
+"""Pressures over E* at which the area is read."""
+APPROACH_LEVELS = {"12nm": 12.0, "20nm": 20.0}
+"""Approaches (nm) beyond first touch at which area and pressure are read."""
+REACHES = {"": 0.001, "_to_0_003": 0.003}
+"""Pressures over E* up to which a curve is compared with a straight line."""
+LINE_LOADS = 40
+"""Number of evenly spaced loads at which a curve is compared with a straight line."""
 AREA_LOAD = (
-    *("nonlinearity", "curvature", "nonlinearity_reduced", "curvature_reduced"),
-    *LEVELS,
-    *("area_at_12nm", "pressure_at_12nm", "gradient_ratio_at_area_0_02"),
+    *(f"nonlinearity{kind}{reach}" for kind in ("", "_reduced") for reach in REACHES),
+    *("curvature", "curvature_reduced"),
+    *AREA_LEVELS,
+    *LOAD_LEVELS,
+    *(f"{name}_at_{approach}" for approach in APPROACH_LEVELS for name in ("area", "pressure")),
+    "gradient_ratio_at_area_0_02",
 )
 """Numbers that summarise a curve of area against load; those with `_reduced` use p_r*, the others p/E*."""
 MIN_STATES = 3
-"""Smallest number of states that a curve is measured by."""
+"""Smallest number of states that a parabola is fitted to."""
 
 
-def nonlinearity(area: Array, pressure: Array) -> float:
-    """Return the sine of the angle between area and pressure, (step,), as vectors.
+def values_at_loads(pressure: Array, values: Array, loads: Array) -> Array:
+    """Return values where the pressure last rises through each of some loads, interpolated; NaN where it never does.
 
-    It is 0 on a straight line through the origin; NaN for fewer than three states.
+    pressure, values: (step,). Before the last rise adhesive contacts carry the same load at other areas.
     """
-    scale = np.sqrt((area**2).sum() * (pressure**2).sum())
-    if area.size < MIN_STATES or not scale > 0:
+    found = np.full(len(loads), np.nan)
+    for number, load in enumerate(loads):
+        rises = np.flatnonzero((pressure[:-1] < load) & (pressure[1:] >= load))
+        if rises.size:
+            before = rises[-1]
+            share = (load - pressure[before]) / (pressure[before + 1] - pressure[before])
+            found[number] = values[before] + share * (values[before + 1] - values[before])
+    return found
+
+
+def nonlinearity(area: Array, pressure: Array, abscissa: Array, reach: float) -> float:
+    """Return the rms misfit of the best line of area against an abscissa through the origin, over the largest area.
+
+    Parameters
+    ----------
+    area
+        Relative contact area, (step,).
+    pressure
+        Mean pressure over E*, (step,).
+    abscissa
+        What the area is plotted against: the pressure, or the reduced pressure, (step,).
+    reach
+        Pressure over E* up to which the curve is compared, at even distances from zero.
+
+    Returns
+    -------
+    0 on a straight line through the origin; NaN for a curve that does not rise to all these loads.
+    """
+    loads = np.linspace(0, reach, LINE_LOADS + 1)[1:]
+    areas, places = (values_at_loads(pressure, values, loads) for values in (area, abscissa))
+    if not (np.isfinite(areas).all() and areas.max() > 0):
         return np.nan
-    return float(np.sqrt(max(1 - ((area * pressure).sum() / scale) ** 2, 0.0)))
+    line = (areas * places).sum() / (places**2).sum()
+    return float(np.sqrt(np.mean((areas - line * places) ** 2)) / areas.max())
 
 
 def curvature(area: Array, pressure: Array) -> float:
@@ -66,10 +106,33 @@ def value_at_level(quantity: Array, level: float, values: Array) -> float:
     return float(values[after - 1] + share * (values[after] - values[after - 1]))
 
 
+def bridge_gaps(columns: list[Array], share: float) -> list[Array]:
+    """Return columns, (step,), with single unknown states between two known ones filled in.
+
+    The state after was reached from the state before. What lies between, even a jump, lies between their values.
+
+    Parameters
+    ----------
+    columns
+        Pressure and other quantities; a state is unknown where the first is NaN.
+    share
+        Share of the state after in the value that is filled in; the rest is that of the state before.
+    """
+    known = np.isfinite(columns[0])
+    alone = np.flatnonzero(~known[1:-1] & known[:-2] & known[2:]) + 1
+    filled = [column.copy() for column in columns]
+    for column in filled:
+        column[alone] = (1 - share) * column[alone - 1] + share * column[alone + 1]
+    return filled
+
+
 def area_load_numbers(
     indentation: Array, area: Array, pressure: Array, gradient: Array, surface_gradient: float
 ) -> tuple[float, ...]:
-    """Return the numbers `AREA_LOAD` of one curve, on loading up to the first unknown state.
+    """Return the numbers `AREA_LOAD` of one curve, and what bridged gaps leave open of each.
+
+    A curve is read on loading up to the first unknown state. A single unknown state is bridged by the mean of its
+    neighbours. What it leaves open is the largest change if it is like one of them.
 
     Parameters
     ----------
@@ -84,25 +147,40 @@ def area_load_numbers(
     surface_gradient
         Rms gradient over all of the surface.
     """
-    solved = np.isfinite(pressure[legs(indentation)[0]])
-    count = len(list(takewhile(bool, solved)))
+    loading = legs(indentation)[0]
+    columns = [column[loading] for column in (pressure, area, gradient)]
+    readings = []
+    for share in (0.5, 0.0, 1.0):
+        pressures, areas, gradients = bridge_gaps(columns, share)
+        readings.append(_read_curve(indentation[loading], pressures, areas, gradients, surface_gradient))
+    errors = np.abs(np.array(readings[1:]) - readings[0]).max(axis=0)
+    return *readings[0], *errors
+
+
+def _read_curve(
+    indentation: Array, pressure: Array, area: Array, gradient: Array, surface_gradient: float
+) -> list[float]:
+    """Return the numbers `AREA_LOAD` of a curve on loading, (step,), up to the first unknown state."""
+    count = len(list(takewhile(bool, np.isfinite(pressure))))
     indentation, area, pressure, gradient = (column[:count] for column in (indentation, area, pressure, gradient))
+    reduced = np.divide(pressure, gradient, out=np.zeros_like(pressure), where=gradient > 0)
     light = (area > 0) & (area <= MAX_AREA) & np.isfinite(gradient)
-    pressures = pressure[light], pressure[light] / gradient[light]
-    numbers = [measure(area[light], values) for values in pressures for measure in (nonlinearity, curvature)]
-    numbers += [value_at_level(area, level, pressure) for level in LEVELS.values()]
-    numbers += [value_at_level(indentation, READING_DEPTH, values) for values in (area, pressure)]
+    numbers = [nonlinearity(area, pressure, x, reach) for x in (pressure, reduced) for reach in REACHES.values()]
+    numbers += [curvature(area[light], x[light]) for x in (pressure, reduced)]
+    numbers += [value_at_level(area, level, pressure) for level in AREA_LEVELS.values()]
+    numbers += values_at_loads(pressure, area, np.array(list(LOAD_LEVELS.values()))).tolist()
+    numbers += [value_at_level(indentation, x, values) for x in APPROACH_LEVELS.values() for values in (area, pressure)]
     ratio = gradient / surface_gradient if surface_gradient > 0 else np.full_like(gradient, np.nan)
-    return *numbers, value_at_level(area, LEVELS["pressure_at_area_0_02"], ratio)
+    return [*numbers, value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)]
 
 
 def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Dataset:
-    """Return paths with the numbers `AREA_LOAD` of their curves of area against load.
+    """Return paths with the numbers `AREA_LOAD` of their curves of area against load, and what gaps leave open.
 
     Parameters
     ----------
     data
-        Paths; a curve ends at the first state that did not converge.
+        Paths; a curve ends at the first state that did not converge, unless that can be bridged.
     area, gradient
         Names of the relative area, and of the rms gradient over it.
     """
@@ -112,7 +190,8 @@ def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Datase
         area_load_numbers,
         *(data.approach - data.approach_first_touch, data[area], pressure, data[gradient], surface_gradient),
         input_core_dims=[["step"]] * 4 + [[]],
-        output_core_dims=[[]] * len(AREA_LOAD),
+        output_core_dims=[[]] * 2 * len(AREA_LOAD),
         vectorize=True,
     )
-    return data.assign(dict(zip(AREA_LOAD, columns, strict=True)))
+    names = (*AREA_LOAD, *(f"{name}_increment_error" for name in AREA_LOAD))
+    return data.assign(dict(zip(names, columns, strict=True)))
