@@ -87,7 +87,9 @@ def test_a_curve_is_read_on_loading_alone():
     assert found["area_at_load_0_003"] == pytest.approx(0.3)
     assert found["gradient_ratio_at_area_0_02"] == pytest.approx(0.5)
     assert [found[name] for name in AREA_LEVELS] == pytest.approx([0.01 * level for level in AREA_LEVELS.values()])
-    assert {error for error in errors.values() if np.isfinite(error)} == {0.0}
+    assert [errors[name] for name in ("area_at_12nm", "pressure_at_20nm", "area_at_load_0_003")] == pytest.approx(
+        [0.0] * 3
+    )
 
 
 def test_a_single_unknown_state_is_bridged_with_the_distance_to_its_neighbours_as_error():
@@ -97,7 +99,20 @@ def test_a_single_unknown_state_is_bridged_with_the_distance_to_its_neighbours_a
     found, errors = numbers_of(deep, area, pressure)
     assert found["area_at_12nm"] == pytest.approx(0.3)
     assert errors["area_at_12nm"] == pytest.approx(1 / 40)
-    assert found["area_at_20nm"] == pytest.approx(0.5) and errors["area_at_20nm"] == 0.0
+    assert [found["area_at_20nm"], errors["area_at_20nm"]] == pytest.approx([0.5, 0.0])
+
+
+def test_the_error_of_a_reading_is_its_change_without_every_second_state():
+    deep = np.linspace(0.0, 20.0, 21)
+    area = deep**2 / 400
+    found, errors = numbers_of(deep, area, 0.01 * area)
+    assert found["area_at_load_0_001"] == pytest.approx(0.1)
+    coarse = np.interp(12.0, deep[::2], area[::2]) - np.interp(12.0, deep, area)
+    assert errors["area_at_12nm"] == pytest.approx(abs(coarse))
+    pressure = 0.01 * area**2  # curved against the area: linear pieces leave an error
+    _, errors = numbers_of(deep, area, pressure)
+    change = np.interp(0.001, pressure[::2], area[::2]) - np.interp(0.001, pressure, area)
+    assert errors["area_at_load_0_001"] == pytest.approx(abs(change)) and change != 0
 
 
 @pytest.mark.parametrize("unknown", [(12.0, 13.0), (21.0,)])

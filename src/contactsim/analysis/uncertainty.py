@@ -127,7 +127,8 @@ def _moved_by_path_errors(data: Datasets, name: str) -> Iterator[list[xr.Dataset
         for kind in PATH_ERRORS:
             if f"{name}_{kind}_error" not in study:
                 continue
-            error = study[f"{name}_{kind}_error"].max("member", skipna=False)
+            errors = study[f"{name}_{kind}_error"]  # the paths of members are independent
+            error = (errors**2).sum("member", skipna=False) ** 0.5 / errors.sizes["member"]
             for place in np.ndindex(error.shape):
                 step = xr.zeros_like(error)
                 step[place] = error[place]

@@ -129,10 +129,11 @@ def bridge_gaps(columns: list[Array], share: float) -> list[Array]:
 def area_load_numbers(
     indentation: Array, area: Array, pressure: Array, gradient: Array, surface_gradient: float
 ) -> tuple[float, ...]:
-    """Return the numbers `AREA_LOAD` of one curve, and what bridged gaps leave open of each.
+    """Return the numbers `AREA_LOAD` of one curve, and the error that its increments leave in each.
 
     A curve is read on loading up to the first unknown state. A single unknown state is bridged by the mean of its
-    neighbours. What it leaves open is the largest change if it is like one of them.
+    neighbours. The error is the largest change if such a state is like one of them, or if every second state is left
+    out.
 
     Parameters
     ----------
@@ -148,21 +149,22 @@ def area_load_numbers(
         Rms gradient over all of the surface.
     """
     loading = legs(indentation)[0]
-    columns = [column[loading] for column in (pressure, area, gradient)]
-    readings = []
-    for share in (0.5, 0.0, 1.0):
-        pressures, areas, gradients = bridge_gaps(columns, share)
-        readings.append(_read_curve(indentation[loading], pressures, areas, gradients, surface_gradient))
-    errors = np.abs(np.array(readings[1:]) - readings[0]).max(axis=0)
-    return *readings[0], *errors
+    approach, columns = indentation[loading], [column[loading] for column in (pressure, area, gradient)]
+    before, number, after = (bridge_gaps(columns, share) for share in (0.0, 0.5, 1.0))
+    coarse = [column[::-2][::-1] for column in number]  # every second state, the last one included
+    readings = np.array([_read_curve(approach, filled, surface_gradient) for filled in (number, before, after)])
+    halved = _read_curve(approach[::-2][::-1], coarse, surface_gradient)
+    errors = np.abs(np.stack([*readings[1:], halved]) - readings[0])
+    return *readings[0], *errors.max(axis=0)
 
 
-def _read_curve(
-    indentation: Array, pressure: Array, area: Array, gradient: Array, surface_gradient: float
-) -> list[float]:
-    """Return the numbers `AREA_LOAD` of a curve on loading, (step,), up to the first unknown state."""
-    count = len(list(takewhile(bool, np.isfinite(pressure))))
-    indentation, area, pressure, gradient = (column[:count] for column in (indentation, area, pressure, gradient))
+def _read_curve(indentation: Array, columns: list[Array], surface_gradient: float) -> Array:
+    """Return the numbers `AREA_LOAD` of a curve on loading up to the first unknown state.
+
+    columns: pressure, area and gradient, (step,).
+    """
+    count = len(list(takewhile(bool, np.isfinite(columns[0]))))
+    indentation, (pressure, area, gradient) = indentation[:count], (column[:count] for column in columns)
     reduced = np.divide(pressure, gradient, out=np.zeros_like(pressure), where=gradient > 0)
     light = (area > 0) & (area <= MAX_AREA) & np.isfinite(gradient)
     numbers = [nonlinearity(area, pressure, x, reach) for x in (pressure, reduced) for reach in REACHES.values()]
@@ -171,11 +173,11 @@ def _read_curve(
     numbers += values_at_loads(pressure, area, np.array(list(LOAD_LEVELS.values()))).tolist()
     numbers += [value_at_level(indentation, x, values) for x in APPROACH_LEVELS.values() for values in (area, pressure)]
     ratio = gradient / surface_gradient if surface_gradient > 0 else np.full_like(gradient, np.nan)
-    return [*numbers, value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)]
+    return np.array([*numbers, value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)])
 
 
 def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Dataset:
-    """Return paths with the numbers `AREA_LOAD` of their curves of area against load, and what gaps leave open.
+    """Return paths with the numbers `AREA_LOAD` of their curves of area against load, and their errors.
 
     Parameters
     ----------
