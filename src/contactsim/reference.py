@@ -188,6 +188,16 @@ def steepest_fall(lattice_constant: float, length: float = 1.0) -> float:
     return float(-np.gradient(sums, places / length).min())
 
 
+def sticking_stiffness(stiffness: float, strength: float, lattice_constant: float, length: float = 1.0) -> float:
+    """Return the initial slope of the shear traction of `uniform_slide`, GPa/nm: body and springs in series.
+
+    For strong springs it is the body's stiffness C44/h.
+    """
+    step = 1e-6 * length
+    springs = strength * float(spring_sum(step, lattice_constant, length)[1]) / step
+    return 1 / (1 / stiffness + 1 / springs)
+
+
 def uniform_slide(
     slides: Array, stiffness: float, strength: float, lattice_constant: float, length: float = 1.0
 ) -> Array:

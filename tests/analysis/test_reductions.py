@@ -45,6 +45,8 @@ CASES = [
     ("ratio", BOTH, {"against": LOAD}, 2.0),
     ("least", GRID, {}, 10.0),
     ("largest", GRID, {}, 30.0),
+    ("largest_size", array([[-3.0, 1.0], [2.0, 2.5]], poisson_ratio=[0, 1], work_ratio=[0, 1]), {}, 3.0),
+    ("ratio_size", -BOTH, {"against": LOAD}, 2.0),
 ]  # fmt: skip
 
 
