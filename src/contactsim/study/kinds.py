@@ -115,7 +115,7 @@ class CohesiveStudy:
         slips = "t" in scene.components
         names = {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
         if scene.sliding:
-            names |= {*ONSET, *(THRESHOLD if ALONG in dimensions else ())}
+            names |= {*ONSET, *(THRESHOLD if set(ALONG) & set(dimensions) else ())}
         return names | set(AREA_LOAD)
 
 
