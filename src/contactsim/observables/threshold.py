@@ -118,7 +118,7 @@ def _approach_errors(length: Array, force: Array) -> Array:
 
 
 def fit_thresholds(data: xr.Dataset) -> xr.Dataset:
-    """Return slides at several approaches or loads with the fits of Eq. 6.9 and their errors; with fewer as they are."""
+    """Return slides at several approaches or loads with the fits of Eq. 6.9 and their errors; else as they are."""
     along = next((name for name in ALONG if data.sizes.get(name, 0) >= MIN_ONSETS), None)
     if along is None:
         return data

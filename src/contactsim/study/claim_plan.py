@@ -66,9 +66,10 @@ CAUSE_KEYS = {
     "kind": Key(choice(KINDS), f"one of {', '.join(KINDS)}"),
     "text": Key(text, "a short text with the number that shows it"),
 }
-CASE_KEYS = {key: CLAIM_KEYS[key] for key in ("study", "relative_to", "minus", "quantity", "against", "select")}
+REPLACED = ("study", "relative_to", "minus", "quantity", "reduce", "along", "against", "select")
+CASE_KEYS = {key: CLAIM_KEYS[key] for key in REPLACED}
 """Keys that a further case of a statement may replace."""
-CHOICE_KEYS = CASE_KEYS | {"cases": CLAIM_KEYS["cases"]}
+CHOICE_KEYS = {key: CLAIM_KEYS[key] for key in (*REPLACED, "cases")}
 """Keys that an admissible alternative may replace."""
 BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
 """Sets of keys that give a band."""
