@@ -425,6 +425,20 @@ def test_flats_that_stick_are_springs_in_series():
     assert slope < stiffness
 
 
+def test_a_sine_slides_by_the_model_of_prandtl_and_tomlinson():
+    offsets = np.linspace(0.0, LATTICE, 401)
+    sine = reference.sine_sum(offsets, LATTICE)
+    assert sine.max() == pytest.approx(reference.spring_sum(offsets, LATTICE)[1].max(), rel=1e-4)
+    np.testing.assert_allclose(sine[::-1], -sine, atol=1e-12)
+    steepest = 2 * np.pi / LATTICE * sine.max()  # of a sine; stick-slip ends where the body is as stiff
+    slides = np.linspace(0.0, 12.0, 12001)
+    for beside, slips in ((0.9, True), (1.1, False)):
+        force = reference.uniform_slide(slides, beside * 0.1 * steepest, 0.1, LATTICE, sine=True)
+        gap = slides - force / (beside * 0.1 * steepest)
+        np.testing.assert_allclose(force, 0.1 * reference.sine_sum(gap, LATTICE), atol=1e-9)
+        assert (np.diff(gap).max() > 0.1 * LATTICE) == slips
+
+
 def test_friction_over_strength_depends_on_modulus_over_strength_alone():
     slides = np.linspace(0.0, 12.0, 601)
     np.testing.assert_allclose(exact(140.0, 0.2, slides), 2 * exact(70.0, 0.1, slides), rtol=1e-12)
