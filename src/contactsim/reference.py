@@ -188,6 +188,46 @@ def maugis_cylinder_pull_off(work: Array | float, radius: float, contact_modulus
     return pull.max(-1)
 
 
+def sheared_half_width(
+    load: Array | float, tangential_force: Array | float, work: float, radius: float, contact_modulus: float
+) -> Array:
+    """Return the half-width (nm) of an adhesive cylinder on a half-space that carries a tangential force.
+
+    Parameters
+    ----------
+    load, tangential_force
+        Load P, compression positive, and tangential force F, N/m, of one shape.
+    work
+        Work of separation w, N/m.
+    radius
+        Radius R, nm.
+    contact_modulus
+        E*, GPa.
+
+    Returns
+    -------
+    The stable half-width a, NaN where there is none.
+
+    Notes
+    -----
+    (π E* a²/(4R) - P)² + F² = 2π E* w a: a crack whose energy release rate, that of both modes, is the work. It is the
+    line's form of Savkoor and Briggs (1977, doi:10.1098/rspa.1977.0123), without friction in the crack. Without F it is
+    `cylinder_pull_off`'s contact.
+    """
+    curvature = np.pi * contact_modulus / (4 * radius)
+    forces = np.broadcast_arrays(np.asarray(load, float), np.asarray(tangential_force, float))
+
+    def largest_root(normal: float, tangential: float) -> float:
+        """Return the largest real half-width, NaN where there is none."""
+        terms = [curvature**2, 0.0, -2 * curvature * normal, -2 * np.pi * contact_modulus * work]
+        roots = np.roots([*terms, normal**2 + tangential**2])
+        real = roots.real[(abs(roots.imag) <= 1e-6 * abs(roots)) & (roots.real > 0)]
+        return float(real.max()) if real.size else np.nan
+
+    values = [largest_root(*pair) for pair in zip(*(force.ravel() for force in forces), strict=True)]
+    return np.reshape(values, forces[0].shape)
+
+
 def rigid_cylinder_pull_off(work: Array | float, radius: float, length: float) -> Array:
     """Pull-off w √(2π R/(e δ)) of a rigid cylinder by the exponential cohesive zone; N/m, nm to N/m.
 
@@ -238,19 +278,42 @@ def steepest_fall(lattice_constant: float, length: float = 1.0) -> float:
     return float(-np.gradient(sums, places / length).min())
 
 
+def sticking_stiffness(stiffness: float, strength: float, lattice_constant: float, length: float = 1.0) -> float:
+    """Return the initial slope of the shear traction of `uniform_slide`, GPa/nm: body and springs in series.
+
+    For strong springs it is the body's stiffness C44/h.
+    """
+    step = 1e-6 * length
+    springs = strength * float(spring_sum(step, lattice_constant, length)[1]) / step
+    return 1 / (1 / stiffness + 1 / springs)
+
+
+def sine_sum(offset: Array | float, lattice_constant: float, length: float = 1.0) -> Array:
+    """Return a sine of the lattice constant whose amplitude is that of S of `spring_sum`: Prandtl and Tomlinson's."""
+    amplitude = spring_sum(np.linspace(0.0, lattice_constant, 2001), lattice_constant, length)[1].max()
+    return amplitude * np.sin(2 * np.pi * np.asarray(offset) / lattice_constant)
+
+
 def uniform_slide(
-    slides: Array, stiffness: float, strength: float, lattice_constant: float, length: float = 1.0
+    slides: Array,
+    stiffness: float,
+    strength: float,
+    lattice_constant: float,
+    length: float = 1.0,
+    sine: bool = False,
 ) -> Array:
     """Shear traction (slide,), GPa, of a flat layer sliding slowly over a rigid flat lattice: one degree of freedom.
 
     slides: displacement of its far side, growing from 0, nm; stiffness: C44/h, GPa/nm; strength: φt/δt at Δn = 0, GPa.
     The gap u follows U = u + (φt/δt) S(u) C⁻¹ and slips, overdamped, where U has a maximum in u to the next u that has
-    that U. Exact but for rounding: bracketed on a fine grid and refined by bisection.
+    that U. Exact but for rounding: bracketed on a fine grid and refined by bisection. With `sine` S is `sine_sum`, and
+    the layer slides by the model of Prandtl and Tomlinson.
     """
 
     def driven(gap: Array) -> Array:
         """The slide that holds a gap."""
-        return gap + strength / stiffness * spring_sum(gap, lattice_constant, length)[1]
+        pull = sine_sum if sine else lambda *place: spring_sum(*place)[1]
+        return gap + strength / stiffness * pull(gap, lattice_constant, length)
 
     slides = np.asarray(slides, float)
     gaps = np.arange(0.0, slides.max() + 2 * lattice_constant, lattice_constant / 4000)

@@ -47,6 +47,8 @@ CASES = [
     ("largest", GRID, {}, 30.0),
     ("furthest_from_one", 0.05 * GRID, {}, 0.5),
     ("furthest_from_one", 0.1 * GRID, {}, 3.0),
+    ("largest_size", array([[-3.0, 1.0], [2.0, 2.5]], poisson_ratio=[0, 1], work_ratio=[0, 1]), {}, 3.0),
+    ("ratio_size", -BOTH, {"against": LOAD}, 2.0),
 ]  # fmt: skip
 
 

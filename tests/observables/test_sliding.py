@@ -384,7 +384,66 @@ def test_peeling_at_one_edge_is_asymmetric():
     assert np.isnan(peeling.edge_peel(trailing, leading, distance, 3.0)).all()
     assert peeling.peel_asymmetry(1.0, 1.0) == 0.0
     assert peeling.peel_asymmetry(3.0, 1.0) == pytest.approx(0.5)
+    assert peeling.peel_asymmetry(3.0, -1.0) == pytest.approx(2.0)
     assert np.isnan(peeling.peel_asymmetry(0.0, 0.0))
+    assert np.isnan(peeling.peel_asymmetry(1.0, -2.0))
+
+
+def test_the_shift_is_read_where_a_share_of_the_loss_is_lost():
+    trailing, leading = np.array([-5.0, -4.0, -1.0, 1.0]), np.array([5.0, 4.0, 4.0, 3.0])
+    assert peeling.edge_shift(trailing, leading, 0.25) == pytest.approx(0.0)
+    assert peeling.edge_shift(trailing, leading, 0.5) == pytest.approx(1.0)
+    assert peeling.edge_shift(trailing, leading, 1.0) == pytest.approx(2.0)
+    lost = np.array([False, False, False, True])
+    without = [np.where(lost, np.nan, edge) for edge in (trailing, leading)]
+    assert peeling.edge_shift(*without, 0.25) == pytest.approx(0.25)
+    assert peeling.edge_shift(*without, 0.75) == pytest.approx(1.5)
+    assert np.isnan(peeling.edge_shift(*[edge[:1] for edge in without], 0.25))
+    assert np.isnan(peeling.edge_shift(trailing[::-1], leading[::-1], 0.25))
+
+
+def test_slips_that_reattach_are_counted_one_by_one():
+    data = dataset()
+    assert float(friction.summarise_slides(data).reattachment_count) == float(
+        friction.summarise_slides(data).slip_count
+    )
+    after = data.event_length_after.copy()
+    after[{"event": 1}] = 0.0
+    summary = friction.summarise_slides(data.assign(event_length_after=after))
+    assert float(summary.reattachment_count) == float(summary.slip_count) - 1
+    assert float(friction.summarise_slides(dataset_without_slips()).reattachment_count) == 0
+
+
+def test_flats_that_stick_are_springs_in_series():
+    data = friction.summarise_slides(simulate(flat(70.0, 0.2, [0.0, 8.0]), points=16, tolerance=1e-7))
+    stiffness = 70.0 / (2 * (1 + RATIO)) / 500.0
+    slope = reference.sticking_stiffness(stiffness, 0.2, LATTICE)
+    distance = np.linspace(0.0, 1e-3, 5)
+    np.testing.assert_allclose(exact(70.0, 0.2, distance), slope * distance, rtol=1e-6, atol=1e-9)
+    assert float(data.sticking_stiffness) / 100.0 == pytest.approx(slope, rel=0.1)
+    assert float(data.sticking_r_squared) > 0.98
+    assert slope < stiffness
+
+
+def test_a_sine_slides_by_the_model_of_prandtl_and_tomlinson():
+    offsets = np.linspace(0.0, LATTICE, 401)
+    sine = reference.sine_sum(offsets, LATTICE)
+    assert sine.max() == pytest.approx(reference.spring_sum(offsets, LATTICE)[1].max(), rel=1e-4)
+    np.testing.assert_allclose(sine[::-1], -sine, atol=1e-12)
+    steepest = 2 * np.pi / LATTICE * sine.max()  # of a sine; stick-slip ends where the body is as stiff
+    slides = np.linspace(0.0, 12.0, 12001)
+    for beside, slips in ((0.9, True), (1.1, False)):
+        force = reference.uniform_slide(slides, beside * 0.1 * steepest, 0.1, LATTICE, sine=True)
+        gap = slides - force / (beside * 0.1 * steepest)
+        np.testing.assert_allclose(force, 0.1 * reference.sine_sum(gap, LATTICE), atol=1e-9)
+        assert (np.diff(gap).max() > 0.1 * LATTICE) == slips
+
+
+def test_friction_over_strength_depends_on_modulus_over_strength_alone():
+    slides = np.linspace(0.0, 12.0, 601)
+    np.testing.assert_allclose(exact(140.0, 0.2, slides), 2 * exact(70.0, 0.1, slides), rtol=1e-12)
+    forces = [walked(flat(modulus, work, [0.0, 6.0], 0.2, 8))[3] for modulus, work in ((140.0, 0.2), (70.0, 0.1))]
+    np.testing.assert_allclose(forces[0], 2 * forces[1], atol=1e-5 * forces[0].max())
 
 
 def test_the_shift_is_half_the_difference_of_what_peels_over_the_contact():

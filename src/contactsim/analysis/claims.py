@@ -13,6 +13,8 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.analysis.admissible import Choice, candidate_choices, choice_entries
+from contactsim.analysis.cases import DEFAULT as DEFAULT_CASE
+from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
@@ -50,7 +52,8 @@ def comparison_text(claim: Mapping) -> str:
     second = "".join(
         f" in {claim['study']} {word} {claim[key]}" for key, (word, _) in SECOND_STUDY.items() if claim[key]
     )
-    return f"{claim['reduce']} of {claim['quantity']}{second}{''.join(inputs)}"
+    cases = f", worst of {1 + len(claim['cases'])} cases" if claim["cases"] else ""
+    return f"{claim['reduce']} of {claim['quantity']}{second}{''.join(inputs)}{cases}"
 
 
 def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
@@ -145,9 +148,17 @@ def judge_choices(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[Choice
     """Return the verdicts with the admissible readings of a claim beside the default; data: dataset of each study."""
     choices = []
     for name, settings in (claim["admissible"] or {}).items():
-        studied = _studied(settings, data)
-        choices.append(Choice.of(name, judge(counted_row(settings, studied), studied)))
+        choices.append(Choice.of(name, judge_cases(settings, data)))
     return choices
+
+
+def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, object]:
+    """Return the row of a claim that holds if it holds in all its cases; data: dataset of each study."""
+    rows = {}
+    for name, settings in {DEFAULT_CASE: claim, **(claim["cases"] or {})}.items():
+        studied = _studied(settings, data)
+        rows[name] = judge(counted_row(settings, studied), studied)
+    return join_cases(rows)
 
 
 def _studied(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[xr.Dataset]:
@@ -175,7 +186,7 @@ def judge_claims(
         claim = counted_row(settings, studied)
         choices = judge_choices(settings, data)
         choices += [] if candidates is None else candidate_choices(candidates, name)
-        row = judge(claim, studied)
+        row = judge_cases(settings, data)
         row |= choice_entries(row, choices)
         cause = None if claim["cause"] is None else Cause(**claim["cause"])
         rows.append(

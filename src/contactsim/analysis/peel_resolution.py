@@ -19,7 +19,7 @@ def leave_out_unresolved_peel(data: xr.Dataset) -> xr.Dataset:
         name, edges = f"peel_asymmetry{suffix}", [f"{edge}_peel{suffix}" for edge in ("trailing", "leading")]
         if name not in data or any(f"{edge}{GRID_ERROR}" not in data for edge in edges):
             continue
-        peel = abs(data[edges[0]]) + abs(data[edges[1]])
+        peel = data[edges[0]] + data[edges[1]]
         error = data[f"{edges[0]}{GRID_ERROR}"] + data[f"{edges[1]}{GRID_ERROR}"]
         data = data.assign({name: data[name].where(peel > MIN_PEEL * error)})
     return data

@@ -155,6 +155,16 @@ def furthest_from_one(values: xr.DataArray, places: Places) -> float:
     return float(values.isel(places))
 
 
+def largest_size(values: xr.DataArray, places: Places) -> float:
+    """Return the largest size of all points, whatever their sign."""
+    return float(abs(values).isel(places))
+
+
+def ratio_size(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
+    """Return the largest size of the ratio to another quantity, whatever its sign."""
+    return float(abs(values / against).isel(places))
+
+
 def rising_steps(values: xr.DataArray, along: str) -> xr.DataArray:
     """Return the changes from one value of a dimension to the next, positive where the quantity rises."""
     return values.diff(along)
@@ -234,9 +244,11 @@ REDUCTIONS: dict[str, Reduction] = {
     "shortfall": Reduction(shortfall, neutral=0.0),
     "departure": Reduction(departure, _place_of_departure, neutral=0.0),
     "ratio": Reduction(ratio, lambda values, against: _place_of_largest(values / against), neutral=0.0),
+    "ratio_size": Reduction(ratio_size, lambda values, against: _place_of_largest(abs(values / against)), neutral=0.0),
     "least": Reduction(least, lambda values: _place_of_largest(-values)),
     "largest": Reduction(largest, _place_of_largest),
     "furthest_from_one": Reduction(furthest_from_one, lambda values: _place_of_largest(abs(values - 1)), neutral=1.0),
+    "largest_size": Reduction(largest_size, lambda values: _place_of_largest(abs(values)), neutral=0.0),
 }
 """Reductions to one number, by the name that claims give them."""
 ORDERS: dict[str, Callable[[xr.DataArray, str], xr.DataArray]] = {

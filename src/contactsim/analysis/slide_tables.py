@@ -11,7 +11,7 @@ import xarray as xr
 
 from contactsim import reference
 from contactsim.analysis.ensemble import converged
-from contactsim.analysis.scales import LawScales, body_settings, critical_modulus_ratio, lattice_constant
+from contactsim.analysis.scales import LawScales, body_settings, critical_modulus_ratio, lattice_constant, radius
 from contactsim.grid import Array
 
 MODULUS, FIRST_APPROACH = 70.0, 10.0
@@ -57,28 +57,38 @@ def stages(data: xr.Dataset, table: pd.DataFrame) -> list[int]:
     return [0, peeling, (peeling + before) // 2, before, after]
 
 
-def exact_flat_force(data: xr.Dataset, slides: Array) -> Array:
+def exact_flat_force(data: xr.Dataset, slides: Array, sine: bool = False) -> Array:
     """Return the force of a flat against its sliding distance, with one degree of freedom.
 
-    data: of one variant; slides: nm; the force is over the period and `MODULUS`
+    data: of one variant; slides: nm; the force is over the period and `MODULUS`; sine: by Prandtl and Tomlinson's model
     """
     law, body = LawScales.of(data), body_settings(data, "counter_body")
     modulus = float(data.counter_body_youngs_modulus)
     stiffness = modulus / (2 * (1 + body["poisson_ratio"])) / body["thickness"]
     length = law.tangential_length
     strength = law.work_of_separation * float(data.work_ratio) / length
-    return reference.uniform_slide(slides, stiffness, strength, lattice_constant(data), length) / MODULUS
+    return reference.uniform_slide(slides, stiffness, strength, lattice_constant(data), length, sine) / MODULUS
 
 
 def friction_against_modulus(data: xr.Dataset) -> pd.DataFrame:
     """Return the mean friction of flats against the modulus over the strength.
 
     Columns: modulus_over_strength, mean_friction (Eq. 6.7), average_friction (over whole periods), their increment
-    errors, slip_count, thickness (nm), and critical: the modulus over the strength above which sliding is smooth.
+    errors, relative_friction (the first over period and strength), slip_count, thickness (nm), and critical: modulus
+    over strength above which sliding is smooth. The study varies the modulus or the ratio of works.
     """
     member, law, body = data.isel(member=0), LawScales.of(data), body_settings(data, "counter_body")
-    strength = reference.tangential_strength(law.tangential_work, law.tangential_length, 0.0)
-    table = {"modulus_over_strength": member.counter_body_youngs_modulus.values / strength}
+    ratio = member.work_ratio.values if "work_ratio" in member.dims else law.work_ratio
+    modulus = (
+        member.counter_body_youngs_modulus.values
+        if "counter_body_youngs_modulus" in member.dims
+        else body["youngs_modulus"]
+    )
+    strength = reference.tangential_strength(law.work_of_separation * ratio, law.tangential_length, 0.0)
+    table = {
+        "modulus_over_strength": modulus / strength,
+        "relative_friction": member.mean_friction.values / (float(member.length) * strength),
+    }
     scale = 1 / (float(member.length) * MODULUS)
     names = ("mean_friction", "average_friction")
     table |= {name: scale * member[name].values for name in names}
@@ -91,14 +101,36 @@ def friction_against_modulus(data: xr.Dataset) -> pd.DataFrame:
     return pd.DataFrame(table)
 
 
+def friction_by_prandtl_tomlinson(data: xr.Dataset, ratios: Array) -> Array:
+    """Return Eq. 6.7 over period and strength at moduli over strength, of a sine as high as the sum of the springs."""
+    law, body, lattice = LawScales.of(data), body_settings(data, "counter_body"), lattice_constant(data)
+    strength = reference.tangential_strength(1.0, law.tangential_length, 0.0)
+    means = []
+    for ratio in ratios:
+        stiffness = ratio * strength / (2 * (1 + body["poisson_ratio"])) / body["thickness"]
+        onset = strength / stiffness + lattice
+        slides = np.linspace(0.0, onset + 3 * lattice, 1501)
+        force = reference.uniform_slide(slides, stiffness, 1 / law.tangential_length, lattice, sine=True)
+        end = force[slides >= onset]
+        means.append((end.max() + end.min()) / 2 / strength)
+    return np.array(means)
+
+
 def contact_to_onset(data: xr.Dataset) -> pd.DataFrame:
-    """Return force and contact of a slide up to the onset, and `fit`: the contact by Eq. 6.8, A0 - ζF²."""
-    period = float(data.length)
+    """Return force and contact of a slide up to the onset, and what two laws make of it.
+
+    `fit`: the contact by Eq. 6.8, A0 - ζF²; `crack`: that of a crack of both modes on a half-space, at the load of each
+    state (`reference.sheared_half_width`).
+    """
+    period, body = float(data.length), body_settings(data, "counter_body")
     table = slide_table(data)
-    table = table[table.slide <= float(data.onset_sliding_distance) + ROUNDING][["force", "area"]]
-    force = table.force.values * period * MODULUS
+    table = table[table.slide <= float(data.onset_sliding_distance) + ROUNDING][["force", "area", "load"]]
+    force, load = (table[name].values * period * MODULUS for name in ("force", "load"))
     fit = (float(data.initial_contact_length) - float(data.quadratic_coefficient) * force**2) / period
-    return table.assign(fit=fit)
+    contact_modulus = body["youngs_modulus"] / (1 - body["poisson_ratio"] ** 2)
+    work = LawScales.of(data).work_of_separation
+    half_width = reference.sheared_half_width(load, force, work, radius(data), contact_modulus)
+    return table.drop(columns="load").assign(fit=fit, crack=2 * half_width / period)
 
 
 def onset_table(data: xr.Dataset) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from contactsim import reference
 from contactsim.analysis import slide_tables
-from contactsim.analysis.scales import LawScales, varied_key
+from contactsim.analysis.scales import LawScales, lattice_constant, varied_key
 from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
 from contactsim.figures.parts import law_curves
@@ -68,13 +68,21 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         error = max(float(np.abs(curve.force - curve.exact).max() / curve.exact.max()) for curve in curves_of_panel)
         label = f"exact, one degree of freedom\n(apart by {error:.0e} of the force at most)"
         panel.plot([], [], ".", color=style.EXACT, ms=3, label=label)
+        panel.plot([], [], color=style.EXACT, lw=0.7, ls=":", label="Prandtl–Tomlinson, sine as high")
         panel.axhline(0.0, **style.ZERO)
+        _mark_periods(panel, lattice_constant(data), float(curves_of_panel[0].slide.max()))
         panel.set(xlabel=curves.SLIDE_NM, ylabel=curves.FORCE)
-        style.add_headroom(panel, 0.6)
+        style.add_headroom(panel, 0.75)
         panel.legend(loc="upper left")
         tables += curves_of_panel
     style.add_letters(axes)
     return pd.concat(tables)
+
+
+def _mark_periods(axes: Axes, lattice: float, end: float) -> None:
+    """Mark the multiples of the lattice constant on the upper edge of a panel of slides, nm."""
+    for place in np.arange(lattice, end, lattice):
+        axes.axvline(place, ymin=0.97, color=style.LIGHT_GREY, lw=0.6)
 
 
 def _plot_flat(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
@@ -87,28 +95,55 @@ def _plot_flat(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
     label = rf"$\bar E={modulus:g}$, $\bar\varphi_t={work:g}$"
     axes.plot(table.slide, table.force, color=colour, lw=1.1, label=label)
     axes.plot(table.slide[::4], table.exact[::4], ".", color=style.EXACT, ms=1.6, zorder=3)
-    return table.assign(youngs_modulus=modulus, tangential_work=work)
+    sine = slide_tables.exact_flat_force(path, table.slide.values, sine=True)
+    axes.plot(table.slide, sine, color=colour, lw=0.7, ls=":")
+    return table.assign(sine=sine, youngs_modulus=modulus, tangential_work=work)
 
 
-def fig_6_5(thin: xr.Dataset, thick: xr.Dataset, axes: Axes) -> pd.DataFrame:
-    """Plot the mean friction of flats against modulus over strength, for two thicknesses (thesis Fig. 6.5)."""
+def fig_6_5(
+    thin: xr.Dataset, thick: xr.Dataset, weaker: xr.Dataset, weaker_thick: xr.Dataset, axes: list[Axes]
+) -> pd.DataFrame:
+    """Plot the mean friction of flats against modulus over strength (thesis Fig. 6.5), and the same over the strength.
+
+    Weaker interfaces lie on the curves of stiffer layers of their thickness.
+    """
     tables = []
-    for data, colour in zip((thin, thick), (style.CONTACT, style.WHOLE), strict=True):
-        table = slide_tables.friction_against_modulus(data)
-        thickness, critical = table.thickness.iloc[0], table.critical.iloc[0]
-        for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):
-            label = rf"$h={thickness:g}$ nm" if name == "mean_friction" else None
-            look = style.marker_look(colour, size=3.5, fill=fill) | {"ls": line, "lw": 0.9, "label": label}
-            bars = table[f"{name}_increment_error"]
-            axes.errorbar(table.modulus_over_strength, table[name], bars, **look, **style.BARS)
-        if critical < table.modulus_over_strength.max():
-            _shade_smooth(axes, critical, 1.3 * table.modulus_over_strength.max(), thickness, colour)
-        tables.append(table.drop(columns=["mean_friction_increment_error", "average_friction_increment_error"]))
+    for studies, colour in zip(((thin, weaker), (thick, weaker_thick)), (style.CONTACT, style.WHOLE), strict=True):
+        by_modulus, by_work = (slide_tables.friction_against_modulus(data) for data in studies)
+        thickness, critical = by_modulus.thickness.iloc[0], by_modulus.critical.iloc[0]
+        largest = max(table.modulus_over_strength.max() for table in (by_modulus, by_work))
+        _plot_friction(axes[0], by_modulus, colour, rf"$h={thickness:g}$ nm")
+        for table, marker, fill in ((by_modulus, "o", colour), (by_work, "D", "none")):
+            look = style.marker_look(colour, marker, size=3.5, fill=fill)
+            axes[1].plot(table.modulus_over_strength, table.relative_friction, ls="none", **look)
+        ratios = np.geomspace(by_modulus.modulus_over_strength.min(), largest, 60)
+        sine = slide_tables.friction_by_prandtl_tomlinson(studies[0], ratios)
+        axes[1].plot(ratios, sine, color=colour, lw=0.8, ls=":")
+        if critical < largest:
+            _shade_smooth(axes[0], critical, 1.3 * largest, thickness, colour)
+        errors = ["mean_friction_increment_error", "average_friction_increment_error"]
+        tables += [table.drop(columns=errors) for table in (by_modulus, by_work)]
     lines = style.line_handles({r"$(F_s+F_k)/2$ (Eq. 6.7)": "-", "mean over whole periods": "--"})
-    axes.set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"friction $\langle\bar F\rangle$")
-    axes.axhline(0.0, **style.ZERO)
-    axes.legend(handles=[*axes.get_legend_handles_labels()[0], *lines], loc="lower left")
+    axes[0].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"friction $\langle\bar F\rangle$")
+    axes[1].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"$\langle F\rangle/(w\tau_{\max})$")
+    for panel in axes:
+        panel.axhline(0.0, **style.ZERO)
+    axes[0].legend(handles=[*axes[0].get_legend_handles_labels()[0], *lines], loc="upper right")
+    looks = (("$E$ varied", "o", style.EXACT), (r"$\varphi_t$ varied, $E=70$ GPa", "D", "none"))
+    for label, marker, fill in looks:
+        axes[1].plot([], [], ls="none", label=label, **style.marker_look(style.EXACT, marker, size=3.5, fill=fill))
+    axes[1].plot([], [], color=style.EXACT, lw=0.8, ls=":", label="Prandtl–Tomlinson, sine as high")
+    axes[1].legend(loc="upper right")
+    style.add_letters(axes)
     return pd.concat(tables)
+
+
+def _plot_friction(axes: Axes, table: pd.DataFrame, colour: str, label: str) -> None:
+    """Plot both means of the friction of flats against modulus over strength, with their increment errors."""
+    for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):
+        own_label = label if name == "mean_friction" else None
+        look = style.marker_look(colour, size=3.5, fill=fill) | {"ls": line, "lw": 0.9, "label": own_label}
+        axes.errorbar(table.modulus_over_strength, table[name], table[f"{name}_increment_error"], **look, **style.BARS)
 
 
 def _shade_smooth(axes: Axes, critical: float, end: float, thickness: float, colour: str) -> None:
@@ -161,22 +196,27 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     path_axes, onset_axes = axes
     tables = []
     for approach, colour in style.shades(data.slide_approach).items():
-        table = slide_tables.contact_to_onset(data.sel(slide_approach=approach).isel(member=0))
-        path_axes.plot(table.force, table.area, ".", color=colour, ms=2.2, label=curves.approach_label(approach))
-        path_axes.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=0.8)
+        path = data.sel(slide_approach=approach).isel(member=0)
+        table = slide_tables.contact_to_onset(path)
+        path_axes.plot(table.force[::5], table.area[::5], ".", color=colour, ms=1.6)
+        label = rf"{curves.approach_label(approach)}, $R^2={float(path.quadratic_r_squared):.3f}$"
+        path_axes.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=1.0, label=label)
+        path_axes.plot(table.force, table.crack, color=colour, lw=0.7, ls=":")
         path_axes.plot(table.force.iloc[-1], table.area.iloc[-1], "o", color="black", ms=3.5)
         tables.append(table.assign(approach=approach, study="a"))
     path_axes.set(xlabel=curves.FORCE, ylabel=curves.AREA)
-    style.add_headroom(path_axes, 0.3)
-    path_axes.legend(loc="upper right", ncols=3, fontsize=6.5)
+    path_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label="crack of both modes")
+    style.add_headroom(path_axes, 0.6)
+    path_axes.legend(loc="upper right", ncols=2, fontsize=6.5)
     for study, colour, marker in ((data, "black", "o"), (weak, style.WHOLE, "s"), (slippery, style.CONTACT, "^")):
         tables.append(_plot_onsets(onset_axes, study, colour, marker))
+    onset_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=r"$\bar\tau_c\bar A_s$ alone (Bowden–Tabor)")
     onset_axes.set(xlabel=r"$\bar A_s$", ylabel=r"$\bar F_s$")
     onset_axes.legend(loc="upper left")
     onset_axes.set_ylim(bottom=0.0)
     style.add_headroom(onset_axes, 0.25)
     style.add_letters(axes)
-    columns = ["force", "area", "approach", "fit", "study", "shear_strength", "offset"]
+    columns = ["force", "area", "approach", "fit", "crack", "study", "shear_strength", "offset"]
     return pd.concat(tables)[columns]
 
 
@@ -187,6 +227,7 @@ def _plot_onsets(axes: Axes, data: xr.Dataset, colour: str, marker: str) -> pd.D
     axes.plot(table.area, table.force, ls="none", label=label, **style.marker_look(colour, marker, fill="none"))
     ends = np.array([0.0, float(table.area.max())])
     axes.plot(ends, table.shear_strength.iloc[0] * ends + table.offset.iloc[0], color=colour, lw=0.8)
+    axes.plot(ends, table.shear_strength.iloc[0] * ends, color=colour, lw=0.7, ls=":")
     return table.assign(study=label)
 
 

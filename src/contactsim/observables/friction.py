@@ -15,6 +15,7 @@ from contactsim.grid import Array
 from contactsim.observables.peeling import (
     PEELING,
     edge_peel,
+    edge_shift,
     fit_exponent,
     fit_quadratic_law,
     peel_asymmetry,
@@ -37,6 +38,9 @@ ONSET = (
     "reattached_fraction",
     "regained_fraction",
     "slip_count",
+    "reattachment_count",
+    "sticking_stiffness",
+    "sticking_r_squared",
     "first_force_drop",
     "first_slip_periods",
     "first_slip_released_energy",
@@ -62,6 +66,8 @@ SLIDE_INPUTS = (*STATE_NUMBERS, *EVENT)
 """Variables that only a dataset of slides has all of."""
 MIN_STATES = 3
 """Smallest number of states that is summarised."""
+SHRINKING = {"quarter": 0.25, "three_quarters": 0.75}
+"""Parts of the length lost up to the onset of sliding at which the shift of the contact is read."""
 STORING_SLIDE = 1.0
 """Sliding distance, nm, up to which the stored energy is compared while the contact sticks."""
 
@@ -94,10 +100,12 @@ def summarise_slide(
     line = Polyline.from_states(states, events, int(np.flatnonzero(on_slide)[0]))
     numbers["initial_contact_length"], numbers["initial_load"] = states["contact_length"][0], states["line_load"][0]
     numbers["slip_count"], numbers["stored_energy"] = float(line.slips.size), _stored_energy(line, states)
+    gains = _regained_lengths(line)
+    numbers["reattachment_count"] = np.nan if np.isnan(gains).any() else float(np.count_nonzero(gains > 0))
     onset = line.onset
     if onset is None:
         return numbers, errors
-    numbers |= _peeling_numbers(line, states, onset)
+    numbers |= _peeling_numbers(line, states, onset) | _sticking_numbers(line, onset)
     for more_numbers, more_errors in (
         _friction_numbers(line, states, onset, period),
         _slip_numbers(line, events, period),
@@ -130,6 +138,17 @@ def _friction_numbers(
     return numbers, errors
 
 
+def _sticking_numbers(line: Polyline, onset: int) -> dict[str, float]:
+    """Return slope (GPa) and R² of the straight line through the forces up to the onset of sliding."""
+    distance, force = line.sliding_distance[: onset + 1], line.force[: onset + 1]
+    if force.size < MIN_STATES or not np.ptp(force):
+        return {}
+    slope, offset = np.polyfit(distance, force, 1)
+    squares = np.sum((force - slope * distance - offset) ** 2)
+    r_squared = 1 - squares / np.sum((force - force.mean()) ** 2)
+    return {"sticking_stiffness": float(slope), "sticking_r_squared": float(r_squared)}
+
+
 def _stored_energy(line: Polyline, states: Mapping[str, Array]) -> float:
     """Return the elastic energy (nJ/m) that a slide by `STORING_SLIDE` adds; NaN if the contact slips before."""
     end = line.slips[0] if line.slips.size else -1
@@ -159,7 +178,10 @@ def _edge_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> di
     last = int(line.state[onset])
     trailing, leading = (states[f"contact_{edge}_edge"][: last + 1] for edge in ("trailing", "leading"))
     distance = states["sliding_distance"][: last + 1]
-    numbers: dict[str, float] = {}
+    numbers = {
+        f"contact_shift_{name}": edge_shift(trailing, leading, share) * _per_initial_length(states)
+        for name, share in SHRINKING.items()
+    }
     for suffix, place in (("_halfway", line.sliding_distance[onset] / 2), ("", float(distance[-1]))):
         behind, ahead = edge_peel(trailing, leading, distance, place)
         numbers |= {
@@ -181,8 +203,13 @@ def _reattachment(line: Polyline, states: Mapping[str, Array]) -> dict[str, floa
     first, share = line.slips[0], _per_initial_length(states)
     return {
         "reattached_fraction": line.length[first] * share if line.length[first] > 0 else np.nan,
-        "regained_fraction": (line.length[first] - line.length[first - 1]) * share,
+        "regained_fraction": _regained_lengths(line)[0] * share,
     }
+
+
+def _regained_lengths(line: Polyline) -> Array:
+    """Return the length (nm) by which the contact grows at each slip; NaN of flats."""
+    return line.length[line.slips] - line.length[line.slips - 1]
 
 
 def _per_initial_length(states: Mapping[str, Array]) -> float:

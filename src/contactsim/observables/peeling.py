@@ -8,7 +8,9 @@ from contactsim.grid import Array
 
 PEELING = (
     "peeled_fraction",
+    "contact_shift_quarter",
     "contact_shift_halfway",
+    "contact_shift_three_quarters",
     "contact_shift",
     "trailing_peel_halfway",
     "leading_peel_halfway",
@@ -113,9 +115,41 @@ def edge_peel(trailing: Array, leading: Array, distance: Array, place: float) ->
 
 
 def peel_asymmetry(behind: float, ahead: float) -> float:
-    """Return the difference of the lengths peeled at the trailing and the leading edge over their sum, -1 to 1."""
-    total = abs(behind) + abs(ahead)
+    """Return the difference of the lengths peeled at the trailing and the leading edge over their sum.
+
+    It is 1 if only the trailing edge peels, and larger if the leading edge moves outwards. NaN if nothing peels in sum.
+    """
+    total = behind + ahead
     return (behind - ahead) / total if total > 0 else np.nan
+
+
+def edge_shift(trailing: Array, leading: Array, share: float) -> float:
+    """Return the shift of a contact's centre (nm) where it has lost a share of what it loses in all.
+
+    Parameters
+    ----------
+    trailing, leading
+        Positions of the edges up to the onset of sliding, nm, (state,); NaN without contact.
+    share
+        Part of the length that is lost in all, which may be the whole contact.
+
+    Returns
+    -------
+    The shift, interpolated between two states with contact; else that of the last state with contact before. NaN if
+    the contact does not shrink.
+    """
+    length = np.nan_to_num(leading - trailing)
+    centre = (leading + trailing) / 2
+    lost = length[0] - length
+    reached = np.flatnonzero(lost >= share * lost[-1])
+    if not lost[-1] > 0 or not reached.size:
+        return np.nan
+    after = int(reached[0])
+    before = after - 1
+    if np.isnan(centre[after]):
+        return float(centre[before] - centre[0])
+    part = (share * lost[-1] - lost[before]) / (lost[after] - lost[before])
+    return float(centre[before] + part * (centre[after] - centre[before]) - centre[0])
 
 
 def _is_varied(force: Array, length: Array) -> bool:

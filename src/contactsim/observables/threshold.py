@@ -5,19 +5,19 @@ The straight line is fitted to all onsets, those without contact included, and t
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass, fields
+from dataclasses import astuple, dataclass
 
 import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
 
-ALONG = "slide_approach"
-"""The dimension along which Eq. 6.9 is fitted."""
+ALONG = ("slide_approach", "slide_mean_pressure")
+"""Dimensions along which Eq. 6.9 is fitted."""
 MIN_ONSETS = 3
 """Smallest number of onsets to which the line is fitted."""
-CONTACTS_ONLY, APPROACH_ERROR = "_contacts_only", "_approach_error"
-"""Ends of the names of numbers of the fit to onsets with contact, and of errors by leaving out one approach."""
+APPROACH_ERROR = "_approach_error"
+"""End of the names of errors by leaving out one approach."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,16 @@ class ThresholdFit:
     threshold_r_squared: float = np.nan
 
 
-FIT = tuple(entry.name for entry in fields(ThresholdFit))
-THRESHOLD = (*FIT, *(f"{name}{CONTACTS_ONLY}" for name in FIT))
-"""Numbers of Eq. 6.9, fitted over the approaches of a study."""
+FIT = ("shear_strength", "friction_without_contact", "threshold_residual", "threshold_curvature", "threshold_r_squared")
+THRESHOLD = (
+    *FIT,
+    "shear_strength_contacts_only",
+    "friction_without_contact_contacts_only",
+    "threshold_residual_contacts_only",
+    "threshold_curvature_contacts_only",
+    "threshold_r_squared_contacts_only",
+)
+"""Numbers of Eq. 6.9, fitted over the approaches or loads of a study: all onsets, then those with contact."""
 
 
 def fit_threshold_law(length: Array, force: Array) -> ThresholdFit:
@@ -111,15 +118,16 @@ def _approach_errors(length: Array, force: Array) -> Array:
 
 
 def fit_thresholds(data: xr.Dataset) -> xr.Dataset:
-    """Return slides at several approaches with the fits of Eq. 6.9 and their errors; as they are with fewer."""
-    if data.sizes.get(ALONG, 0) < MIN_ONSETS:
+    """Return slides at several approaches or loads with the fits of Eq. 6.9 and their errors; else as they are."""
+    along = next((name for name in ALONG if data.sizes.get(name, 0) >= MIN_ONSETS), None)
+    if along is None:
         return data
     names = [*THRESHOLD, *(f"{name}{APPROACH_ERROR}" for name in THRESHOLD)]
     fitted = xr.apply_ufunc(
         threshold_numbers,
         data.onset_contact_length,
         data.static_friction,
-        input_core_dims=[[ALONG], [ALONG]],
+        input_core_dims=[[along], [along]],
         output_core_dims=[[]] * len(names),
         vectorize=True,
     )

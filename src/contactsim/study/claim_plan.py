@@ -58,6 +58,7 @@ CLAIM_KEYS = {
     "neutral": Key(number, "the value that the statement names, or that would mean no change", None),
     "absent": Key(text, "what a variant lacks that has no such number", None),
     "grid": Key(choice(GRIDS), f"one of {', '.join(GRIDS)}", None),
+    "cases": Key(mapping, "a mapping from the name of a case to the keys that it replaces", None),
     "admissible": Key(mapping, "a mapping from what the text leaves open to its alternatives", None),
     "cause": Key(mapping, "a mapping with `kind` and `text`", None),
 }
@@ -65,7 +66,10 @@ CAUSE_KEYS = {
     "kind": Key(choice(KINDS), f"one of {', '.join(KINDS)}"),
     "text": Key(text, "a short text with the number that shows it"),
 }
-CHOICE_KEYS = {key: CLAIM_KEYS[key] for key in ("study", "relative_to", "minus", "quantity", "against", "select")}
+REPLACED = ("study", "relative_to", "minus", "quantity", "reduce", "along", "against", "select")
+CASE_KEYS = {key: CLAIM_KEYS[key] for key in REPLACED}
+"""Keys that a further case of a statement may replace."""
+CHOICE_KEYS = {key: CLAIM_KEYS[key] for key in (*REPLACED, "cases")}
 """Keys that an admissible alternative may replace."""
 BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
 """Sets of keys that give a band."""
@@ -84,8 +88,9 @@ class Claim:
 
     @property
     def studies(self) -> list[str]:
-        """Names of the studies that answer the claim: none, one, two for a comparison, and those of alternatives."""
-        readings = [self.settings, *(self.settings["admissible"] or {}).values()]
+        """Names of the studies that answer the claim: none, one, two for a comparison, those of cases and readings."""
+        choices = [self.settings, *(self.settings["admissible"] or {}).values()]
+        readings = [part for choice in choices for part in (choice, *(choice["cases"] or {}).values())]
         names = [reading[key] for reading in readings for key in ("study", *SECOND_STUDY)]
         return list(dict.fromkeys(name for name in names if name is not None))
 
@@ -124,6 +129,7 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
         return Claim(name, settings)
     alternatives, settings["admissible"] = settings["admissible"] or {}, None
     given = dict(settings)
+    cases, settings["cases"] = settings["cases"] or {}, None
     _check_one_of(settings, "study", studies, file, prefix)
     claim = Claim(name, settings)
     dims = list(dict.fromkeys(dim for study in claim.studies for dim in _dimensions(studies, study)))
@@ -132,6 +138,7 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     _check_band(settings, file, prefix)
     if settings["absent"] is not None and settings["reduce"] not in WITHOUT_INPUTS:
         raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)
+    settings["cases"] = read_cases(given, cases, file, f"{prefix}.cases", studies)
     settings["admissible"] = read_alternatives(given, alternatives, file, f"{prefix}.admissible", studies)
     return claim
 
@@ -159,27 +166,42 @@ def read_alternatives(
     studies
         Studies of the chapter by name.
     """
-    given = {key: value for key, value in claim.items() if key != "is_finding" and value is not None}
     readings = {}
     for topic, alternatives in section.items():
         if not isinstance(alternatives, dict) or not alternatives:
             raise InputError(f"{prefix}.{topic}", alternatives, "a mapping from a name to the keys replaced", file)
         for name, replaced in alternatives.items():
             place = f"{prefix}.{topic}.{name}"
-            changes = {
-                key: value for key, value in read(replaced, CHOICE_KEYS, file, place).items() if value is not None
-            }
-            if not changes:
-                raise InputError(place, replaced, f"at least one of {', '.join(CHOICE_KEYS)}", file)
-            dropped = {"beside", "cause"} if "quantity" in changes else {"cause"}
-            reading = {key: value for key, value in given.items() if key not in dropped} | changes
-            readings[f"{topic}: {name}"] = read_claim(place.removeprefix("claims."), reading, file, studies).settings
+            readings[f"{topic}: {name}"] = _changed_claim(claim, replaced, CHOICE_KEYS, file, place, studies)
     return readings
+
+
+def read_cases(
+    claim: Mapping, section: Mapping, file: object, prefix: str, studies: Mapping[str, Study]
+) -> dict[str, dict]:
+    """Return the settings of the claim in each further case by its name, checked as a claim is; parameters as above."""
+    without = {key: value for key, value in claim.items() if key != "cases"}
+    return {
+        name: _changed_claim(without, replaced, CASE_KEYS, file, f"{prefix}.{name}", studies)
+        for name, replaced in section.items()
+    }
+
+
+def _changed_claim(
+    claim: Mapping, replaced: object, allowed: Mapping[str, Key], file: object, place: str, studies: Mapping[str, Study]
+) -> dict:
+    """Return the settings of a claim with some keys replaced, checked as a claim is; `claim`: keys as given."""
+    changes = {key: value for key, value in read(replaced, allowed, file, place).items() if value is not None}
+    if not changes:
+        raise InputError(place, replaced, f"at least one of {', '.join(allowed)}", file)
+    dropped = {"is_finding", "cause"} | ({"beside"} if "quantity" in changes else set())
+    given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
+    return read_claim(place.removeprefix("claims."), given | changes, file, studies).settings
 
 
 def _check_no_verdict(settings: dict, file: object, prefix: str) -> None:
     """Raise InputError for a finding with a key that speaks of a verdict."""
-    for key in ("admissible", "cause"):
+    for key in ("cases", "admissible", "cause"):
         if settings[key] is not None:
             raise InputError(f"{prefix}.{key}", settings[key], "left out: a finding has no verdict", file)
 

@@ -10,7 +10,7 @@ from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
 from contactsim.observables.adhesion import FINAL, SUMMARY
-from contactsim.observables.friction import ONSET
+from contactsim.observables.friction import ERRORS, ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.threshold import ALONG, THRESHOLD
@@ -115,7 +115,8 @@ class CohesiveStudy:
         slips = "t" in scene.components
         names = {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
         if scene.sliding:
-            names |= {*ONSET, *(THRESHOLD if ALONG in dimensions else ())}
+            names |= {*ONSET, *(f"{name}_increment_error" for name in ERRORS)}
+            names |= {*(THRESHOLD if set(ALONG) & set(dimensions) else ())}
         return names | set(AREA_LOAD)
 
 
