@@ -36,7 +36,7 @@ def rise_distance(approach: Array, ratio: Array) -> float:
 def criterion_numbers(approach: Array, area: Array, pressure: Array, ratio: Array) -> tuple[float, ...]:
     """Return the numbers `NUMBERS` of one path by one criterion; all (step,)."""
     return (
-        value_at_level(approach, APPROACH_LEVELS["12nm"], area),
+        value_at_level(approach, APPROACH_LEVELS[0], area),
         value_at_level(area, SMALL_AREA, pressure),
         value_at_level(area, SMALL_AREA, ratio),
         rise_distance(approach, ratio),

@@ -8,11 +8,19 @@ from typing import cast
 import numpy as np
 import xarray as xr
 
-from contactsim.observables.adhesion import AREAS, GRADIENTS, summarise_load_curves
+from contactsim.observables.adhesion import AREAS, summarise_load_curves
 from contactsim.observables.friction import SLIDE_INPUTS, summarise_slides
 from contactsim.observables.hysteresis import summarise_cycles
 from contactsim.observables.linearity import summarise_area_load
 
+GRADIENT_RATIOS = {
+    "gradient_ratio_repulsive": "rms_gradient_repulsive",
+    "gradient_ratio_interacting_0_1": "rms_gradient_interacting_0_1",
+    "gradient_ratio_interacting": "rms_gradient_interacting",
+    "gradient_ratio_interacting_0_001": "rms_gradient_interacting_0_001",
+    "gradient_ratio_interacting_1e_6": "rms_gradient_interacting_1e_6",
+}
+"""Rms gradients over parts of a surface, whose ratios to that over all of it are derived."""
 RUN_ONLY_VARIABLES = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
 """Variables that stay with the single runs."""
 SHARED_SCALARS = ("points", "length", "contact_modulus", "seed", "points_y", "length_y")
@@ -62,7 +70,6 @@ def summarise_paths(data: xr.Dataset) -> xr.Dataset:
     data = summarise_cycles(summarise_load_curves(data))
     data = summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
-    for name in ("rms_gradient_repulsive", *GRADIENTS):
-        ratios[name.replace("rms_gradient", "gradient_ratio")] = data[name] / data.rms_gradient
+    ratios |= {ratio: data[name] / data.rms_gradient for ratio, name in GRADIENT_RATIOS.items()}
     data = data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus})
     return summarise_area_load(data, "relative_interacting_area", "rms_gradient_interacting")

@@ -23,18 +23,18 @@ AREA_LEVELS = {"pressure_at_area_0_02": 0.02, "pressure_at_area_0_1": 0.1, "pres
 """Relative areas at which the pressure is read."""
 LOAD_LEVELS = {"area_at_zero_load": 0.0, "area_at_load_0_001": 0.001, "area_at_load_0_003": 0.003}
 """Pressures over E* at which the area is read."""
-APPROACH_LEVELS = {"12nm": 12.0, "20nm": 20.0}
+APPROACH_LEVELS = 12.0, 20.0
 """Approaches (nm) beyond first touch at which area and pressure are read."""
-REACHES = {"": 0.001, "_to_0_003": 0.003}
+REACHES = 0.001, 0.003
 """Pressures over E* up to which a curve is compared with a straight line."""
 LINE_LOADS = 40
 """Number of evenly spaced loads at which a curve is compared with a straight line."""
 AREA_LOAD = (
-    *(f"nonlinearity{kind}{reach}" for kind in ("", "_reduced") for reach in REACHES),
+    *("nonlinearity", "nonlinearity_to_0_003", "nonlinearity_reduced", "nonlinearity_reduced_to_0_003"),
     *("curvature", "curvature_reduced"),
     *AREA_LEVELS,
     *LOAD_LEVELS,
-    *(f"{name}_at_{approach}" for approach in APPROACH_LEVELS for name in ("area", "pressure")),
+    *("area_at_12nm", "pressure_at_12nm", "area_at_20nm", "pressure_at_20nm"),
     "gradient_ratio_at_area_0_02",
 )
 """Numbers that summarise a curve of area against load; those with `_reduced` use p_r*, the others p/E*."""
@@ -77,7 +77,7 @@ def nonlinearity(area: Array, pressure: Array, abscissa: Array, reach: float) ->
     """
     loads = np.linspace(0, reach, LINE_LOADS + 1)[1:]
     areas, places = (values_at_loads(pressure, values, loads) for values in (area, abscissa))
-    if not (np.isfinite(areas).all() and areas.max() > 0):
+    if not (np.isfinite(areas + places).all() and areas.max() > 0):
         return np.nan
     line = (areas * places).sum() / (places**2).sum()
     return float(np.sqrt(np.mean((areas - line * places) ** 2)) / areas.max())
@@ -165,13 +165,13 @@ def _read_curve(indentation: Array, columns: list[Array], surface_gradient: floa
     """
     count = len(list(takewhile(bool, np.isfinite(columns[0]))))
     indentation, (pressure, area, gradient) = indentation[:count], (column[:count] for column in columns)
-    reduced = np.divide(pressure, gradient, out=np.zeros_like(pressure), where=gradient > 0)
+    reduced = np.divide(pressure, gradient, out=np.where(pressure == 0, 0.0, np.nan), where=gradient > 0)
     light = (area > 0) & (area <= MAX_AREA) & np.isfinite(gradient)
-    numbers = [nonlinearity(area, pressure, x, reach) for x in (pressure, reduced) for reach in REACHES.values()]
+    numbers = [nonlinearity(area, pressure, x, reach) for x in (pressure, reduced) for reach in REACHES]
     numbers += [curvature(area[light], x[light]) for x in (pressure, reduced)]
     numbers += [value_at_level(area, level, pressure) for level in AREA_LEVELS.values()]
     numbers += values_at_loads(pressure, area, np.array(list(LOAD_LEVELS.values()))).tolist()
-    numbers += [value_at_level(indentation, x, values) for x in APPROACH_LEVELS.values() for values in (area, pressure)]
+    numbers += [value_at_level(indentation, x, values) for x in APPROACH_LEVELS for values in (area, pressure)]
     ratio = gradient / surface_gradient if surface_gradient > 0 else np.full_like(gradient, np.nan)
     return np.array([*numbers, value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)])
 
