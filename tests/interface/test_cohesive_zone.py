@@ -116,6 +116,12 @@ def test_the_largest_pull_is_the_strength_and_the_steepest_tangent_without_overl
         assert np.abs(tangent).max() == pytest.approx(law.stiffness, rel=1e-12)
 
 
+def test_at_the_approach_where_chapter_6_begins_the_traction_is_a_thousandth_of_the_strength():
+    law = CohesiveZone(2.0, 1.0)
+    traction = law.traction(np.array([[10.0], [0.0]]))[0, 0]
+    assert traction / law.strength == pytest.approx(10 * np.exp(-9), rel=1e-12)
+
+
 def test_the_tangential_strength_is_that_of_eq_2_18():
     law = CohesiveZone(2.0, 0.7, tangential_length=1.7)
     sideways = np.linspace(0, 5, 200001)

@@ -13,11 +13,10 @@ from contactsim import reference
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.scales import LawScales, body_settings, critical_modulus_ratio, lattice_constant, radius
 from contactsim.grid import Array
+from contactsim.observables.friction import SHRINKING
 
 MODULUS, FIRST_APPROACH = 70.0, 10.0
 """Young's modulus (GPa) that forces are given over, and δ0 (nm) that approaches are given over."""
-PEELING = 0.5
-"""Part of the way to the onset at which stage B is; stage C lies half way from there to the onset."""
 ROUNDING = 1e-9
 """Difference of sliding distances, nm, that counts as none."""
 FORCES = {"force": "friction_force", "load": "line_load"}
@@ -53,8 +52,9 @@ def stages(data: xr.Dataset, table: pd.DataFrame) -> list[int]:
     slips = data.event_sliding_distance.dropna("event").values
     after = int(np.searchsorted(table.slide.values, slips[0] - ROUNDING)) if slips.size else len(table) - 1
     before = after - 1
-    peeling = int(PEELING * before)
-    return [0, peeling, (peeling + before) // 2, before, after]
+    lost = table.area.values[0] - table.area.values[:after]
+    peeling = [int(np.argmin(np.abs(lost - share * lost[-1]))) for share in SHRINKING.values()]
+    return [0, *peeling, before, after]
 
 
 def exact_flat_force(data: xr.Dataset, slides: Array, sine: bool = False) -> Array:

@@ -68,7 +68,7 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         error = max(float(np.abs(curve.force - curve.exact).max() / curve.exact.max()) for curve in curves_of_panel)
         label = f"exact, one degree of freedom\n(apart by {error:.0e} of the force at most)"
         panel.plot([], [], ".", color=style.EXACT, ms=3, label=label)
-        panel.plot([], [], color=style.EXACT, lw=0.7, ls=":", label="Prandtl–Tomlinson, sine as high")
+        panel.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=_sine_label(data))
         panel.axhline(0.0, **style.ZERO)
         _mark_periods(panel, lattice_constant(data), float(curves_of_panel[0].slide.max()))
         panel.set(xlabel=curves.SLIDE_NM, ylabel=curves.FORCE)
@@ -77,6 +77,14 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         tables += curves_of_panel
     style.add_letters(axes)
     return pd.concat(tables)
+
+
+def _sine_label(data: xr.Dataset) -> str:
+    """Return the label of the model of Prandtl and Tomlinson, with the distance of the springs' sum to its sine."""
+    lattice, length = lattice_constant(data), LawScales.of(data).tangential_length
+    places = np.linspace(0.0, lattice, 1001)
+    sums, sine = reference.spring_sum(places, lattice, length)[1], reference.sine_sum(places, lattice, length)
+    return f"Prandtl–Tomlinson: a sine as high\n(springs' sum apart by {np.abs(sums - sine).max() / sums.max():.0e})"
 
 
 def _mark_periods(axes: Axes, lattice: float, end: float) -> None:
@@ -128,11 +136,13 @@ def fig_6_5(
     axes[1].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"$\langle F\rangle/(w\tau_{\max})$")
     for panel in axes:
         panel.axhline(0.0, **style.ZERO)
-    axes[0].legend(handles=[*axes[0].get_legend_handles_labels()[0], *lines], loc="upper right")
+    style.add_headroom(axes[0], 0.35)
+    axes[0].legend(handles=[*axes[0].get_legend_handles_labels()[0], *lines], loc="upper right", ncols=2)
     looks = (("$E$ varied", "o", style.EXACT), (r"$\varphi_t$ varied, $E=70$ GPa", "D", "none"))
     for label, marker, fill in looks:
         axes[1].plot([], [], ls="none", label=label, **style.marker_look(style.EXACT, marker, size=3.5, fill=fill))
-    axes[1].plot([], [], color=style.EXACT, lw=0.8, ls=":", label="Prandtl–Tomlinson, sine as high")
+    axes[1].plot([], [], color=style.EXACT, lw=0.8, ls=":", label=_sine_label(thin))
+    style.add_headroom(axes[1], 0.35)
     axes[1].legend(loc="upper right")
     style.add_letters(axes)
     return pd.concat(tables)
@@ -151,7 +161,7 @@ def _shade_smooth(axes: Axes, critical: float, end: float, thickness: float, col
     axes.axvspan(critical, end, color=colour, alpha=0.12, lw=0)
     axes.axvline(critical, color=colour, lw=0.8, ls=":")
     text = {"transform": axes.get_xaxis_transform(), "fontsize": 7, "va": "top", "color": colour}
-    axes.text(1.04 * critical, 0.97, f"smooth at\n$h={thickness:g}$ nm", **text)
+    axes.text(1.04 * critical, 0.3, f"smooth at\n$h={thickness:g}$ nm", **text)
 
 
 def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
@@ -183,9 +193,9 @@ def fig_6_7(data: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.Data
         path = (data, slippery)[study].sel(slide_approach=approach).isel(member=0)
         label = f"{name}: {curves.approach_label(approach)}, {curves.work_ratio_label(path)}"
         tables.append(curves.plot_stages(path_axes, stage_axes, path, label, colour, number).assign(case=name))
-    curves.label_stages(stage_axes, len(CASES))
+    curves.label_stages(stage_axes, list(CASES))
     path_axes.set(xlabel=curves.SLIDE, ylabel=curves.AREA)
-    style.add_headroom(path_axes, 0.3)
+    style.add_headroom(path_axes, 0.3, 0.05)
     path_axes.legend(loc="upper right")
     style.add_letters(axes)
     return pd.concat(tables)[["case", "stage", "slide", "area", "force", "trailing", "leading"]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
@@ -72,11 +73,16 @@ def plot_stages(
     return points[columns].reset_index(drop=True).assign(stage=list(STAGES))
 
 
-def label_stages(axes: Axes, cases: int) -> None:
-    """Label the panel of the stages of some slides."""
-    ticks = [number + STAGE_SPACING * case for case in range(cases) for number in range(len(STAGES))]
-    axes.set_xticks(ticks, list(STAGES) * cases)
+def label_stages(axes: Axes, cases: Sequence[str]) -> None:
+    """Label the panel of the stages of some slides, and each slide with its name."""
+    count = len(cases)
+    ticks = [number + STAGE_SPACING * case for case in range(count) for number in range(len(STAGES))]
+    axes.set_xticks(ticks, list(STAGES) * count)
+    style.add_headroom(axes, 0.08)
+    for number, case in enumerate(cases):
+        place = (2 + STAGE_SPACING * number, 0.95)
+        axes.text(*place, case, transform=axes.get_xaxis_transform(), fontsize=8, ha="center")
     axes.tick_params(axis="x", top=False)
     axes.set(ylabel="contact, $x/w$ of the undeformed probe")
     axes.text(0.02, 0.02, "trailing", transform=axes.transAxes, fontsize=7)
-    axes.text(0.02, 0.95, "leading", transform=axes.transAxes, fontsize=7)
+    axes.text(0.02, 0.89, "leading", transform=axes.transAxes, fontsize=7)
