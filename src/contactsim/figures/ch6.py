@@ -72,7 +72,7 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         panel.axhline(0.0, **style.ZERO)
         _mark_periods(panel, lattice_constant(data), float(curves_of_panel[0].slide.max()))
         panel.set(xlabel=curves.SLIDE_NM, ylabel=curves.FORCE)
-        style.add_headroom(panel, 0.75)
+        style.add_headroom(panel, 0.95)
         panel.legend(loc="upper left")
         tables += curves_of_panel
     style.add_letters(axes)
