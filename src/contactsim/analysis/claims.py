@@ -18,6 +18,7 @@ from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
+from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import NAN, Estimate, estimate, estimate_steps, is_on_thesis_grid
@@ -47,7 +48,7 @@ CONDITION_NUMBERS = ("condition_value", "condition_ensemble_error", "condition_g
 def comparison_text(claim: Mapping) -> str:
     """Return what is compared, in the names of the config."""
     if claim["study"] is None:
-        return ""
+        return "" if claim["formula"] is None else f"exact number: {claim['formula'].replace('_', ' ')}"
     inputs = [f" {name} {claim[name]}" for name in ("against", "along", "across") if claim[name] is not None]
     second = "".join(
         f" in {claim['study']} {word} {claim[key]}" for key, (word, _) in SECOND_STUDY.items() if claim[key]
@@ -68,6 +69,8 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
     """
     row: dict[str, object] = {"condition": "", "unknown": ""} | dict.fromkeys(CONDITION_NUMBERS, NAN)
     row |= dict(NO_ROW_BESIDE) if claim["beside"] is None else judge_beside(claim, data)
+    if claim["formula"] is not None:
+        return row | _judge_formula(claim)
     if not data:
         return row | _entries([Verdict()] * 3, Estimate())
     comparison = Comparison(claim, data).select(claim["select"])
@@ -106,6 +109,14 @@ def judge_beside(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object
         number = estimate(comparison)
         result = judge_number(claim, number)
     return {f"beside_{name}": value for name, value in (vars(number) | vars(result)).items() if name != "place"}
+
+
+def _judge_formula(claim: Mapping) -> dict[str, object]:
+    """Return the entries of a claim that an equation answers: its number has no error."""
+    number = Estimate(FORMULAS[claim["formula"]](), 0.0, 0.0)
+    if claim["is_finding"]:
+        return _entries([Verdict(FINDING)] * 3, number)
+    return _entries([judge_number(claim, number, scale) for scale in (1.0, *SCALES.values())], number)
 
 
 def _judge_order(comparison: Comparison) -> tuple[Verdict, Estimate]:

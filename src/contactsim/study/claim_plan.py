@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 
 from contactsim.analysis.causes import KINDS, Cause
 from contactsim.analysis.comparison import SECOND_STUDY
+from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
 from contactsim.study.quantity_names import quantities
@@ -42,6 +43,7 @@ CLAIM_KEYS = {
     "statement": Key(text, "what the thesis says"),
     "rationale": Key(text, "why that band, or why there is no answer"),
     "study": Key(text, "the name of a study of this chapter, or left out where there is no answer", None),
+    "formula": Key(choice(FORMULAS), f"one of {', '.join(FORMULAS)}, or left out", None),
     "relative_to": Key(text, "the name of a second study that divides, or left out", None),
     "minus": Key(text, "the name of a second study that is subtracted, or left out", None),
     "quantity": Key(text, "the name of a quantity", None),
@@ -75,6 +77,8 @@ BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
 """Sets of keys that give a band."""
 WITHOUT_STUDY = ("source", "statement", "rationale", "cause", "is_finding")
 """Settings of a claim that no study answers."""
+WITH_FORMULA = (*WITHOUT_STUDY, "formula", "neutral", *sorted(set.union(*BANDS)))
+"""Settings of a claim that an equation answers."""
 INPUTS = ("against", "along", "across")
 """Keys that a reduction may need beside the quantity."""
 
@@ -122,10 +126,8 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     settings["cause"] = read_cause(settings["cause"], file, f"{prefix}.cause")
     if is_finding:
         _check_no_verdict(settings, file, prefix)
-    if settings["study"] is None and not is_finding:
-        for key in settings:
-            if key not in WITHOUT_STUDY and settings[key] is not None:
-                raise InputError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
+    if settings["formula"] is not None or (settings["study"] is None and not is_finding):
+        _check_without_study(settings, file, prefix)
         return Claim(name, settings)
     alternatives, settings["admissible"] = settings["admissible"] or {}, None
     given = dict(settings)
@@ -197,6 +199,20 @@ def _changed_claim(
     dropped = {"is_finding", "cause"} | ({"beside"} if "quantity" in changes else set())
     given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
     return read_claim(place.removeprefix("claims."), given | changes, file, studies).settings
+
+
+def _check_without_study(settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for a claim of an equation, or without an answer, with a key that it has no use for."""
+    has_formula = settings["formula"] is not None
+    allowed = WITH_FORMULA if has_formula else WITHOUT_STUDY
+    for key in settings:
+        if key not in allowed and settings[key] is not None:
+            raise InputError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
+    if not has_formula:
+        return
+    _check_band(settings, file, prefix)
+    if not settings["is_finding"] and settings["expect"] is None and settings["neutral"] is None:
+        raise InputError(f"{prefix}.neutral", None, "a number, where an equation is held against an edge", file)
 
 
 def _check_no_verdict(settings: dict, file: object, prefix: str) -> None:
