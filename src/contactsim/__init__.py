@@ -31,6 +31,7 @@ PUBLIC = {
     "NormalCohesiveZone": "interface.cohesive_zone",
     "UncoupledCohesiveZone": "interface.cohesive_zone",
     "RepulsiveZone": "interface.repulsion",
+    "FrictionalRepulsiveZone": "interface.repulsion",
     "StiffCohesiveZone": "interface.repulsion",
     "Law": "interface.base",
     "Aligned": "interface.pairing",

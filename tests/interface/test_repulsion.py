@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.exponentials import MAX_OVERLAP
-from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
+from contactsim.interface.repulsion import FrictionalRepulsiveZone, RepulsiveZone, StiffCohesiveZone
 from support.cases import refusal
 
 WHOLE = NormalCohesiveZone(0.7, 2.0)
@@ -45,6 +45,31 @@ def test_without_adhesion_the_stiff_law_is_repulsion_alone_however_weak_its_pull
     weak, wall = StiffCohesiveZone(1e-30, 3.0, 2.0), RepulsiveZone(12.0, 2.0)
     assert np.array_equal(weak.traction(OVERLAPS), wall.traction(OVERLAPS))
     assert (np.abs(weak.traction(OPENINGS)) < 1e-30).all()
+
+
+def test_friction_leaves_the_repulsion_as_it_is_and_is_that_of_the_cohesive_zone():
+    law, wall, whole = (
+        FrictionalRepulsiveZone(0.7, 1.4, 2.0, 3.0),
+        RepulsiveZone(0.7, 2.0),
+        CohesiveZone(0.7, 2.0, 2.0, 3.0),
+    )
+    normal, tangential = np.meshgrid(np.linspace(-4, 12, 41), np.linspace(-7, 7, 41))
+    gap = np.stack((normal.ravel(), tangential.ravel()))
+    assert np.array_equal(law.traction(gap)[0], wall.traction(gap[:1])[0])
+    assert np.array_equal(law.traction(gap)[1], whole.traction(gap)[1])
+    assert (law.without_slip(), law.without_friction(), law.without_coupling()) == (wall, wall, law)
+
+
+def test_the_tangent_of_repulsion_with_friction_belongs_to_its_traction():
+    law, step = FrictionalRepulsiveZone(0.7, 1.4, 2.0, 3.0), 1e-5
+    normal, tangential = np.meshgrid(np.linspace(-4.05, 12, 41), np.linspace(-7, 7, 41))
+    gap = np.stack((normal.ravel(), tangential.ravel()))
+    traction, tangent = law.tangent(gap)
+    assert np.array_equal(traction, law.traction(gap))
+    for component in range(2):
+        shift = step * np.eye(2)[component][:, None]
+        slope = (law.traction(gap + shift) - law.traction(gap - shift)) / (2 * step)
+        assert np.allclose(slope, tangent[:, component], atol=1e-7)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)

@@ -33,6 +33,10 @@ SECOND_ESTIMATORS = {
     for name in ("relative_contact_area", "rms_gradient_contact", "kappa", "kappa_r")
 }
 """Corrected quantities, and the same from edges that are placed between points."""
+CRACK_DEPARTURE = "crack_pull_off_departure"
+"""Departure of the pull-off load on loading from that of a crack on a half-space, where the work is varied."""
+PULL_OFF = "pull_off_load_loading"
+"""The pull-off load of the thesis."""
 RESOLVED_WAVELENGTH = 16
 """Points per shortest wavelength from which edges can be placed between points."""
 
@@ -45,7 +49,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     data
         Dataset of a study.
     name
-        A variable, one of `FITTED` or one of `SIZES`.
+        A variable, one of `FITTED`, one of `SIZES` or `CRACK_DEPARTURE`.
     leave_out_absent
         If True, members whose path was solved and has no such number are left out of the mean.
 
@@ -58,6 +62,11 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     if name in SIZES:
         area = mean_quantity(data, SIZES[name])
         return np.sqrt(area * data.length * data.length_y / np.pi) if "length_y" in data else area * data.length / 2
+    if name == CRACK_DEPARTURE:
+        radius = dataset.settings_of(data)["surface"]["radius"]
+        modulus = mean_quantity(data, "contact_modulus")
+        crack = xr.apply_ufunc(reference.cylinder_pull_off, data.work_of_separation, radius, modulus)
+        return mean_quantity(data, PULL_OFF, leave_out_absent) / crack - 1
     values = data[name]
     if "member" not in values.dims:
         return values
@@ -104,7 +113,7 @@ def resolves_edges(data: xr.Dataset) -> bool:
 
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
-    source = "relative_contact_area" if name in FITTED else SIZES.get(name, name)
+    source = "relative_contact_area" if name in FITTED else {**SIZES, CRACK_DEPARTURE: PULL_OFF}.get(name, name)
     return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
 
 

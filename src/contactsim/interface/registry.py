@@ -8,7 +8,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone,
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import Aligned
-from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
+from contactsim.interface.repulsion import FrictionalRepulsiveZone, RepulsiveZone, StiffCohesiveZone
 
 EFFECTS: dict[str, Any] = {
     "hard_wall": HardWall,
@@ -16,6 +16,7 @@ EFFECTS: dict[str, Any] = {
     "normal_cohesive_zone": NormalCohesiveZone,
     "uncoupled_cohesive_zone": UncoupledCohesiveZone,
     "repulsive_zone": RepulsiveZone,
+    "frictional_repulsive_zone": FrictionalRepulsiveZone,
     "stiff_cohesive_zone": StiffCohesiveZone,
 }
 PAIRINGS = {"aligned": Aligned, "lattice": Lattice}

@@ -1,7 +1,8 @@
-"""Laws that separate repulsion from adhesion: repulsion alone, and repulsion of its own stiffness.
+"""Laws that separate repulsion from adhesion: repulsion alone, with friction, and repulsion of its own stiffness.
 
 The repulsion of Eq. 5.3 is proportional to the work of separation: weak adhesion is also a soft wall. `RepulsiveZone`
-is this wall without the pull. `StiffCohesiveZone` keeps the stiffness of its wall, whatever the work of separation.
+is this wall without the pull; `FrictionalRepulsiveZone` adds friction to it, so that contacts without adhesion may stick.
+`StiffCohesiveZone` keeps the stiffness of its wall, whatever the work of separation.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
-from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.traits import Trait
 
 
@@ -76,6 +77,87 @@ class RepulsiveZone:
     def energy(self, gap: Array) -> Array:
         """Return the potential φn - φn (1 + Δn/δn) exp(-Δn/δn) under overlap, else zero, (n,), N/m."""
         return np.where(gap[0] < 0, self.work_of_separation + self._whole.energy(gap), 0.0)
+
+
+@dataclass(frozen=True)
+class FrictionalRepulsiveZone:
+    """Repulsion without a pull, and the tangential traction of Eq. 2.17.
+
+    The normal traction is that of `RepulsiveZone` and does not depend on the tangential gap. Friction acts up to gaps of
+    a few δn, as in Eq. 2.17. There is no potential: ∂T_n/∂Δt is zero and ∂T_t/∂Δn is not.
+
+    Parameters
+    ----------
+    work_of_separation
+        Work φn > 0 of the law whose repulsion it is, N/m.
+    tangential_work
+        Tangential work of separation φt > 0, N/m.
+    normal_length, tangential_length
+        Characteristic lengths δn and δt, nm.
+    """
+
+    work_of_separation: float
+    tangential_work: float
+    normal_length: float = 1.0
+    tangential_length: float = 1.0
+    reads = frozenset({"n", "t"})
+    exerts = frozenset({"n", "t"})
+    traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
+
+    def __post_init__(self) -> None:
+        check_positive("N/m", work_of_separation=self.work_of_separation, tangential_work=self.tangential_work)
+        check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
+
+    @cached_property
+    def _wall(self) -> RepulsiveZone:
+        """The law of the normal traction."""
+        return self.without_slip()
+
+    @cached_property
+    def _coupled(self) -> CohesiveZone:
+        """The law of the tangential traction."""
+        ratio = self.tangential_work / self.work_of_separation
+        return CohesiveZone(self.work_of_separation, ratio, self.normal_length, self.tangential_length)
+
+    @property
+    def strength(self) -> float:
+        """Largest traction φn/(e δn) of the law with its pull, GPa."""
+        return self._wall.strength
+
+    @property
+    def stiffness(self) -> float:
+        """Larger one of the two tangents where overlap begins, GPa/nm."""
+        return self._coupled.stiffness
+
+    @property
+    def interaction_range(self) -> float:
+        """Length over which the normal traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Return the traction (2, n), GPa, at a gap (2, n), nm."""
+        traction = self._coupled.traction(gap)
+        traction[:1] = self._wall.traction(gap[:1])
+        return traction
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Return the traction (2, n), GPa, and its derivatives by both components (2, 2, n), GPa/nm."""
+        traction, derivative = self._coupled.tangent(gap)
+        traction[:1], derivative[:1, :1] = self._wall.tangent(gap[:1])
+        derivative[0, 1] = 0.0
+        return traction, derivative
+
+    def without_coupling(self) -> FrictionalRepulsiveZone:
+        """Return the law itself."""
+        return self
+
+    def without_slip(self) -> RepulsiveZone:
+        """Return the law at zero tangential gap."""
+        return RepulsiveZone(self.work_of_separation, self.normal_length)
+
+    def without_friction(self) -> RepulsiveZone:
+        """Return the law without tangential work of separation."""
+        return self.without_slip()
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
 from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.deformation import DEFORMATION
 from contactsim.observables.derived import summarise_approaches, summarise_paths
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
@@ -54,7 +55,7 @@ AVERAGED_STATES = (
     "mean_gap",
 )
 """Numbers of a state of a cohesive path that are averaged over members."""
-PATH_SUMMARIES = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET, *THRESHOLD)
+PATH_SUMMARIES = (*SUMMARY, *CYCLE, *DEFORMATION, *AREA_LOAD, *ONSET, *THRESHOLD)
 """Numbers that summarise a path."""
 
 

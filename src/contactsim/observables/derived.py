@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.observables.adhesion import AREAS, summarise_load_curves
+from contactsim.observables.deformation import summarise_deformation
 from contactsim.observables.friction import SLIDE_INPUTS, summarise_slides
 from contactsim.observables.hysteresis import summarise_cycles
 from contactsim.observables.linearity import summarise_area_load
@@ -67,7 +68,7 @@ def summarise_approaches(data: xr.Dataset) -> xr.Dataset:
 
 def summarise_paths(data: xr.Dataset) -> xr.Dataset:
     """Return cohesive paths with relative areas, normalised pressures and the summaries of their curves."""
-    data = summarise_cycles(summarise_load_curves(data))
+    data = summarise_deformation(summarise_cycles(summarise_load_curves(data)))
     data = summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     ratios |= {ratio: data[name] / data.rms_gradient for ratio, name in GRADIENT_RATIOS.items()}

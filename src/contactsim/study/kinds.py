@@ -10,6 +10,7 @@ from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
 from contactsim.observables.adhesion import FINAL, SUMMARY
+from contactsim.observables.deformation import DEFORMATION
 from contactsim.observables.friction import ERRORS, ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
@@ -113,7 +114,7 @@ class CohesiveStudy:
     def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
         """Return what load curves, cycles and slides amount to, as far as the scene has them."""
         slips = "t" in scene.components
-        names = {name for name in (*SUMMARY, *CYCLE) if slips or FINAL.get(name) != "slip"}
+        names = {name for name in (*SUMMARY, *CYCLE, *DEFORMATION) if slips or FINAL.get(name) != "slip"}
         if scene.sliding:
             names |= {*ONSET, *(f"{name}_increment_error" for name in ERRORS)}
             names |= {*(THRESHOLD if set(ALONG) & set(dimensions) else ())}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contactsim.analysis.quantities import FITTED
+from contactsim.analysis.quantities import CRACK_DEPARTURE, FITTED
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kinds import study_kind
@@ -30,7 +30,9 @@ def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
     scene = study.runs()[0].setup.scene
     names = study_kind(study.settings).path_quantities(scene, study.dimensions)
-    return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
+    is_cylinder = study.settings["surface"]["kind"] == "cylinder"
+    fitted = {CRACK_DEPARTURE} if is_cylinder and "work_of_separation" in study.dimensions else set()
+    return sorted(names | fitted | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
 
 
 def _error_names(study: Study, names: set[str]) -> set[str]:
