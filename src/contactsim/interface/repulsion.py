@@ -1,7 +1,7 @@
 """Laws that separate repulsion from adhesion: repulsion alone, with friction, and repulsion of its own stiffness.
 
 The repulsion of Eq. 5.3 is proportional to the work of separation: weak adhesion is also a soft wall. `RepulsiveZone`
-is this wall without the pull; `FrictionalRepulsiveZone` adds friction to it, so that contacts without adhesion may stick.
+is this wall without the pull; `FrictionalRepulsiveZone` adds friction, so that contacts without adhesion may stick.
 `StiffCohesiveZone` keeps the stiffness of its wall, whatever the work of separation.
 """
 
@@ -83,8 +83,8 @@ class RepulsiveZone:
 class FrictionalRepulsiveZone:
     """Repulsion without a pull, and the tangential traction of Eq. 2.17.
 
-    The normal traction is that of `RepulsiveZone` and does not depend on the tangential gap. Friction acts up to gaps of
-    a few δn, as in Eq. 2.17. There is no potential: ∂T_n/∂Δt is zero and ∂T_t/∂Δn is not.
+    The normal traction is that of `RepulsiveZone` and does not depend on the tangential gap. Friction acts up to gaps
+    of a few δn, as in Eq. 2.17. There is no potential: ∂T_n/∂Δt is zero and ∂T_t/∂Δn is not.
 
     Parameters
     ----------
