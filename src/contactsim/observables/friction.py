@@ -44,6 +44,7 @@ ONSET = (
     "first_force_drop",
     "first_slip_periods",
     "first_slip_released_energy",
+    "released_share",
     "stored_energy",
     "loop_energy",
 )
@@ -112,6 +113,7 @@ def summarise_slide(
     ):
         numbers |= more_numbers
         errors |= more_errors
+    numbers["released_share"] = _released_share(line, states, events)
     numbers["loop_energy"], errors["loop_energy"] = loop_energy(line)
     return numbers, errors
 
@@ -232,6 +234,18 @@ def _slip_numbers(
         "first_slip_released_energy": events["event_released_energy"][0],
     }
     return numbers, {"first_force_drop": line.slip_error(first - 1) + line.slip_error(first)}
+
+
+def _released_share(line: Polyline, states: Mapping[str, Array], events: Mapping[str, Array]) -> float:
+    """Return the elastic energy that the first slip releases over that which the slide has added up to it.
+
+    NaN without a slip, and where the slide adds no energy. The energy before the slip is that of the last state before.
+    """
+    if not line.slips.size:
+        return np.nan
+    energy = states["elastic_energy"]
+    added = energy[line.state[line.slips[0] - 1]] - energy[0]
+    return float(events["event_released_energy"][0] / added) if added > 0 else np.nan
 
 
 def summarise_slides(data: xr.Dataset) -> xr.Dataset:
