@@ -476,6 +476,7 @@ def test_stored_and_released_energy_are_those_of_one_degree_of_freedom():
         before, after = (float(found[f"event_force_{side}"][0]) / area for side in ("before", "after"))
         released = area * (before**2 - after**2) / 2 / stiffness
         assert float(found.first_slip_released_energy) == pytest.approx(released, rel=1e-3)
+        assert float(found.released_share) == pytest.approx(1 - (after / before) ** 2, rel=2e-3)
         assert before == pytest.approx(force[1], rel=5e-3)
     assert np.isnan(friction.summarise_slides(simulate(flat(70.0, 0.2, [0.0, 0.8]), points=16)).stored_energy)
 

@@ -239,13 +239,21 @@ def _slip_numbers(
 def _released_share(line: Polyline, states: Mapping[str, Array], events: Mapping[str, Array]) -> float:
     """Return the elastic energy that the first slip releases over that which the slide has added up to it.
 
-    NaN without a slip, and where the slide adds no energy. The energy before the slip is that of the last state before.
+    The energy after the slip follows from the three states after it, by a parabola: there the path is smooth, while it
+    is steep before a slip. NaN without a slip and three states after it, and where the slide adds no energy.
     """
     if not line.slips.size:
         return np.nan
-    energy = states["elastic_energy"]
-    added = energy[line.state[line.slips[0] - 1]] - energy[0]
-    return float(events["event_released_energy"][0] / added) if added > 0 else np.nan
+    first = line.slips[0]
+    energy, distance = states["elastic_energy"], states["sliding_distance"]
+    beyond = slice(line.state[first] + 1, line.state[first] + 1 + MIN_STATES)
+    if energy[beyond].size < MIN_STATES:
+        return np.nan
+    ahead = distance[beyond] - line.sliding_distance[first]
+    after = float(np.polyfit(ahead, energy[beyond], 2)[-1])
+    released = events["event_released_energy"][0]
+    added = after + released - energy[0]
+    return float(released / added) if added > 0 else np.nan
 
 
 def summarise_slides(data: xr.Dataset) -> xr.Dataset:
