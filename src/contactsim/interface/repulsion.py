@@ -15,7 +15,8 @@ import numpy as np
 
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.interface.exponentials import MAX_SLIP
 from contactsim.traits import Trait
 
 
@@ -81,23 +82,28 @@ class RepulsiveZone:
 
 @dataclass(frozen=True)
 class FrictionalRepulsiveZone:
-    """Repulsion without a pull, and the tangential traction of Eq. 2.17.
+    """Repulsion without a pull, and friction in proportion to the pressure.
 
-    The normal traction is that of `RepulsiveZone` and does not depend on the tangential gap. Friction acts up to gaps
-    of a few δn, as in Eq. 2.17. There is no potential: ∂T_n/∂Δt is zero and ∂T_t/∂Δn is not.
+    The normal traction is that of `RepulsiveZone` and does not depend on the tangential gap. The tangential traction is
+
+        T_t = μ p √(2e) (Δt/δt) exp(-Δt²/δt²)
+
+    at a pressure p, at most μp. It depends on the tangential gap as Eq. 2.17 does, yet it is zero where the gap is open:
+    Eq. 2.17 would hold surfaces together sideways that do not touch. There is no potential: ∂T_n/∂Δt is zero and
+    ∂T_t/∂Δn is not.
 
     Parameters
     ----------
     work_of_separation
         Work φn > 0 of the law whose repulsion it is, N/m.
-    tangential_work
-        Tangential work of separation φt > 0, N/m.
+    friction_coefficient
+        Largest tangential traction over the pressure, μ > 0.
     normal_length, tangential_length
         Characteristic lengths δn and δt, nm.
     """
 
     work_of_separation: float
-    tangential_work: float
+    friction_coefficient: float
     normal_length: float = 1.0
     tangential_length: float = 1.0
     reads = frozenset({"n", "t"})
@@ -105,19 +111,14 @@ class FrictionalRepulsiveZone:
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
 
     def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation, tangential_work=self.tangential_work)
+        check_positive("N/m", work_of_separation=self.work_of_separation)
+        check_positive("1", friction_coefficient=self.friction_coefficient)
         check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
 
     @cached_property
     def _wall(self) -> RepulsiveZone:
         """The law of the normal traction."""
         return self.without_slip()
-
-    @cached_property
-    def _coupled(self) -> CohesiveZone:
-        """The law of the tangential traction."""
-        ratio = self.tangential_work / self.work_of_separation
-        return CohesiveZone(self.work_of_separation, ratio, self.normal_length, self.tangential_length)
 
     @property
     def strength(self) -> float:
@@ -126,8 +127,8 @@ class FrictionalRepulsiveZone:
 
     @property
     def stiffness(self) -> float:
-        """Larger one of the two tangents where overlap begins, GPa/nm."""
-        return self._coupled.stiffness
+        """Tangent φn/δn² where overlap begins, GPa/nm; friction begins there, with a tangent of zero."""
+        return self._wall.stiffness
 
     @property
     def interaction_range(self) -> float:
@@ -136,16 +137,15 @@ class FrictionalRepulsiveZone:
 
     def traction(self, gap: Array) -> Array:
         """Return the traction (2, n), GPa, at a gap (2, n), nm."""
-        traction = self._coupled.traction(gap)
-        traction[:1] = self._wall.traction(gap[:1])
-        return traction
+        normal = self._wall.traction(gap[:1])[0]
+        return np.stack((normal, -normal * self._ratio(gap[1])[0]))
 
     def tangent(self, gap: Array) -> tuple[Array, Array]:
         """Return the traction (2, n), GPa, and its derivatives by both components (2, 2, n), GPa/nm."""
-        traction, derivative = self._coupled.tangent(gap)
-        traction[:1], derivative[:1, :1] = self._wall.tangent(gap[:1])
-        derivative[0, 1] = 0.0
-        return traction, derivative
+        (normal,), ((slope,),) = self._wall.tangent(gap[:1])
+        ratio, ratio_slope = self._ratio(gap[1])
+        derivative = np.stack(((slope, np.zeros_like(slope)), (-slope * ratio, -normal * ratio_slope)))
+        return np.stack((normal, -normal * ratio)), derivative
 
     def without_coupling(self) -> FrictionalRepulsiveZone:
         """Return the law itself."""
@@ -156,8 +156,14 @@ class FrictionalRepulsiveZone:
         return RepulsiveZone(self.work_of_separation, self.normal_length)
 
     def without_friction(self) -> RepulsiveZone:
-        """Return the law without tangential work of separation."""
+        """Return the law without friction."""
         return self.without_slip()
+
+    def _ratio(self, tangential_gap: Array) -> tuple[Array, Array]:
+        """Return the tangential traction over the pressure, and its derivative, 1/nm."""
+        slip = np.clip(tangential_gap / self.tangential_length, -MAX_SLIP, MAX_SLIP)
+        size = self.friction_coefficient * np.sqrt(2 * np.e) * np.exp(-(slip**2))
+        return size * slip, size * (1 - 2 * slip**2) / self.tangential_length
 
 
 @dataclass(frozen=True)
