@@ -7,7 +7,7 @@ import pytest
 
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
 from contactsim.interface.exponentials import MAX_OVERLAP
-from contactsim.interface.repulsion import FrictionalRepulsiveZone, RepulsiveZone, StiffCohesiveZone
+from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
 from support.cases import refusal
 
 WHOLE = NormalCohesiveZone(0.7, 2.0)
@@ -45,31 +45,6 @@ def test_without_adhesion_the_stiff_law_is_repulsion_alone_however_weak_its_pull
     weak, wall = StiffCohesiveZone(1e-30, 3.0, 2.0), RepulsiveZone(12.0, 2.0)
     assert np.array_equal(weak.traction(OVERLAPS), wall.traction(OVERLAPS))
     assert (np.abs(weak.traction(OPENINGS)) < 1e-30).all()
-
-
-def test_friction_leaves_the_repulsion_as_it_is_and_is_at_most_a_part_of_the_pressure():
-    law, wall = FrictionalRepulsiveZone(0.7, 0.4, 2.0, 3.0), RepulsiveZone(0.7, 2.0)
-    normal, tangential = np.meshgrid(np.linspace(-4, 12, 41), np.linspace(-9, 9, 2001))
-    gap = np.stack((normal.ravel(), tangential.ravel()))
-    traction = law.traction(gap)
-    assert np.array_equal(traction[0], wall.traction(gap[:1])[0])
-    assert not traction[1, gap[0] >= 0].any()
-    assert (np.sign(traction[1]) == np.sign(gap[1]) * (gap[0] < 0)).all()
-    deep = gap[0] == -4.0
-    assert traction[1, deep].max() == pytest.approx(-0.4 * traction[0, deep][0], rel=1e-5)
-    assert (law.without_slip(), law.without_friction(), law.without_coupling()) == (wall, wall, law)
-
-
-def test_the_tangent_of_repulsion_with_friction_belongs_to_its_traction():
-    law, step = FrictionalRepulsiveZone(0.7, 0.4, 2.0, 3.0), 1e-5
-    normal, tangential = np.meshgrid(np.linspace(-4.05, 12, 41), np.linspace(-7, 7, 41))
-    gap = np.stack((normal.ravel(), tangential.ravel()))
-    traction, tangent = law.tangent(gap)
-    assert np.array_equal(traction, law.traction(gap))
-    for component in range(2):
-        shift = step * np.eye(2)[component][:, None]
-        slope = (law.traction(gap + shift) - law.traction(gap - shift)) / (2 * step)
-        assert np.allclose(slope, tangent[:, component], atol=1e-7)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)

@@ -1,8 +1,7 @@
-"""Laws that separate repulsion from adhesion: repulsion alone, with friction, and repulsion of its own stiffness.
+"""Laws that separate repulsion from adhesion: repulsion alone, and repulsion of its own stiffness.
 
 The repulsion of Eq. 5.3 is proportional to the work of separation: weak adhesion is also a soft wall. `RepulsiveZone`
-is this wall without the pull; `FrictionalRepulsiveZone` adds friction, so that contacts without adhesion may stick.
-`StiffCohesiveZone` keeps the stiffness of its wall, whatever the work of separation.
+is this wall without the pull. `StiffCohesiveZone` keeps the stiffness of its wall, whatever the work of separation.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ import numpy as np
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
-from contactsim.interface.exponentials import MAX_SLIP
 from contactsim.traits import Trait
 
 
@@ -78,92 +76,6 @@ class RepulsiveZone:
     def energy(self, gap: Array) -> Array:
         """Return the potential φn - φn (1 + Δn/δn) exp(-Δn/δn) under overlap, else zero, (n,), N/m."""
         return np.where(gap[0] < 0, self.work_of_separation + self._whole.energy(gap), 0.0)
-
-
-@dataclass(frozen=True)
-class FrictionalRepulsiveZone:
-    """Repulsion without a pull, and friction in proportion to the pressure.
-
-    The normal traction is that of `RepulsiveZone` and does not depend on the tangential gap. The tangential traction is
-
-        T_t = μ p √(2e) (Δt/δt) exp(-Δt²/δt²)
-
-    at a pressure p, at most μp. It depends on the tangential gap as Eq. 2.17 does, yet it is zero where the gap is open:
-    Eq. 2.17 would hold surfaces together sideways that do not touch. There is no potential: ∂T_n/∂Δt is zero and
-    ∂T_t/∂Δn is not.
-
-    Parameters
-    ----------
-    work_of_separation
-        Work φn > 0 of the law whose repulsion it is, N/m.
-    friction_coefficient
-        Largest tangential traction over the pressure, μ > 0.
-    normal_length, tangential_length
-        Characteristic lengths δn and δt, nm.
-    """
-
-    work_of_separation: float
-    friction_coefficient: float
-    normal_length: float = 1.0
-    tangential_length: float = 1.0
-    reads = frozenset({"n", "t"})
-    exerts = frozenset({"n", "t"})
-    traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("1", friction_coefficient=self.friction_coefficient)
-        check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
-
-    @cached_property
-    def _wall(self) -> RepulsiveZone:
-        """The law of the normal traction."""
-        return self.without_slip()
-
-    @property
-    def strength(self) -> float:
-        """Largest traction φn/(e δn) of the law with its pull, GPa."""
-        return self._wall.strength
-
-    @property
-    def stiffness(self) -> float:
-        """Tangent φn/δn² where overlap begins, GPa/nm; friction begins there, with a tangent of zero."""
-        return self._wall.stiffness
-
-    @property
-    def interaction_range(self) -> float:
-        """Length over which the normal traction changes, nm."""
-        return self.normal_length
-
-    def traction(self, gap: Array) -> Array:
-        """Return the traction (2, n), GPa, at a gap (2, n), nm."""
-        normal = self._wall.traction(gap[:1])[0]
-        return np.stack((normal, -normal * self._ratio(gap[1])[0]))
-
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
-        """Return the traction (2, n), GPa, and its derivatives by both components (2, 2, n), GPa/nm."""
-        (normal,), ((slope,),) = self._wall.tangent(gap[:1])
-        ratio, ratio_slope = self._ratio(gap[1])
-        derivative = np.stack(((slope, np.zeros_like(slope)), (-slope * ratio, -normal * ratio_slope)))
-        return np.stack((normal, -normal * ratio)), derivative
-
-    def without_coupling(self) -> FrictionalRepulsiveZone:
-        """Return the law itself."""
-        return self
-
-    def without_slip(self) -> RepulsiveZone:
-        """Return the law at zero tangential gap."""
-        return RepulsiveZone(self.work_of_separation, self.normal_length)
-
-    def without_friction(self) -> RepulsiveZone:
-        """Return the law without friction."""
-        return self.without_slip()
-
-    def _ratio(self, tangential_gap: Array) -> tuple[Array, Array]:
-        """Return the tangential traction over the pressure, and its derivative, 1/nm."""
-        slip = np.clip(tangential_gap / self.tangential_length, -MAX_SLIP, MAX_SLIP)
-        size = self.friction_coefficient * np.sqrt(2 * np.e) * np.exp(-(slip**2))
-        return size * slip, size * (1 - 2 * slip**2) / self.tangential_length
 
 
 @dataclass(frozen=True)
