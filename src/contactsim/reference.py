@@ -247,6 +247,16 @@ def tangential_strength(work: float, length: float, opening: Array | float) -> A
     return np.sqrt(2 / np.e) * work / length * np.exp(-np.asarray(opening))
 
 
+def xu_needleman_normal(opening: Array | float, slip: Array | float, work_ratio: float) -> Array:
+    """Normal traction of Xu and Needleman's law with r = 0 over φn/δn, at y = Δn/δn, s = Δt/δt and c = φt/φn.
+
+    It is y exp(-y) (1 - c + c exp(-s²)), the derivative of their potential. Complete shear leaves 1 - c of it, nothing
+    for c = 1 alone (van den Bosch et al., Eng. Fract. Mech. 73, 2006).
+    """
+    opening = np.asarray(opening)
+    return opening * np.exp(-opening) * (1 - work_ratio + work_ratio * np.exp(-(np.asarray(slip) ** 2)))
+
+
 def bsg_factor(opening: Array | float) -> Array:
     """Tangential traction of the BSG law over that of Eq. 2.17, 1 + y at y = Δn/δn.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from contactsim import reference
 from contactsim.analysis import formulas
 from contactsim.analysis.claims import judge_claims
 from contactsim.analysis.verdict import FINDING, NOT_REPRODUCED, REPRODUCED
@@ -72,8 +73,11 @@ def test_what_remains_of_xu_and_needlemans_normal_traction_follows_from_their_po
         return 1 + np.exp(-opening) * (failed - (ratio + (free - ratio) / (free - 1) * opening) * shear)
 
     opening = np.linspace(0.0, 12.0, 4001)
-    free, failed = (np.gradient(potential(opening, slip), opening).max() for slip in (0.0, 20.0))
-    assert failed / free == pytest.approx(formulas.xu_needleman_remainder(ratio), abs=1e-5)
+    tractions = {slip: np.gradient(potential(opening, slip), opening)[1:-1] for slip in (0.0, 0.7, 20.0)}
+    for slip, traction in tractions.items():
+        assert np.allclose(traction, reference.xu_needleman_normal(opening[1:-1], slip, ratio), atol=1e-5)
+    remainder = tractions[20.0].max() / tractions[0.0].max()
+    assert remainder == pytest.approx(formulas.xu_needleman_remainder(ratio), abs=1e-5)
 
 
 @pytest.mark.parametrize("name", formulas.FORMULAS)

@@ -13,6 +13,7 @@ import numpy as np
 from contactsim import reference
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.grid import Array
+from contactsim.interface.cohesive_zone import CohesiveZone
 
 POISSON_RATIOS = (0.1, 0.3, 0.45)
 """Poisson's ratios of Chapter 4."""
@@ -149,16 +150,17 @@ def restoring_work(sign: float) -> float:
 
 
 def xu_needleman_remainder(work_ratio: float) -> float:
-    """Return the largest normal traction of Xu and Needleman's law at complete shear failure, over the strength.
-
-    Complete shear leaves (1 - c) φn/δn y exp(-y) at y = Δn/δn, with r = 0 in that law.
-    """
-    return 1 - work_ratio
+    """Return the largest normal traction of Xu and Needleman's law at complete shear failure, over the strength."""
+    failed, whole = (reference.xu_needleman_normal(1.0, slip, work_ratio) for slip in (COMPLETE_SHEAR, 0.0))
+    return float(failed / whole)
 
 
-def law_remainder() -> float:
-    """Return the largest normal traction of Eq. 2.17 at complete shear failure, over the strength, whatever c is."""
-    return float(reference.normal_strength(1.0, 1.0, COMPLETE_SHEAR) / reference.normal_strength(1.0, 1.0, 0.0))
+def largest_normal_traction(slip: float) -> float:
+    """Return the largest normal traction of Eq. 2.17 at a tangential gap over its length, over that without; any c."""
+    law = CohesiveZone(work_of_separation=1.0, work_ratio=0.5)
+    opening = np.linspace(0.0, 5.0, 5001)  # the largest is at 1
+    slipped, whole = (law.traction(np.stack((opening, np.full_like(opening, gap))))[0].max() for gap in (slip, 0.0))
+    return float(slipped / whole)
 
 
 def bsg_strengths() -> Array:
@@ -186,7 +188,8 @@ FORMULAS: dict[str, Callable[[], float]] = {
     "element_departure": element_departure,
     "xu_needleman_remainder": lambda: xu_needleman_remainder(1.0),
     "xu_needleman_remainder_unequal": lambda: min(xu_needleman_remainder(ratio) for ratio in WORK_RATIOS),
-    "law_remainder": law_remainder,
+    "law_remainder": lambda: largest_normal_traction(COMPLETE_SHEAR),
+    "slipped_strength": lambda: largest_normal_traction(1.0) / np.exp(-1.0),
     "bsg_change": lambda: float(np.diff(bsg_strengths()).max()),
     "bsg_strength_deep": lambda: float(bsg_strengths()[OVERCLOSURES == 2.0][0]),
     "traction_at_start": traction_at_start,
