@@ -58,7 +58,7 @@ class FrictionalRepulsiveZone:
 
     @property
     def exerts(self) -> frozenset[str]:
-        """Normal traction, and tangential traction if there is friction."""
+        """Normal traction, and tangential traction where the coefficient is not zero."""
         return frozenset({"n", "t"} if self.friction_coefficient else {"n"})
 
     @property
