@@ -63,7 +63,8 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
     if "points" in fine.dims and grid_convergence.is_doubled(fine.points):
         data = data.merge(finer_grid_limits(fine))
     if settings["fit_limits"] is not None:
-        data = data.merge(fit_line_areas(fine, settings["fit_limits"]))
+        for estimator in ("", "_corrected"):
+            data = data.merge(fit_line_areas(fine, settings["fit_limits"], estimator))
     return data
 
 
