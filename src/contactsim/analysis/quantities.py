@@ -28,6 +28,8 @@ SIZES = {
     "contact_radius_subgrid": "relative_contact_area_subgrid",
 }
 """Sizes of a contact, and the area that each follows from."""
+GRADIENT_DEFICITS = {f"gradient_deficit{end}": f"rms_gradient_contact{end}" for end in ("", "_corrected", "_subgrid")}
+"""The part 1 - ḡ_r/ḡ = 1 - κ_r/κ by which the gradient over the contact is smaller, and that gradient."""
 SECOND_ESTIMATORS = {
     f"{name}_corrected": f"{name}_subgrid"
     for name in ("relative_contact_area", "rms_gradient_contact", "kappa", "kappa_r")
@@ -45,7 +47,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     data
         Dataset of a study.
     name
-        A variable, one of `FITTED` or one of `SIZES`.
+        A variable, or one of `FITTED`, `SIZES` and `GRADIENT_DEFICITS`.
     leave_out_absent
         If True, members whose path was solved and has no such number are left out of the mean.
 
@@ -58,6 +60,8 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     if name in SIZES:
         area = mean_quantity(data, SIZES[name])
         return np.sqrt(area * data.length * data.length_y / np.pi) if "length_y" in data else area * data.length / 2
+    if name in GRADIENT_DEFICITS:
+        return 1 - mean_quantity(data, GRADIENT_DEFICITS[name]) / data.rms_gradient.mean("member")
     values = data[name]
     if "member" not in values.dims:
         return values
@@ -104,7 +108,7 @@ def resolves_edges(data: xr.Dataset) -> bool:
 
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
-    source = "relative_contact_area" if name in FITTED else SIZES.get(name, name)
+    source = "relative_contact_area" if name in FITTED else (SIZES | GRADIENT_DEFICITS).get(name, name)
     return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
 
 

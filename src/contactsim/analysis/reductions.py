@@ -34,11 +34,14 @@ class Reduction:
         Function of the same without `places` that returns these; None where there is no extreme.
     neutral
         Value where nothing varies or differs; None where the reduction has none.
+    against_first
+        True if `against` is that of the first of two studies, not their ratio or difference.
     """
 
     measure: Callable[..., float]
     locate: Callable[..., Places] | None = None
     neutral: float | None = None
+    against_first: bool = False
 
     @property
     def inputs(self) -> list[str]:
@@ -155,6 +158,12 @@ def furthest_from_one(values: xr.DataArray, places: Places) -> float:
     return float(values.isel(places))
 
 
+def correlation(values: xr.DataArray, against: xr.DataArray) -> float:
+    """Return the correlation with another quantity over all points."""
+    first, second = xr.broadcast(values, against)
+    return float(np.corrcoef(first.values.ravel(), second.values.ravel())[0, 1])
+
+
 def largest_size(values: xr.DataArray, places: Places) -> float:
     """Return the largest size of all points, whatever their sign."""
     return float(abs(values).isel(places))
@@ -248,6 +257,7 @@ REDUCTIONS: dict[str, Reduction] = {
     "least": Reduction(least, lambda values: _place_of_largest(-values)),
     "largest": Reduction(largest, _place_of_largest),
     "furthest_from_one": Reduction(furthest_from_one, lambda values: _place_of_largest(abs(values - 1)), neutral=1.0),
+    "correlation": Reduction(correlation, neutral=1.0, against_first=True),
     "largest_size": Reduction(largest_size, lambda values: _place_of_largest(abs(values)), neutral=0.0),
 }
 """Reductions to one number, by the name that claims give them."""
