@@ -16,6 +16,6 @@ open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
 data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input.data), strict=True))
 for study, path in zip(plan["costs"], snakemake.input.get("costs", []), strict=True):
-    data[study] = with_costs(data[study], pd.read_csv(path, float_precision="round_trip"))
+    data[study] = with_costs(data[study], pd.read_csv(path))
 candidates = read_candidates(Path(snakemake.output.csv).with_name("candidates.csv"))
 write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 import xarray as xr
@@ -33,4 +34,5 @@ def height_distances(runs: Sequence[dict]) -> xr.Dataset:
         places = run["coordinates"] | {"member": run["member"]}
         distance = xr.Dataset({"height_distance": gaussian_distance(heights)})
         parts.append(distance.expand_dims({name: [value] for name, value in places.items()}))
-    return xr.merge(parts)
+    combined = xr.combine_by_coords(parts, join="outer", compat="no_conflicts")
+    return cast(xr.Dataset, combined)  # never an array, as datasets are given
