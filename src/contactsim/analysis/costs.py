@@ -92,6 +92,11 @@ def _least_seconds(heights: Array, spacing: tuple[float, ...], where: Array | No
     return min(seconds)
 
 
+def read_costs(path: str | Path) -> pd.DataFrame:
+    """Return a table of costs from its file."""
+    return pd.read_csv(path)
+
+
 def with_costs(data: xr.Dataset, costs: pd.DataFrame) -> xr.Dataset:
     """Return the dataset of a study with the costs that claims can be about, of `QUANTITIES`.
 
