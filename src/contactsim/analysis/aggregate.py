@@ -15,7 +15,7 @@ import xarray as xr
 from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
-from contactsim.analysis.fits import fit_line_areas
+from contactsim.analysis.fits import PARAMETERS, fit_line_areas
 from contactsim.analysis.height_distribution import height_distances
 from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
@@ -69,7 +69,7 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
     if "points" in fine.dims and grid_convergence.is_doubled(fine.points):
         data = data.merge(finer_grid_limits(fine))
     if settings["fit_limits"] is not None:
-        for estimator in ("", "_corrected"):
+        for estimator in PARAMETERS:
             data = data.merge(fit_line_areas(fine, settings["fit_limits"], estimator))
     return data
 

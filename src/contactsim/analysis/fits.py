@@ -10,6 +10,8 @@ from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
 
 WEIGHTINGS = ("area", "logarithm")
+PARAMETERS = {"": ("fit_b1", "fit_b2"), "_corrected": ("fit_b1_corrected", "fit_b2_corrected")}
+"""Parameters of Eq. 3.11 by the end of the name of the area that they are fitted to."""
 
 
 def fit_line_areas(data: xr.Dataset, limits: list[float], estimator: str = "") -> xr.Dataset:
@@ -22,7 +24,7 @@ def fit_line_areas(data: xr.Dataset, limits: list[float], estimator: str = "") -
     limits : list of float
         Largest reduced pressures to fit.
     estimator : str
-        End of the area's name, and of the parameters' names: none for counted points, "_corrected".
+        End of the area's name, one of `PARAMETERS`: none for counted points, "_corrected".
 
     Returns
     -------
@@ -49,7 +51,7 @@ def fit_line_areas(data: xr.Dataset, limits: list[float], estimator: str = "") -
                 values[:2, s, w, k] = best
                 values[2:, s, w, k] = _jackknife(pressure[below], part, weighting)
     dims = ("fitted", "weighting", "fit_limit")
-    kinds = [f"fit_{name}{estimator}{kind}" for kind in ("", "_half_width") for name in ("b1", "b2")]
+    kinds = [f"{name}{kind}" for kind in ("", "_half_width") for name in PARAMETERS[estimator]]
     variables = {name: (dims, block) for name, block in zip(kinds, values, strict=True)}
     return xr.Dataset(variables, {"fitted": names, "weighting": list(WEIGHTINGS), "fit_limit": limits})
 

@@ -28,7 +28,11 @@ SIZES = {
     "contact_radius_subgrid": "relative_contact_area_subgrid",
 }
 """Sizes of a contact, and the area that each follows from."""
-GRADIENT_DEFICITS = {f"gradient_deficit{end}": f"rms_gradient_contact{end}" for end in ("", "_corrected", "_subgrid")}
+GRADIENT_DEFICITS = {
+    "gradient_deficit": "rms_gradient_contact",
+    "gradient_deficit_corrected": "rms_gradient_contact_corrected",
+    "gradient_deficit_subgrid": "rms_gradient_contact_subgrid",
+}
 """The part 1 - ḡ_r/ḡ = 1 - κ_r/κ by which the gradient over the contact is smaller, and that gradient."""
 SECOND_ESTIMATORS = {
     f"{name}_corrected": f"{name}_subgrid"
