@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from contactsim.analysis.aggregate import ensemble_means
+from contactsim.analysis.claims import judge
 from contactsim.analysis.mean_errors import estimate_trend, grid_error, mean_error
+from contactsim.analysis.quantities import mean_quantity
 from contactsim.analysis.ratios import ratio_curves
 from contactsim.observables.dataset_forms import AVERAGED
-from support.claims import PRESSURES, made_up, with_corrected
+from support.claims import PRESSURES, claim, made_up, with_corrected
 
 
 def averaged(data):
@@ -68,3 +70,32 @@ def test_a_ratio_halves_both_grids_together():
 def test_a_ratio_is_taken_at_the_loads_of_both():
     rows = ratio_curves(lines(), lines().isel(reduced_pressure=[0, 2]), "kappa_corrected")
     assert sorted(set(rows.reduced_pressure)) == [PRESSURES[0], PRESSURES[2]]
+
+
+def test_the_deficit_of_the_gradient_is_that_of_both_factors():
+    data = averaged(
+        made_up().assign(
+            rms_gradient_contact_corrected=made_up().kappa * 0 + 0.0008,
+            rms_gradient_contact_subgrid=made_up().kappa * 0 + 0.00079,
+            rms_gradient_contact_corrected_grid_change=made_up().kappa_grid_change * 0 - 0.00002,
+            rms_gradient=("member", np.full(4, 0.001)),
+        )
+    )
+    assert np.allclose(mean_quantity(data, "gradient_deficit_corrected"), 0.2)
+    settings = claim(quantity="gradient_deficit_corrected", reduce="mean", expect=0.2, tolerance=0.1)
+    row = judge(settings, [data])
+    assert row["value"] == pytest.approx(0.2)
+    assert row["grid_error"] == pytest.approx(0.02)  # the change of ḡ_r, larger than the distance between estimators
+
+
+def test_the_shape_of_a_ratio_is_compared_with_that_of_the_first_study():
+    above, below = made_up(tilt=0.2, scatter=0.01), made_up(tilt=-0.2, scatter=0.01)
+    settings = claim(
+        quantity="kappa", against="kappa", reduce="correlation", relative_to="rough_surface", expect=None,
+        tolerance=None, at_least=0.9,
+    )  # fmt: skip
+    row = judge(settings, [above, below])
+    assert row["value"] == pytest.approx(1.0, abs=1e-2)
+    assert row["verdict"] == "reproduced"
+    falling = made_up(tilt=0.6, scatter=0.01)  # the ratio falls where the first study rises
+    assert judge(settings, [above, falling])["value"] < -0.9
