@@ -219,7 +219,7 @@ def rough(made, *names):
 
 def test_surfaces_are_drawn_with_the_values_of_the_thesis_and_their_distance_from_them(made):
     (surface,) = rough(made, "rough_surface")
-    axes = list(Figure().subplots(1, 3))
+    axes = list(Figure().subplots(1, 4))
     ch3.fig_3_4(surface, axes, kappa=2.2, kappa_r=1.88)
     assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
     drawn = axes[2].containers[2].lines[0].get_ydata()  # corrected κ of the first Hurst exponent

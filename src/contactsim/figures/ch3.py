@@ -147,16 +147,18 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
 
 def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float) -> pd.DataFrame:
     """Plot the area of surfaces against both reduced pressures, and the factors (thesis Fig. 3.4)."""
-    area, factor, distance = axes
+    area, factor, distance, error = axes
     levels = {"kappa": kappa, "kappa_r": kappa_r}
     proportionality.plot_areas(area, data)
     proportionality.plot_factors(factor, data, levels)
     proportionality.plot_distances(distance, data, levels)
+    proportionality.plot_grid_errors(error, data, levels)
     proportionality.plot_persson(area, factor, data)
     for name, value in levels.items():
         factor.axhline(value, color=proportionality.FACTOR_COLOURS[name], lw=0.8, ls=style.THESIS)
     factor.set(ylabel=r"$\kappa^{2D}$, $\kappa_r^{2D}$")
     distance.set(ylabel=rf"above {kappa:.2f} ($\kappa^{{2D}}$), {kappa_r:.2f} ($\kappa_r^{{2D}}$) (%)")
+    error.set(ylabel=r"grid error of $\kappa^{2D}$, $\kappa_r^{2D}$ (%)")
     for panel in axes:
         panel.set(xscale="log", xlabel=BOTH_PRESSURES)
     style.add_letters(axes)
@@ -165,6 +167,8 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
     lines = {f"thesis, {kappa:.2f} and {kappa_r:.2f}": style.THESIS} | PERSSON
     factor.legend(handles=_gradient_handles(lines), loc="upper right")
     style.add_headroom(factor, 0.45)
+    error.legend(handles=proportionality.estimator_handles(), loc="upper right")
+    style.add_log_headroom(error, 0.25)
     return style.mean_table(data, AVERAGES)
 
 
