@@ -34,6 +34,7 @@ CASES = [
     ("slope", LOAD**0.5, {"against": LOAD} | ALONG_LOAD, 0.5),
     ("slope", GRID, {"against": GRID.work_of_separation, "along": "work_of_separation"},
      np.log2([2, 21 / 12, 30 / 11]).mean()),
+    ("origin_slope", BOTH, {"against": LOAD} | ALONG_LOAD, ((2 + 40 + 300) / 10101 + 111 / 10101) / 2),
     ("fall", BOTH, ALONG_LOAD, (-0.5 + 0) / 2),
     ("rise", GRID, ALONG_RATIO, (0.1 + 0.5) / 2),
     ("least_rise", GRID, ALONG_RATIO, 0.1),

@@ -106,6 +106,11 @@ def slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
     return mean((x * _logarithm(values)).sum(along, skipna=False) / (x**2).sum(along, skipna=False))
 
 
+def origin_slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
+    """Return the slope of the line of least squares through the origin along a dimension, averaged over the others."""
+    return mean((against * values).sum(along, skipna=False) / (against**2).sum(along, skipna=False))
+
+
 def spread(values: xr.DataArray, places: Places, along: str) -> float:
     """Return (largest − smallest)/|mean| along a dimension, averaged over the others."""
     return mean(_ranges(values, places, along))
@@ -243,6 +248,7 @@ REDUCTIONS: dict[str, Reduction] = {
         spread_ratio, lambda values, against, along: (_ends(values, along), _ends(against, along)), neutral=0.0
     ),
     "slope": Reduction(slope),
+    "origin_slope": Reduction(origin_slope),
     "fall": Reduction(fall, neutral=0.0),
     "rise": Reduction(rise, neutral=0.0),
     "least_rise": Reduction(least_rise, lambda values, along: _place_of_largest(-_rises(values, along)), neutral=0.0),
