@@ -66,6 +66,8 @@ def assess_claims(plan: Plan, chapter: str) -> None:
     studies = plan.claims_studies(chapter)
     data = {study: dataset.load_dataset(plan.results / f"datasets/{chapter}_{study}.nc") for study in studies}
     targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in ("png", "pdf", "csv")}
+    for study in plan.claims_costs(chapter):
+        data[study] = costs.with_costs(data[study], costs.read_costs(plan.results / f"costs/{chapter}_{study}.csv"))
     settings = json.loads(json.dumps(plan.claims_settings(chapter)))
     write_claims(judge_claims(dict(settings["claims"]), data), chapter, data, targets)
 

@@ -93,8 +93,8 @@ def test_admitted_candidates_are_readings(tmp_path):
 
 
 def test_a_claim_asks_for_the_studies_of_its_alternatives():
-    section = VALUE | {"admissible": {"grid": {"coarse": {"study": "rough_line_coarse"}}}}
-    assert read_claim("test", section, "ch3.yaml", STUDIES).studies == ["rough_line", "rough_line_coarse"]
+    section = VALUE | {"admissible": {"grid": {"coarse": {"study": "rough_line_many"}}}}
+    assert read_claim("test", section, "ch3.yaml", STUDIES).studies == ["rough_line", "rough_line_many"]
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,12 @@ from contactsim.errors import InputError
 from contactsim.study.claim_plan import Claim, read_claim
 from support.claims import STUDIES, VALUE, claim, made_up
 
-CASES = {"coarse": {"study": "rough_line_coarse"}}
+CASES = {"coarse": {"study": "rough_line_many"}}
 
 
 def row(first, second, **changes):
     """The row of a claim on two studies, whose κ have given levels and grid errors."""
-    data = {"rough_line": made_up(first[0], grid=first[1]), "rough_line_coarse": made_up(second[0], grid=second[1])}
+    data = {"rough_line": made_up(first[0], grid=first[1]), "rough_line_many": made_up(second[0], grid=second[1])}
     return judge_claims({"test": claim(cases=CASES, **changes)}, data).iloc[0]
 
 
@@ -42,7 +42,7 @@ def test_each_width_of_the_bands_has_its_own_worst_case():
 
 
 def test_a_reading_has_the_cases_of_the_claim_or_its_own():
-    data = {"rough_line": made_up(2.0, grid=0.001), "rough_line_coarse": made_up(2.3, grid=0.001)}
+    data = {"rough_line": made_up(2.0, grid=0.001), "rough_line_many": made_up(2.3, grid=0.001)}
     heavy = {"select": {"reduced_pressure": [0.01, 0.1]}}
     readings = {"loads": {"heavy": heavy, "light": {"cases": {"light": {"select": {"reduced_pressure": [0, 0.002]}}}}}}
     judged = judge_claims({"test": claim(cases=CASES, admissible=readings)}, data).iloc[0]
@@ -51,7 +51,7 @@ def test_a_reading_has_the_cases_of_the_claim_or_its_own():
 
 def test_the_studies_of_all_cases_belong_to_the_claim():
     settings = claim(cases=CASES)
-    assert Claim("test", settings).studies == ["rough_line", "rough_line_coarse"]
+    assert Claim("test", settings).studies == ["rough_line", "rough_line_many"]
 
 
 @pytest.mark.parametrize(("case", "key"), [({}, "coarse"), ({"study": "none"}, "study"), ({"band": 1}, "band")])

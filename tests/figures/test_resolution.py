@@ -13,6 +13,7 @@ from contactsim import dataset
 from contactsim.analysis import aggregate, resolution
 from contactsim.errors import InputError
 from contactsim.figures import ch3, style
+from contactsim.figures.parts import ratios as ratio_curves
 from contactsim.figures.parts import resolution as resolution_curves
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.plan import Plan
@@ -72,9 +73,9 @@ def test_the_table_has_means_changes_member_by_member_and_limits():
 def test_what_a_grid_costs_is_said_in_words():
     text = "\n".join(resolution.change_texts(resolution.grid_table(COARSER, FINER), "kappa_r", "8 points"))
     for part in (
-        "on 16 points: +0.062 to +0.062",
-        "on 32 points: +0.094",
-        "in the limit: +0.125",
+        "8 points less 16 points: +0.062 to +0.062",
+        "8 points less 32 points: +0.094",
+        "8 points less the limit: +0.125",
         "order observed: 1.0",
     ):
         assert part in text
@@ -98,8 +99,10 @@ def test_ratios_are_taken_at_equal_points_per_wavelength():
     assert one.value["limit"] == pytest.approx(0.9, rel=1e-9)
     assert one.error["limit"] == pytest.approx(0.9 * np.sqrt(2 / 3) * LEVELS.std(ddof=1) / mean, rel=0.05)
     axes = Figure().subplots()
-    resolution_curves.plot_ratio_limits(shown, axes)
-    assert len(axes.containers) == 6
+    ratio_curves.plot_equal_grids(axes, shown[shown.quantity == "kappa_r"], "16 points", style.CONTACT)
+    limits = [container.lines[0].get_ydata() for container in axes.containers[1::2]]
+    assert np.allclose(limits, 0.9, rtol=1e-9)
+    assert len(axes.containers) == 4  # two Hurst exponents, on the grid and in the limit
 
 
 def test_ratios_of_ensembles_on_unequal_grids_are_refused():
@@ -120,11 +123,11 @@ def test_lines_and_surfaces_are_refined_through_the_same_grids_at_every_tier(tie
 
 
 def test_the_thesis_is_drawn_where_it_gives_a_value_and_all_values_are_named():
-    axes = list(Figure().subplots(1, 3))
+    axes = list(Figure().subplots(1, 4))
     ch3.fig_3_4_grid(COARSER, FINER, axes, kappa=2.2, kappa_r=1.88)
     dashed = [
         [line.get_ydata()[0] for line in panel.lines if line.get_color() == style.EXACT and len(line.get_ydata()) == 2]
         for panel in axes
     ]
-    assert dashed == [[2.2], [1.88], []]
+    assert dashed == [[2.2], [2.2], [1.88], [1.88]]
     assert "thesis, 2.20 and 1.88" in [text.get_text() for text in axes[-1].get_legend().get_texts()]

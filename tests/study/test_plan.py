@@ -177,7 +177,8 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.results == Path("made/plain")
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
-    unsaid = {"panels": 1, "select": {}, "reference": {}, "datasets": [], "law": None, "film": None}
+    unsaid = {"panels": 1, "rows": 1, "select": {}, "reference": {}, "datasets": [], "law": None, "film": None}
+    unsaid |= {"footer": "full"}
     assert plan.figures["fig_3_1"].settings == unsaid | TWICE
     assert plan.dataset_name("smooth") == "ch3_smooth"
 

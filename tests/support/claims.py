@@ -14,7 +14,7 @@ from support.places import ROOT
 PLAN = Plan.read(ROOT / "config", "quick")
 STUDIES = {
     name: PLAN.studies[name]
-    for name in ("smooth_line", "rough_line", "rough_line_coarse", "rough_surface", "surface_resolution")
+    for name in ("smooth_line", "rough_line", "rough_line_many", "rough_surface", "surface_resolution")
 }
 PATHS = {name: PLAN.studies[name] for name in ("indentation", "indentation_uncoupled", "pull_off")}
 PRESSURES = [0.001, 0.01, 0.1]

@@ -125,6 +125,11 @@ class ResultJobs:
         studies = self.plan.claims_studies(wildcards.chapter)
         return [self.plan.results / f"datasets/{self.plan.dataset_name(study)}.nc" for study in studies]
 
+    def claims_costs(self, wildcards: Wildcards) -> list[Path]:
+        """Return the tables of costs that a chapter's claims are about."""
+        studies = self.plan.claims_costs(wildcards.chapter)
+        return [self.plan.results / f"costs/{self.plan.dataset_name(study)}.csv" for study in studies]
+
     def claims_params(self, wildcards: Wildcards) -> str:
         """Return what the verdicts on a chapter's claims depend on."""
         return canonical(self.plan.claims_settings(wildcards.chapter))

@@ -8,10 +8,13 @@ from joblog import open_log
 from contactsim import dataset
 from contactsim.analysis.admissible import read_candidates
 from contactsim.analysis.claims import judge_claims
+from contactsim.analysis.costs import read_costs, with_costs
 from contactsim.figures.diagnostics.claims import write_claims
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input), strict=True))
+data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input.data), strict=True))
+for study, path in zip(plan["costs"], snakemake.input.get("costs", []), strict=True):
+    data[study] = with_costs(data[study], read_costs(path))
 candidates = read_candidates(Path(snakemake.output.csv).with_name("candidates.csv"))
 write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)

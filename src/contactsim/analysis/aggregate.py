@@ -15,7 +15,8 @@ import xarray as xr
 from contactsim import dataset, reference
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
-from contactsim.analysis.fits import fit_line_areas
+from contactsim.analysis.fits import PARAMETERS, fit_line_areas
+from contactsim.analysis.height_distribution import height_distances
 from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
@@ -27,6 +28,9 @@ EXACT_CONTACTS = {
     "surface": ("contact_radius_exact", reference.sphere_rms_gradient),
 }
 """Name of the exact contact size of a cylinder or a sphere, and the exact gradient in the contact."""
+
+ROLL_OFF = "long_cutoff"
+"""Dimension of a study that varies the roll-off wavelength; its runs have the distribution of their heights."""
 
 
 def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
@@ -45,6 +49,8 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     form = form_of(combined)
     data = form.derive(combined)
     data = _aggregate_paths(data, form, runs) if form.is_path else _aggregate_loads(data, form, runs, settings)
+    if ROLL_OFF in data.dims:
+        data = data.merge(height_distances([run for run in runs if not run["measures_error"]]))
     return dataset.stamp(dataset.describe(data), settings["title"], settings, source)
 
 
@@ -63,7 +69,8 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
     if "points" in fine.dims and grid_convergence.is_doubled(fine.points):
         data = data.merge(finer_grid_limits(fine))
     if settings["fit_limits"] is not None:
-        data = data.merge(fit_line_areas(fine, settings["fit_limits"]))
+        for estimator in PARAMETERS:
+            data = data.merge(fit_line_areas(fine, settings["fit_limits"], estimator))
     return data
 
 

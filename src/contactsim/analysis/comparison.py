@@ -117,7 +117,8 @@ class Comparison:
         """Return the quantity and the further inputs of the reduction."""
         inputs: dict[str, Any] = {name: self.claim[name] for name in REDUCTIONS[self.claim["reduce"]].inputs}
         if "against" in inputs:
-            inputs["against"] = self._values(data, self.claim["against"])
+            is_first = REDUCTIONS[self.claim["reduce"]].against_first
+            inputs["against"] = self._values(data[:1] if is_first else data, self.claim["against"])
         return self._values(data, self.claim["quantity"]), inputs
 
     def _values(self, data: Datasets, name: str) -> xr.DataArray:
@@ -137,7 +138,7 @@ class Comparison:
     def _combine(self, values: Sequence[xr.DataArray]) -> xr.DataArray:
         """Return the values of one study, or those of two combined."""
         operations = [operation for key, (_, operation) in SECOND_STUDY.items() if self.claim[key] is not None]
-        return operations[0](*values) if operations else values[0]
+        return operations[0](*values) if len(values) > 1 else values[0]
 
     def _with_members(self, data: Datasets, members: Sequence[Array]) -> list[xr.Dataset]:
         """Return the datasets with these members of each group."""

@@ -6,8 +6,6 @@ are computed member by member. Different Hurst exponents, and lines and surfaces
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 
@@ -81,68 +79,6 @@ def ratio_limits(above: xr.Dataset, below: xr.Dataset, name: str) -> xr.Dataset:
 
     ensembles = [on_all_grids(data, name) for data in (above, below)]
     return xr.merge([grid_convergence.jackknife(measure, *ensembles) for measure in (ratios, limits)])
-
-
-@dataclass(frozen=True)
-class Departure:
-    """A difference of two means, with its standard error and the coordinates of both."""
-
-    difference: float
-    standard_error: float
-    places: tuple[dict[str, float], dict[str, float]]
-
-    @property
-    def in_errors(self) -> float:
-        """Return the difference over its standard error."""
-        return self.difference / self.standard_error
-
-
-def departure(data: xr.Dataset, name: str, along: str) -> Departure:
-    """Return the most significant difference of a quantity between two values of a dimension, all else being equal.
-
-    Members are the same profiles but for their scale, so differences are computed member by member; only different
-    Hurst exponents are independent.
-
-    Parameters
-    ----------
-    data : Dataset
-        Results with two members or more.
-    name : str
-        Name of the quantity.
-    along : str
-        Dimension with two values or more.
-
-    Raises
-    ------
-    InputError
-        For one member, or one value along the dimension.
-    """
-    if data.member.size < 2:
-        raise InputError("members", data.member.size, "2 or more: without a spread nothing is significant")
-    if data[along].size < 2:
-        raise InputError(along, data[along].size, "2 or more values: a difference needs two")
-    values = converged(data[name], data)
-    dims = [dim for dim in values.dims if dim not in ("member", along)]
-    best = None
-    for (i, first), (j, second) in (
-        (a, b) for a in enumerate(data[along]) for b in enumerate(data[along]) if a[0] < b[0]
-    ):
-        before, after = values.isel({along: i}, drop=True), values.isel({along: j}, drop=True)
-        paired = along != "hurst_exponent"
-        gap = abs((before - after).mean("member")) if paired else abs(before.mean("member") - after.mean("member"))
-        square = _squared_error(before - after) if paired else _squared_error(before) + _squared_error(after)
-        error = np.sqrt(square)
-        if not (gap / error).notnull().any():
-            continue
-        place = (gap / error).argmax(...)
-        candidate = Departure(
-            float(gap[place]),
-            float(error[place]),
-            tuple({dim: float(data[dim][place[dim]]) for dim in dims} | {along: float(end)} for end in (first, second)),
-        )
-        if best is None or candidate.in_errors > best.in_errors:
-            best = candidate
-    return best
 
 
 def relative_change(data: xr.Dataset, name: str, along: str, reference: object) -> xr.Dataset:

@@ -10,9 +10,11 @@ from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
 
 WEIGHTINGS = ("area", "logarithm")
+PARAMETERS = {"": ("fit_b1", "fit_b2"), "_corrected": ("fit_b1_corrected", "fit_b2_corrected")}
+"""Parameters of Eq. 3.11 by the end of the name of the area that they are fitted to."""
 
 
-def fit_line_areas(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
+def fit_line_areas(data: xr.Dataset, limits: list[float], estimator: str = "") -> xr.Dataset:
     """Return the parameters of Eq. 3.11 for each Hurst exponent and for all together.
 
     Parameters
@@ -21,6 +23,8 @@ def fit_line_areas(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
         Relative contact area along `hurst_exponent`, `member` and `reduced_pressure`.
     limits : list of float
         Largest reduced pressures to fit.
+    estimator : str
+        End of the area's name, one of `PARAMETERS`: none for counted points, "_corrected".
 
     Returns
     -------
@@ -32,7 +36,8 @@ def fit_line_areas(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
     ----------
     Eq. 3.11 of the thesis.
     """
-    area = converged(data.relative_contact_area, data).transpose("hurst_exponent", "member", "reduced_pressure").values
+    areas = converged(data[f"relative_contact_area{estimator}"], data)
+    area = areas.transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
     sets = [[row] for row in range(data.hurst_exponent.size)] + [list(range(data.hurst_exponent.size))]
     names = [f"{value:g}" for value in data.hurst_exponent.values] + ["all"]
@@ -46,7 +51,7 @@ def fit_line_areas(data: xr.Dataset, limits: list[float]) -> xr.Dataset:
                 values[:2, s, w, k] = best
                 values[2:, s, w, k] = _jackknife(pressure[below], part, weighting)
     dims = ("fitted", "weighting", "fit_limit")
-    kinds = ("fit_b1", "fit_b2", "fit_b1_half_width", "fit_b2_half_width")
+    kinds = [f"{name}{kind}" for kind in ("", "_half_width") for name in PARAMETERS[estimator]]
     variables = {name: (dims, block) for name, block in zip(kinds, values, strict=True)}
     return xr.Dataset(variables, {"fitted": names, "weighting": list(WEIGHTINGS), "fit_limit": limits})
 

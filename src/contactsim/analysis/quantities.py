@@ -28,6 +28,12 @@ SIZES = {
     "contact_radius_subgrid": "relative_contact_area_subgrid",
 }
 """Sizes of a contact, and the area that each follows from."""
+GRADIENT_DEFICITS = {
+    "gradient_deficit": "rms_gradient_contact",
+    "gradient_deficit_corrected": "rms_gradient_contact_corrected",
+    "gradient_deficit_subgrid": "rms_gradient_contact_subgrid",
+}
+"""The part 1 - ḡ_r/ḡ = 1 - κ_r/κ by which the gradient over the contact is smaller, and that gradient."""
 SECOND_ESTIMATORS = {
     f"{name}_corrected": f"{name}_subgrid"
     for name in ("relative_contact_area", "rms_gradient_contact", "kappa", "kappa_r")
@@ -49,7 +55,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     data
         Dataset of a study.
     name
-        A variable, one of `FITTED`, one of `SIZES` or `CRACK_DEPARTURE`.
+        A variable, `CRACK_DEPARTURE`, or one of `FITTED`, `SIZES` and `GRADIENT_DEFICITS`.
     leave_out_absent
         If True, members whose path was solved and has no such number are left out of the mean.
 
@@ -67,6 +73,8 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
         modulus = mean_quantity(data, "contact_modulus")
         crack = xr.apply_ufunc(reference.cylinder_pull_off, data.work_of_separation, radius, modulus)
         return mean_quantity(data, PULL_OFF, leave_out_absent) / crack - 1
+    if name in GRADIENT_DEFICITS:
+        return 1 - mean_quantity(data, GRADIENT_DEFICITS[name]) / data.rms_gradient.mean("member")
     values = data[name]
     if "member" not in values.dims:
         return values
@@ -113,7 +121,8 @@ def resolves_edges(data: xr.Dataset) -> bool:
 
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
-    source = "relative_contact_area" if name in FITTED else {**SIZES, CRACK_DEPARTURE: PULL_OFF}.get(name, name)
+    sources = SIZES | GRADIENT_DEFICITS | {CRACK_DEPARTURE: PULL_OFF}
+    source = "relative_contact_area" if name in FITTED else sources.get(name, name)
     return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
 
 

@@ -34,11 +34,14 @@ class Reduction:
         Function of the same without `places` that returns these; None where there is no extreme.
     neutral
         Value where nothing varies or differs; None where the reduction has none.
+    against_first
+        True if `against` is that of the first of two studies, not their ratio or difference.
     """
 
     measure: Callable[..., float]
     locate: Callable[..., Places] | None = None
     neutral: float | None = None
+    against_first: bool = False
 
     @property
     def inputs(self) -> list[str]:
@@ -103,6 +106,11 @@ def slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
     return mean((x * _logarithm(values)).sum(along, skipna=False) / (x**2).sum(along, skipna=False))
 
 
+def origin_slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
+    """Return the slope of the line of least squares through the origin along a dimension, averaged over the others."""
+    return mean((against * values).sum(along, skipna=False) / (against**2).sum(along, skipna=False))
+
+
 def spread(values: xr.DataArray, places: Places, along: str) -> float:
     """Return (largest − smallest)/|mean| along a dimension, averaged over the others."""
     return mean(_ranges(values, places, along))
@@ -153,6 +161,12 @@ def ratio(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
 def furthest_from_one(values: xr.DataArray, places: Places) -> float:
     """Return the value that is furthest from one, such as the ratio of two studies that are said to agree."""
     return float(values.isel(places))
+
+
+def correlation(values: xr.DataArray, against: xr.DataArray) -> float:
+    """Return the correlation with another quantity over all points."""
+    first, second = xr.broadcast(values, against)
+    return float(np.corrcoef(first.values.ravel(), second.values.ravel())[0, 1])
 
 
 def largest_size(values: xr.DataArray, places: Places) -> float:
@@ -234,6 +248,7 @@ REDUCTIONS: dict[str, Reduction] = {
         spread_ratio, lambda values, against, along: (_ends(values, along), _ends(against, along)), neutral=0.0
     ),
     "slope": Reduction(slope),
+    "origin_slope": Reduction(origin_slope),
     "fall": Reduction(fall, neutral=0.0),
     "rise": Reduction(rise, neutral=0.0),
     "least_rise": Reduction(least_rise, lambda values, along: _place_of_largest(-_rises(values, along)), neutral=0.0),
@@ -248,6 +263,7 @@ REDUCTIONS: dict[str, Reduction] = {
     "least": Reduction(least, lambda values: _place_of_largest(-values)),
     "largest": Reduction(largest, _place_of_largest),
     "furthest_from_one": Reduction(furthest_from_one, lambda values: _place_of_largest(abs(values - 1)), neutral=1.0),
+    "correlation": Reduction(correlation, neutral=1.0, against_first=True),
     "largest_size": Reduction(largest_size, lambda values: _place_of_largest(abs(values)), neutral=0.0),
 }
 """Reductions to one number, by the name that claims give them."""

@@ -9,8 +9,8 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.analysis import ensemble
 
-QUANTITIES = ("kappa", "kappa_r", "kappa_r_pairs")
-"""Quantities of the tables: κ, and κ_r over the contact and over pairs of points in contact."""
+QUANTITIES = ("kappa", "kappa_corrected", "kappa_r", "kappa_r_corrected")
+"""Quantities of the tables: κ and κ_r, each as in the thesis and corrected."""
 IN_LIMIT = "limit"
 """Entry of the column `grid` for the limit of fine grids."""
 
@@ -103,7 +103,7 @@ def ratio_table(lines: xr.Dataset, surfaces: xr.Dataset) -> pd.DataFrame:
 
 
 def change_texts(table: pd.DataFrame, quantity: str, grid: str) -> list[str]:
-    """Return how far a quantity on one grid lies above finer grids and above the limit, and the observed orders.
+    """Return the differences of a quantity on one grid from finer grids and the limit, and the observed orders.
 
     table: of `grid_table`; grid: one of its entries.
     """
@@ -113,15 +113,15 @@ def change_texts(table: pd.DataFrame, quantity: str, grid: str) -> list[str]:
     settled = rows[rows.above_common == 0].index.get_level_values("grid")[0]
     nothing = pd.Series([], dtype=float)
     limits = here.value - rows.xs(IN_LIMIT, level="grid").value if IN_LIMIT in rows.index.levels[2] else nothing
-    texts = [f"on {grid}, above that"]
+    texts = []
     for place, changes in (
-        (f"on {settled}", here.above_common),
-        (f"on {finest}", here.above_finest if finest != settled else nothing),
-        ("in the limit", limits),
+        (settled, here.above_common),
+        (finest, here.above_finest if finest != settled else nothing),
+        ("the limit", limits),
     ):
         changes = changes.dropna()
         if len(changes):
-            texts.append(f"{place}: {changes.min():+.3f} to {changes.max():+.3f}")
+            texts.append(f"{grid} less {place}: {changes.min():+.3f} to {changes.max():+.3f}")
     if rows.order.notna().any():
         texts.append(f"order observed: {rows.order.min():.1f} to {rows.order.max():.1f}")
     return texts

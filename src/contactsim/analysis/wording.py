@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,8 @@ from contactsim.analysis import ensemble
 
 TINY = 1e-9
 """Numbers below it are written with a power of ten."""
-SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in ("kappa", "kappa_r", "kappa_r_pairs")} | {
+FACTORS = ("kappa", "kappa_corrected", "kappa_r", "kappa_r_corrected")
+SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in FACTORS} | {
     "final_contact_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
     "pull_off_load_unloading": "on unloading",
@@ -146,6 +147,18 @@ def dataset_summary(data: xr.Dataset, costs: pd.DataFrame) -> str:
     if "validity_flags" in data and (excess := status.describe_excess(data)):
         parts.append(f"beyond the model: {', '.join(excess)} of the states")
     return " · ".join([*parts, *error_texts(data), f"study solved in {costs.seconds.sum():.3g} CPU s"])
+
+
+def sources_summary(data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -> str:
+    """Return tier, grids, members, unconverged solutions and CPU time of several studies in one line."""
+    settings = [dataset.settings_of(part) for part in data]
+    parts = [f"{settings[0]['tier']} tier"]
+    for own, part in zip(settings, data, strict=True):
+        grid, members, _ = sample_texts(part)
+        parts.append(f"{own['name'].replace('_', ' ')}: {grid}, {members}")
+    unconverged, total = (sum(counts) for counts in zip(*map(ensemble.unconverged, data), strict=True))
+    parts.append(f"{unconverged} of {total} solutions unconverged")
+    return " · ".join([*parts, f"studies solved in {sum(table.seconds.sum() for table in costs):.3g} CPU s"])
 
 
 def error_texts(data: xr.Dataset) -> list[str]:

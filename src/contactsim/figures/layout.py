@@ -18,7 +18,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from contactsim.analysis.ensemble import widen_interval
-from contactsim.analysis.wording import dataset_summary
+from contactsim.analysis.wording import dataset_summary, sources_summary
 from contactsim.figures import style
 from contactsim.files import write_atomically
 
@@ -48,13 +48,20 @@ def write_figure(
     settings, module = plan["settings"], import_module(plan["module"])
     plot = getattr(module, plan["name"])
     parts = [selected(part, settings["select"]) for part in data]
-    summaries = [dataset_summary(part, table) for part, table in zip(parts, costs, strict=bool(costs))]
-    figure, panels = empty_figure(settings, " — ".join(summaries) if summaries else module.footer(*parts))
+    footer = _footer(settings, parts, costs) if costs else module.footer(*parts)
+    figure, panels = empty_figure(settings, footer, settings["rows"])
     axes = panels if len(panels) > 1 else panels[0]
     save(figure, plot(*parts, axes, **settings["reference"]), targets)
     if settings["film"] is not None:
         speed = settings["film"]
         write_atomically(targets["gif"], lambda path: write_film(figure, axes, plot, parts[0], speed, path))
+
+
+def _footer(settings: Mapping[str, Any], data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -> str:
+    """Return the footer of a figure of studies: all that is known of each, or a short one."""
+    if settings["footer"] == "short":
+        return sources_summary(data, costs)
+    return " — ".join(dataset_summary(part, table) for part, table in zip(data, costs, strict=True))
 
 
 def selected(data: xr.Dataset, ranges: Mapping[str, tuple[float, float]]) -> xr.Dataset:

@@ -164,10 +164,23 @@ def add_headroom(axes: Axes, above: float, below: float = 0.0) -> None:
     axes.set_ylim(low - below * (high - low), high + above * (high - low))
 
 
+def add_log_headroom(axes: Axes, above: float) -> None:
+    """Add room above the curves of a logarithmic axis, as a part of its range."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high * (high / low) ** above)
+
+
 def include_range(axes: Axes, low: float, high: float) -> None:
     """Widen the vertical axis so that it shows this range too."""
     bottom, top = axes.get_ylim()
     axes.set_ylim(min(bottom, low), max(top, high))
+
+
+def share_vertical_range(axes: Sequence[Axes]) -> None:
+    """Give all panels the vertical range that holds those of each."""
+    ranges = [panel.get_ylim() for panel in axes]
+    for panel in axes:
+        panel.set_ylim(min(low for low, _ in ranges), max(high for _, high in ranges))
 
 
 def add_letters(axes: Iterable[Axes]) -> None:

@@ -262,7 +262,7 @@ def _check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[s
         if key not in inputs and settings[key] is not None:
             unused = f"left out: {settings['reduce']} does not use it"
             raise InputError(f"{prefix}.{key}", settings[key], unused, file)
-    if seconds and settings["against"] is not None:
+    if seconds and settings["against"] is not None and not REDUCTIONS[settings["reduce"]].against_first:
         single = [name for name in (*REDUCTIONS, *ORDERS) if "against" not in reduction_inputs(name)]
         message = f"with `{seconds[0]}`, one of {', '.join(single)}"
         raise InputError(f"{prefix}.reduce", settings["reduce"], message, file)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from contactsim.analysis.costs import QUANTITIES
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.neglect import expected_neglect
 from contactsim.errors import InputError
@@ -210,11 +211,17 @@ class Plan:
         """Return the studies whose datasets a chapter's claims read."""
         return sorted({study for claim in self.claims[chapter].values() for study in claim.studies})
 
+    def claims_costs(self, chapter: str) -> list[str]:
+        """Return the studies whose costs a chapter's claims read, too."""
+        claims = [claim for claim in self.claims[chapter].values() if claim.settings.get("quantity") in QUANTITIES]
+        return sorted({study for claim in claims for study in claim.studies})
+
     def claims_settings(self, chapter: str) -> dict:
         """Return what the verdicts of a chapter depend on: its claims in their order, their code, and their data."""
         data = {study: self.study_digest(study) for study in self.claims_studies(chapter)}
         claims = [[name, claim.settings] for name, claim in self.claims[chapter].items()]
-        return {"chapter": chapter, "claims": claims, "source": stage_digest("claims"), "data": data}
+        source, costs = stage_digest("claims", "contactsim.analysis.costs"), self.claims_costs(chapter)
+        return {"chapter": chapter, "claims": claims, "source": source, "data": data, "costs": costs}
 
 
 def _read_tier(file: Path, tier: str) -> dict:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from contactsim.analysis.quantities import CRACK_DEPARTURE, FITTED
+from contactsim.analysis import costs
+from contactsim.analysis.aggregate import ROLL_OFF
+from contactsim.analysis.quantities import CRACK_DEPARTURE, FITTED, GRADIENT_DEFICITS
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kinds import study_kind
@@ -20,7 +22,11 @@ def quantities(study: Study) -> list[str]:
         size = "contact_radius" if is_sphere else "half_width"
         names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact"}
         names |= set() if is_sphere else {"half_width_array", "rms_gradient_array", "kappa_r_array"}
-    names |= _error_names(study, names & {*AVERAGED})
+    names |= _error_names(study, names & {*AVERAGED}) | {*costs.QUANTITIES}
+    if load == "reduced_pressure":
+        names |= set(GRADIENT_DEFICITS)
+    if ROLL_OFF in study.dimensions:
+        names.add("height_distance")
     if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
         names |= set(FITTED)
     return sorted(names)

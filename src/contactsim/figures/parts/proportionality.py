@@ -2,62 +2,98 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from contactsim import reference
-from contactsim.analysis import ensemble
+from contactsim.analysis.mean_errors import estimate_trend, grid_error, mean_error
+from contactsim.analysis.wording import rounded_texts
 from contactsim.figures import style
 from contactsim.grid import Array
 
 GRADIENTS = {
-    r"$\bar g$ over the whole surface": style.WHOLE,
-    r"$\bar g_r$ over the contact (Eq. 3.8)": style.CONTACT,
-    r"$\bar g_r$ over pairs in contact": style.PAIRS,
+    r"$\kappa$: $\bar g$ of the whole surface": style.WHOLE,
+    r"$\kappa_r$: $\bar g_r$ over the contact": style.CONTACT,
 }
 """Labels and colours of the gradients that a factor counts with."""
-FACTOR_COLOURS = {"kappa": style.WHOLE, "kappa_r": style.CONTACT, "kappa_r_pairs": style.PAIRS}
-FIT_LINES: dict[str, dict[str, Any]] = {"area": {"lw": 1.6, "alpha": 1.0}, "logarithm": {"lw": 0.8, "alpha": 0.6}}
-"""Lines of fits, by what they minimise."""
+FACTOR_COLOURS = {"kappa": style.WHOLE, "kappa_r": style.CONTACT}
+CORRECTED, AS_IN_THESIS = "corrected for the grid", "as in the thesis"
+ESTIMATORS: dict[str, tuple[str, dict[str, Any]]] = {
+    AS_IN_THESIS: ("", {"marker": "", "alpha": style.FAINT, "linewidth": 1.6}),
+    CORRECTED: ("_corrected", {}),
+}
+"""Estimators of area and gradient: the end of a quantity's name, and what differs in the look of its curves."""
+
+
+def _curves(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, str, dict[str, Any]]]:
+    """Yield the means of each Hurst exponent with the end of an estimator's names and the look of its curves."""
+    for hurst_exponent in data.hurst_exponent.values:
+        for end, look in ESTIMATORS.values():
+            yield data.sel(hurst_exponent=hurst_exponent), end, style.hurst_look(hurst_exponent) | look
 
 
 def plot_areas(axes: Axes, data: xr.Dataset) -> None:
-    """Plot the mean area against the reduced pressure p* and against p_r*, one curve a Hurst exponent."""
-    for hurst_exponent in data.hurst_exponent.values:
-        means, look = data.sel(hurst_exponent=hurst_exponent), style.hurst_look(hurst_exponent)
-        for pressure, colour in (
-            (means.reduced_pressure, style.WHOLE),
-            (means.reduced_pressure_contact_mean, style.CONTACT),
-        ):
-            style.plot_means(axes, pressure, means, "relative_contact_area", color=colour, **look)
+    """Plot the mean area against the reduced pressure p* and against p_r*, by both estimators."""
+    for means, end, look in _curves(data):
+        area, error = means[f"relative_contact_area{end}_mean"], _bars(means, "relative_contact_area", end)
+        for factor, colour in FACTOR_COLOURS.items():
+            style.errorbars(axes, _pressure(means, factor + end), area, error, color=colour, **look)
     axes.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
 
 
-def plot_factors(axes: Axes, data: xr.Dataset, names: tuple[str, ...]) -> None:
-    """Plot mean factors of proportionality, κ against p*, κ_r against p_r*, one curve a Hurst exponent."""
-    for hurst_exponent in data.hurst_exponent.values:
-        means = data.sel(hurst_exponent=hurst_exponent)
+def plot_factors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None:
+    """Plot mean factors of proportionality by both estimators, κ against p*, κ_r against p_r*."""
+    for means, end, look in _curves(data):
         for name in names:
-            look = style.hurst_look(hurst_exponent) | {"color": FACTOR_COLOURS[name]}
-            style.plot_means(axes, _pressure(means, name), means, name, **look)
+            mean, error = means[f"{name}{end}_mean"], _bars(means, name, end)
+            style.errorbars(axes, _pressure(means, name + end), mean, error, color=FACTOR_COLOURS[name], **look)
 
 
-def plot_grid_errors(axes: Axes, data: xr.Dataset, names: tuple[str, ...]) -> None:
-    """Plot the grid errors of factors of proportionality, one curve a Hurst exponent."""
-    for hurst_exponent in data.hurst_exponent.values:
-        means = data.sel(hurst_exponent=hurst_exponent)
+def plot_distances(axes: Axes, data: xr.Dataset, levels: Mapping[str, float]) -> None:
+    """Plot how far mean factors lie above given values, in per cent, by both estimators; levels: the values."""
+    for means, end, look in _curves(data):
+        for name, level in levels.items():
+            distance = 100 * (means[f"{name}{end}_mean"] / level - 1)
+            error = 100 * _bars(means, name, end) / level
+            style.errorbars(axes, _pressure(means, name + end), distance, error, color=FACTOR_COLOURS[name], **look)
+    axes.axhline(0, color=style.EXACT, lw=0.8, ls=style.THESIS)
+
+
+def plot_grid_errors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None:
+    """Plot the grid errors of mean factors in per cent, by both estimators, also on the thesis's own grid."""
+    for means, end, look in _curves(data):
         for name in names:
-            look = style.hurst_look(hurst_exponent) | {"color": FACTOR_COLOURS[name]}
-            style.plot_grid_error(axes, _pressure(means, name), means, name, **look)
+            if f"{name}{end}_grid_error" in means:
+                change = means[f"{name}{end}_grid_error"]
+                error = 100 * (grid_error(means, name + end) if end else change) / means[f"{name}{end}_mean"]
+                axes.plot(_pressure(means, name + end), error, color=FACTOR_COLOURS[name], **look)
     axes.set(yscale="log")
+
+
+def _bars(means: xr.Dataset, name: str, end: str) -> xr.DataArray:
+    """Return the error of a corrected mean, and of another that of the ensemble alone.
+
+    The grid error of counted points has a known sign: it is the distance to the corrected curve.
+    """
+    return mean_error(means, name + end) if end else means[f"{name}_standard_error"]
 
 
 def _pressure(means: xr.Dataset, name: str) -> xr.DataArray:
     """Return the reduced pressure that a factor is plotted against."""
-    return means.reduced_pressure if name == "kappa" else means.reduced_pressure_contact_mean
+    if not name.startswith("kappa_r"):
+        return means.reduced_pressure
+    return means[f"reduced_pressure_contact{name.removeprefix('kappa_r')}_mean"]
+
+
+def estimator_handles() -> list[Line2D]:
+    """Return legend handles of the estimators, of which only the corrected one has markers."""
+    marker: dict[str, Any] = {"marker": "o", "markerfacecolor": "white", "markersize": 3.5}
+    return [Line2D([], [], color=style.GREY, label=name, **marker | look) for name, (_, look) in ESTIMATORS.items()]
 
 
 def persson_curve(data: xr.Dataset, points: int = 100) -> tuple[Array, Array]:
@@ -69,33 +105,18 @@ def persson_curve(data: xr.Dataset, points: int = 100) -> tuple[Array, Array]:
 def plot_persson(area: Axes, factor: Axes, data: xr.Dataset) -> None:
     """Plot Persson's area and the factor κ that follows from it."""
     pressure, persson = persson_curve(data)
-    area.plot(pressure, persson, color=style.EXACT, lw=0.8)
-    factor.plot(pressure, persson / pressure, color=style.EXACT, lw=0.8)
+    area.plot(pressure, persson, color=style.EXACT, lw=0.8, ls="-.")
+    factor.plot(pressure, persson / pressure, color=style.EXACT, lw=0.8, ls="-.")
 
 
-def constancy_text(data: xr.Dataset) -> str:
-    """Return the most significant changes of κ_r with pressure and with the Hurst exponent; empty for one member."""
+def trend_text(data: xr.Dataset, name: str = "kappa_r_corrected") -> str:
+    """Return how a factor's straight trend changes with pressure and Hurst exponent; empty for one member."""
     if data.member.size < 2:
         return ""
-    lines = []
-    for along, symbol, other in (("reduced_pressure", "$p^*$", "$H$"), ("hurst_exponent", "$H$", "$p^*$")):
-        change = ensemble.departure(data, "kappa_r", along)
-        first, second = (place[along] for place in change.places)
-        (fixed,) = (value for name, value in change.places[0].items() if name != along)
-        lines.append(rf"{symbol} from {first:g} to {second:g} at {other} = {fixed:g}: $\kappa_r$ changes")
-        lines.append(f"    by {change.difference:.3f}, {change.in_errors:.1f} standard errors")
+    lines = [r"straight trend of the corrected $\kappa_r$:"]
+    for along, symbol in (("reduced_pressure", r"$\log p^*$"), ("hurst_exponent", "$H$")):
+        ends = data[along].values[[0, -1]]
+        trend = estimate_trend(data, name, along)
+        value, error = rounded_texts(100 * trend.value, 100 * trend.error)
+        lines.append(rf"   {symbol}, {ends[0]:g} to {ends[1]:g}: {value} ± {error} %")
     return "\n".join(lines)
-
-
-def fit_look(fitted: str, weighting: str) -> dict[str, Any]:
-    """Return the line of a fit; that to all Hurst exponents is broad and lies below those to one of them."""
-    look = FIT_LINES[weighting]
-    if fitted == "all":
-        return {"color": style.PAIRS, "lw": 2.5 * look["lw"], "alpha": 0.5 * look["alpha"], "zorder": 1.5}
-    line = "-" if fitted == "one" else style.hurst_look(float(fitted))["linestyle"]
-    return look | {"color": style.WHOLE, "ls": line}
-
-
-def fitted_kappa(pressure: Array, b1: Array, b2: Array) -> Array:
-    """Return κ = a_rel/p* of Eq. 3.11; the arrays broadcast."""
-    return reference.line_area(pressure, b1, b2) / pressure

@@ -12,14 +12,22 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from contactsim.analysis.resolution import change_texts, grid_count, grid_counts, grid_name, grid_table, per_wavelength
+from contactsim.analysis.resolution import (
+    QUANTITIES,
+    change_texts,
+    grid_count,
+    grid_counts,
+    grid_name,
+    grid_table,
+    per_wavelength,
+)
 from contactsim.figures import style
 from contactsim.figures.parts.proportionality import FACTOR_COLOURS
 from contactsim.variables import RESULTS
 
 FAINTEST = 0.35
 """Opacity of the smallest load."""
-CORNER: dict[str, Any] = {"fontsize": 6.5, "ha": "right", "va": "top"}
+CORNER: dict[str, Any] = {"fontsize": 7, "ha": "right", "va": "top"}
 """Text in the upper right corner."""
 LIMIT_PLACE = 2.2
 """Where limits stand, over the points of the finest grid."""
@@ -32,7 +40,7 @@ def plot_grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: Ma
     ----------
     data : an ensemble on several grids
     finer : some of its members on a finer grid
-    axes : one for each factor of `contactsim.analysis.resolution.QUANTITIES`
+    axes : one for each of `contactsim.analysis.resolution.QUANTITIES`
     thesis : the thesis's values by factor, as far as it gives them
 
     Returns
@@ -41,17 +49,19 @@ def plot_grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: Ma
     """
     table = grid_table(data, finer)
     middle = grid_name(float(per_wavelength(data).points[-2:][0]))
-    for panel, name in zip(axes, FACTOR_COLOURS, strict=True):
+    for panel, name in zip(axes, QUANTITIES, strict=True):
         plot_factor(table, name, panel)
-        if name in thesis:
-            panel.axhline(thesis[name], color=style.EXACT, lw=0.8, ls=style.THESIS)
-        style.add_headroom(panel, 0.4, below=0.35 if panel is axes[-1] else 0.0)
+        if (factor := _factor(name)) in thesis:
+            panel.axhline(thesis[factor], color=style.EXACT, lw=0.8, ls=style.THESIS)
+        style.add_headroom(panel, 0.35)
         panel.text(0.97, 0.97, "\n".join(change_texts(table, name, middle)), transform=panel.transAxes, **CORNER)
+    for pair in (axes[:2], axes[2:]):
+        style.share_vertical_range(pair)
     style.add_letters(axes)
     values = " and ".join(f"{value:.2f}" for value in thesis.values())
     handles = style.hurst_handles(data.hurst_exponent.values) + load_handles(list(data.reduced_pressure.values))
     handles += style.line_handles({f"thesis, {values}": style.THESIS})
-    axes[-1].legend(handles=handles, loc="lower right", ncols=2)
+    axes[-1].legend(handles=handles, loc="center", ncols=2)
     return table
 
 
@@ -62,7 +72,8 @@ def plot_factor(table: pd.DataFrame, name: str, axes: Axes) -> None:
     end = counts[-1] * LIMIT_PLACE
     loads, exponents = sorted(rows.reduced_pressure.unique()), sorted(rows.hurst_exponent.unique())
     for (hurst_exponent, load), curve in rows.groupby(["hurst_exponent", "reduced_pressure"]):
-        look = {"color": FACTOR_COLOURS[name], "alpha": _opacity(loads, load)} | style.hurst_look(hurst_exponent)
+        look = style.hurst_look(hurst_exponent)
+        look |= {"color": FACTOR_COLOURS[_factor(name)], "alpha": _opacity(loads, load)}
         x = np.array([grid_count(grid) for grid in curve.grid])
         on_grid, limit = curve[np.isfinite(x)], curve[~np.isfinite(x)]
         style.errorbars(axes, x[np.isfinite(x)], on_grid.value, on_grid.standard_error, **look)
@@ -77,18 +88,13 @@ def plot_factor(table: pd.DataFrame, name: str, axes: Axes) -> None:
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}" if value <= counts[-1] else "limit"))
 
 
-def plot_ratio_limits(table: pd.DataFrame, axes: Axes) -> None:
-    """Plot the limits of `contactsim.analysis.resolution.ratio_table` against reduced pressure."""
-    limits = table[table.grid == "limit"]
-    exponents, names = sorted(limits.hurst_exponent.unique()), list(FACTOR_COLOURS)
-    for (name, hurst_exponent), rows in limits.groupby(["quantity", "hurst_exponent"]):
-        shift = 1 + 0.08 * (3 * names.index(name) + exponents.index(hurst_exponent) - 4)
-        look = style.hurst_look(hurst_exponent) | {"color": FACTOR_COLOURS[name]}
-        style.plot_limits(axes, rows.value, rows.reduced_pressure * shift, limit_error(rows.error, rows.spread), **look)
+def _factor(name: str) -> str:
+    """Return the factor that a quantity of the tables estimates."""
+    return name.removesuffix("_corrected")
 
 
 def limit_error(standard_error: pd.Series, spread: pd.Series) -> pd.Series:
-    """Return the error of a limit: standard error and spread, added in squares."""
+    """Return the error of a limit: standard error and spread in quadrature."""
     return np.hypot(standard_error.fillna(0.0), spread)
 
 

@@ -1,0 +1,41 @@
+"""Errors of means and trends that figures show, by the rules of verdicts (docs/judging.md)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.quantities import SECOND_ESTIMATORS, resolves_edges
+from contactsim.analysis.uncertainty import Estimate, estimate, is_on_thesis_grid
+
+
+def resolved_second(data: xr.Dataset, name: str) -> str | None:
+    """Return the second estimator of a corrected quantity if the grids of a dataset resolve it, else None."""
+    second = SECOND_ESTIMATORS.get(name)
+    return second if second is not None and resolves_edges(data) else None
+
+
+def grid_error(data: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the grid error of a quantity's mean; NaN where the study has no coarser grid.
+
+    It is the change on halving the grid. Of a corrected quantity it is at least the distance to the second estimator if
+    the grid resolves that. A quantity that is not corrected has none on the thesis's own number of points.
+    """
+    if name not in SECOND_ESTIMATORS and is_on_thesis_grid(data):
+        return xr.DataArray(0.0)
+    change, second = data.get(f"{name}_grid_error", xr.DataArray(np.nan)), resolved_second(data, name)
+    if second is None:
+        return change
+    return xr.apply_ufunc(np.maximum, change, abs(data[f"{name}_mean"] - data[f"{second}_mean"]))
+
+
+def mean_error(data: xr.Dataset, name: str) -> xr.DataArray:
+    """Return ensemble and grid error of a quantity's mean in quadrature, without the one that a study has not."""
+    return xr.apply_ufunc(np.hypot, data[f"{name}_standard_error"].fillna(0.0), grid_error(data, name).fillna(0.0))
+
+
+def estimate_trend(data: xr.Dataset, name: str, along: str) -> Estimate:
+    """Return the change of a quantity's straight trend along a dimension over its mean, with its errors."""
+    others = dict.fromkeys(("against", "across", "absent", "relative_to", "minus", "grid"))
+    return estimate(Comparison(others | {"quantity": name, "reduce": "trend", "along": along}, [data]))
