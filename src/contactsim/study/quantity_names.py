@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contactsim.analysis.quantities import FITTED
+from contactsim.analysis.quantities import BAR_SHARES, ERROR_BARS, FITTED
+from contactsim.observables.contact_readings import reading_names
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kinds import study_kind
@@ -23,6 +24,8 @@ def quantities(study: Study) -> list[str]:
     names |= _error_names(study, names & {*AVERAGED})
     if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
         names |= set(FITTED)
+    if study.settings["members"] > 1:
+        names |= {bar for bar, name in BAR_SHARES.items() if name in names}
     return sorted(names)
 
 
@@ -30,6 +33,9 @@ def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
     scene = study.runs()[0].setup.scene
     names = study_kind(study.settings).path_quantities(scene, study.dimensions)
+    names |= reading_names(study.settings)
+    if study.settings["members"] > 1:
+        names |= {bar for bar, name in ERROR_BARS.items() if name in names}
     return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
 
 
