@@ -126,10 +126,12 @@ def sample_texts(data: xr.Dataset) -> list[str]:
     """Return grid, members and unconverged solutions of a dataset as short texts."""
     unconverged, total = ensemble.unconverged(data)
     members = data.member.size
+    bridged = int(data.bridged_states.sum()) if "bridged_states" in data else 0
+    bridged_text = f", {bridged} of them bridged" if bridged else ""
     return [
         grid_text(dataset.settings_of(data), *data.points.values.ravel()),
         f"{members} members" if members > 1 else "1 member",
-        f"{unconverged} of {total} solutions unconverged",
+        f"{unconverged} of {total} solutions unconverged{bridged_text}",
     ]
 
 

@@ -18,6 +18,7 @@ from contactsim.observables.adhesion import legs
 from contactsim.observables.linearity import (
     APPROACH_LEVELS,
     LOAD_LEVELS,
+    bridge_gaps,
     summarise_area_load,
     value_at_level,
     values_at_loads,
@@ -44,6 +45,7 @@ HEIGHT_NUMBERS = ("area_at_12nm", "pressure_at_20nm")
 """Numbers at an approach, which depends on the height of the body."""
 BY_CRITERION = tuple(f"{number}_{criterion}" for criterion in CRITERIA for number in CRITERION_NUMBERS)
 BY_HEIGHT = tuple(f"{number}_{height}" for height in HEIGHTS for number in HEIGHT_NUMBERS)
+"""Names of the numbers by each reading."""
 AT_LOAD = ("mean_gap_at_load_0_001",)
 PEAKS = ("touching_peaks_at_20nm",)
 """Further numbers of rough contacts: the gap at a load, and how many peaks of the profile are in contact."""
@@ -119,10 +121,7 @@ def _numbers_on_body(indentation: Array, added: Array, area: Array, pressure: Ar
     States that the body passes in a jump, because it is more compliant than the contact, are left out: the approach
     never falls back.
     """
-    loading = legs(indentation)[0]
-    approach, area, pressure = (indentation + added)[loading], area[loading], pressure[loading]
-    solved = np.isfinite(approach)
-    approach, area, pressure = approach[solved], area[solved], pressure[solved]
+    pressure, approach, area = solved_loading(indentation, pressure, indentation + added, area)
     rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
     approach, columns = approach[rises], (area[rises], pressure[rises])
     numbers, coarse = (
@@ -130,6 +129,18 @@ def _numbers_on_body(indentation: Array, added: Array, area: Array, pressure: Ar
         for part in (slice(None), slice(approach.size % 2 == 0, None, 2))
     )
     return *numbers, *np.abs(np.subtract(coarse, numbers))
+
+
+def solved_loading(indentation: Array, pressure: Array, *others: Array) -> list[Array]:
+    """Return pressure and other columns on loading up to the first unknown state; a single one is bridged.
+
+    All (step,); a state is unknown where the pressure is NaN.
+    """
+    loading = legs(indentation)[0]
+    columns = bridge_gaps([column[loading] for column in (pressure, *others)], 0.5)
+    unknown = np.flatnonzero(np.isnan(columns[0]))
+    end = int(unknown[0]) if unknown.size else columns[0].size
+    return [column[:end] for column in columns]
 
 
 def _read_loading(
@@ -146,15 +157,14 @@ def _read_loading(
     number
         Name of the number.
     read
-        Function of the approach beyond first touch, of the mean pressure over E*, and of the quantity, (step,).
+        Function of the mean pressure over E*, of the approach beyond first touch, and of the quantity, (step,).
     """
 
     def per_path(indentation: Array, pressure: Array, values: Array) -> tuple[float, float]:
         """Return the number and its change."""
-        columns = np.array([indentation, pressure, values])[:, legs(indentation)[0]]
-        columns = columns[:, np.isfinite(columns[1])]
+        columns = solved_loading(indentation, pressure, indentation, values)
         value = read(*columns)
-        return value, abs(read(*columns[:, ::-2][:, ::-1]) - value)
+        return value, abs(read(*(column[::-2][::-1] for column in columns)) - value)
 
     columns = xr.apply_ufunc(
         per_path,
@@ -168,12 +178,12 @@ def _read_loading(
     return dict(zip((number, f"{number}{ERROR}"), columns, strict=True))
 
 
-def _gap_at_load(indentation: Array, pressure: Array, gap: Array) -> float:
+def _gap_at_load(pressure: Array, indentation: Array, gap: Array) -> float:
     """Return the mean gap where the load last rises through 0.001 E*."""
     return float(values_at_loads(pressure, gap, np.array([LOAD_LEVELS["area_at_load_0_001"]]))[0])
 
 
-def _peaks_at_approach(indentation: Array, pressure: Array, peaks: Array) -> float:
+def _peaks_at_approach(pressure: Array, indentation: Array, peaks: Array) -> float:
     """Return the number of peaks in contact at 20 nm beyond first touch."""
     return value_at_level(indentation, APPROACH_LEVELS[1], peaks)
 
