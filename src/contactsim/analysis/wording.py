@@ -24,6 +24,8 @@ SLIDE_SUMMARY_NAMES = {
     name: variables.RESULTS[name].symbol for name in ("static_friction", "first_force_drop", "reattached_fraction")
 }
 """The same for slides."""
+ROUGH_SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in ("area_at_12nm", "area_at_load_0_001")}
+"""The same for paths of rough contacts."""
 REDUCTION_PHRASES = {
     "kappa_fit": "κ of the fit to each H",
     "kappa_fit_logarithm": "κ of the logarithmic fit",
@@ -153,6 +155,7 @@ def dataset_summary(data: xr.Dataset, costs: pd.DataFrame) -> str:
 def error_texts(data: xr.Dataset) -> list[str]:
     """Return the largest errors of a dataset's main quantities, one text for each kind of error."""
     names = SLIDE_SUMMARY_NAMES if "static_friction" in data else SUMMARY_NAMES
+    names = ROUGH_SUMMARY_NAMES if "area_at_12nm_by_repulsion" in data else names
     texts = []
     for error in variables.ERRORS:
         sizes = [

@@ -30,8 +30,8 @@ from contactsim.observables.adhesion import LEGS
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_pairs", "reduced_pressure_contact")
 PICTURE, COVER_PICTURE, CLOSE_UP = 0.12, 0.3, 0.05
 """Parts of the period that pictures of the interface show."""
-FIG_5_3_END = 0.012
-"""Largest pressure over E* of Fig. 5.3."""
+FIG_5_3_ENDS = 0.012, 0.003
+"""Largest pressures over E* of the panels of Fig. 5.3."""
 
 
 def fig_5_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
@@ -64,22 +64,20 @@ def fig_5_3(
     data, wall = with_indentation(data), with_indentation(wall)
     ends, works = np.array([0.0, 2.0]), data.work_of_separation.values.tolist()
     tables = []
-    for panel in axes:
+    for panel, end in zip(axes, FIG_5_3_ENDS, strict=True):
         for work, colour in style.shades(works).items():
             variant, label = data.sel(work_of_separation=work), rough.work_label(data, work)
-            tables.append(
-                rough.plot_against_pressure(panel, variant, label, reduced=True, end=FIG_5_3_END, color=colour)
-            )
-        tables += rough.plot_thin_against_pressure(panel, repulsive, stiff, works, FIG_5_3_END)
+            tables.append(rough.plot_against_pressure(panel, variant, label, reduced=True, end=end, color=colour))
+        tables += rough.plot_thin_against_pressure(panel, repulsive, stiff, works, end)
         look = rough.WALL_LOOK | {"lw": 1.4}
-        tables.append(rough.plot_against_pressure(panel, wall, "hard wall", reduced=True, end=FIG_5_3_END, **look))
+        tables.append(rough.plot_against_pressure(panel, wall, "hard wall", reduced=True, end=end, **look))
         thesis = {"color": style.GREY, "lw": 0.8, "ls": style.THESIS, "label": f"thesis, {kappa_r:g}", "zorder": 0}
         panel.plot(ends, kappa_r * ends, **thesis)
         panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS[rough.AREA])
     axes[0].set(xlim=rough.plotted_range(axes[0], -0.015, 0.06), ylim=(0, 1.02))
     axes[1].set(xlim=(-0.004, 0.012), ylim=(0, 0.5))
     axes[1].xaxis.set_major_locator(MaxNLocator(5))
-    axes[1].legend(loc="lower right", bbox_to_anchor=(1.0, 0.07))
+    axes[1].legend(loc="upper left", bbox_to_anchor=(0.0, 0.93))
     style.add_letters(axes)
     return pd.concat(tables)
 
@@ -117,8 +115,9 @@ def _add_pulls(axes: Axes) -> None:
 
 def fig_5_5(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Plot the interface with the strongest adhesion and with a hard wall (thesis Fig. 5.5)."""
-    table = interfaces.plot_beside_wall(axes, data, wall, PICTURE)
+    table = interfaces.plot_beside_wall(axes, data, wall, COVER_PICTURE)
     axes.legend(loc="lower left")
+    interfaces.add_magnification(axes)
     return table
 
 
