@@ -94,7 +94,7 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict], sett
         if suffix == GRID_ERROR:
             data = data.assign({f"{name}{GRID_CHANGE}": change.mean("member") for name, change in changes.items()})
         if data.member.size > 1 or form.compares_one_member:
-            data = data.merge(_mean_changes(data, other, suffix, form.averaged))
+            data = data.merge(_mean_changes(data, other, suffix, form.averaged), join="outer")
     return leave_out_unresolved_peel(data)
 
 

@@ -76,7 +76,7 @@ def add_magnification(axes: Axes) -> None:
     box = axes.get_window_extent()
     heights, lengths = (abs(high - low) for low, high in (axes.get_ylim(), axes.get_xlim()))
     times = (box.height / heights) / (box.width / lengths)
-    axes.text(0.01, 0.97, f"heights × {times:.2g}", transform=axes.transAxes, fontsize=7, va="top")
+    axes.text(0.01, 0.92, f"heights × {times:.2g}", transform=axes.transAxes, fontsize=7, va="top")
 
 
 def highest_place(data: xr.Dataset) -> float:
