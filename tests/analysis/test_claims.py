@@ -243,8 +243,9 @@ LACKING = {
     "ch3": [],
     "ch4": ["compressible_curves_weak"],
     "ch5": [
-        *("error_bars_larger", "heights_ordered", "hurst_ordered", "gap_heights", "gap_hurst"),
-        *("heights_linear", "hurst_linear", "heights_straight", "hurst_step"),
+        *("error_bars", "area_larger", "linearity_breaks", "error_bars_larger", "heights_ordered", "hurst_ordered"),
+        *("gap_heights", "gap_hurst", "heights_linear", "hurst_linear", "uncoupled", "compressibility_adhesive"),
+        *("friction", "hurst_step"),
     ],
     "ch6": ["share_in_tension"],
 }
