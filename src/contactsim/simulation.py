@@ -34,6 +34,7 @@ def simulate(
     snapshots: Sequence[float] | None = None,
     keep: Sequence[str] | None = None,
     keep_fields: bool | None = None,
+    until: str | None = None,
     threads: int = 1,
 ) -> xr.Dataset:
     """Follow the load path of a scene.
@@ -63,6 +64,8 @@ def simulate(
         At a hard wall: what to keep of each solution, some of "contact", "pressure", "profile" and "fields".
     keep_fields : bool, optional
         With cohesive laws: False to keep histograms alone at the snapshots.
+    until : str, optional
+        With cohesive laws: "complete_contact" ends the path where every gap is closed.
     threads : int
         Threads of the transforms; results are the same bit for bit at one number of threads.
 
@@ -87,6 +90,7 @@ def simulate(
         increments=increments,
         snapshots=None if snapshots is None else tuple(snapshots),
         keep_fields=keep_fields,
+        until=until,
     )
     setup = Setup(scene, options)
     if accuracy is None:

@@ -9,9 +9,11 @@ import pytest
 from matplotlib.figure import Figure
 
 from contactsim import dataset
+from contactsim.analysis.rough_paths import EQUAL_PRESSURES
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import ch5
 from contactsim.observables.adhesion import CRITERION, INTERACTING
+from contactsim.observables.linearity import values_at_loads
 from contactsim.status import Status
 
 ROUGH = (
@@ -70,14 +72,19 @@ def test_areas_shrink_with_the_threshold_and_those_that_repel_are_the_least(stud
     assert (data.contact_length <= data[CRITERION] + data.length / data.points).all()
 
 
-def test_curves_go_through_every_state_and_symbols_through_those_of_the_whole_grid(studies):
+def test_areas_are_averaged_at_equal_pressures_for_every_law_and_the_wall(studies):
     axes = panels(2)
     names = ("rough_adhesive", "rough_wall", "rough_repulsive", "rough_stiff")
     data, wall, repulsive, stiff = (studies[name] for name in names)
     shown = ch5.fig_5_3(data, wall, repulsive, stiff, axes, kappa_r=1.75)
-    paths = (data, repulsive, stiff)
-    assert len(shown) == sum(part.step.size * part.work_of_separation.size for part in paths) + wall.step.size
-    assert shown[shown.case.str.contains("0.15")].whole_grid.sum() == 10
+    cases = sum(part.work_of_separation.size for part in (data, repulsive, stiff)) + 1
+    assert len(shown) == 2 * cases * EQUAL_PRESSURES
+    wide = shown[shown.case == "hard wall"].iloc[:EQUAL_PRESSURES]
+    area = [
+        values_at_loads(member.normalised_pressure.values, member.relative_contact_area.values, wide.pressure.values)
+        for member in (wall.sel(member=number) for number in wall.member)
+    ]
+    assert np.allclose(wide.area, np.mean(area, axis=0))
 
 
 def test_repulsion_alone_never_pulls_and_a_stiff_one_takes_more_load(studies):

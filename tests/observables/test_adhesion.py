@@ -20,12 +20,15 @@ from contactsim.observables.adhesion import (
     largest_jumps,
     legs,
     pull_off,
+    slips,
     state_observables,
     summarise_load_curves,
+    touching_peaks,
 )
 from contactsim.observables.load_curve import LoadCurve, join_folds
 from contactsim.simulation import simulate
 from contactsim.study.law_table import tabulate_law
+from contactsim.surfaces.shapes import Cylinder
 from contactsim.surfaces.statistics import local_squares, rms_gradient
 from support.smooth import LAWS, LENGTH, along, scene_of, walk
 
@@ -164,6 +167,30 @@ def test_histograms_hold_every_point_and_their_ends_what_lies_beyond():
     assert shares["normal_gap_share"][[0, 12, -1]].tolist() == [0.25, 0.5, 0.25]
     assert shares["normal_gap_share"].sum() == shares["normal_traction_share"].sum() == 1.0
     assert shares["normal_traction_share"][0] == 0.25  # the strongest push
+
+
+def test_slip_counts_where_there_is_traction_and_by_how_much():
+    slip, size = np.array([9.0, 0.1, 0.4, 0.2]), np.array([0.001, 0.1, 0.3, 0.1])
+    found = slips(slip, size)
+    assert found["rms_slip"] == pytest.approx(np.sqrt((0.1 * 0.1**2 + 0.3 * 0.4**2 + 0.1 * 0.2**2) / 0.5))
+    assert found["slipped_share"] == pytest.approx(1 / 3)
+    assert slips(slip, 0 * size) == {"rms_slip": 0.0, "slipped_share": 0.0}
+
+
+def test_a_peak_is_where_surfaces_would_meet_first_and_counts_in_contact():
+    shape = np.array([1.0, 3.0, 2.0, 4.0, 0.0, 5.0])  # peaks at 0, 2 and 4
+    assert touching_peaks(shape, np.ones(6)) == 3.0
+    assert touching_peaks(shape, np.array([1.0, 1.0, 0.0, 1.0, 1.0, 1.0])) == 2.0
+
+
+def test_a_path_ends_at_complete_contact_if_it_is_asked_to():
+    blunt = Cylinder(length=LENGTH, radius=2.5e6)  # 5 nm from its highest to its lowest point
+    scene = scene_of(LAWS["uncoupled"], along(0.0, 20.0, 2.5), surface=blunt)
+    whole, ended = (simulate(scene, points=64, tolerance=1e-6, until=end) for end in (None, "complete_contact"))
+    complete = whole.contact_length >= whole.length
+    assert complete[-1] and complete.sum() > 1
+    assert ended.sizes["step"] == int(complete.argmax("step")) + 1
+    assert ended.line_load.values == pytest.approx(whole.line_load.values[: ended.sizes["step"]])
 
 
 def test_fields_of_some_members_alone_are_kept_and_histograms_of_all():

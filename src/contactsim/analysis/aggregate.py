@@ -18,6 +18,7 @@ from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import PARAMETERS, fit_line_areas
 from contactsim.analysis.height_distribution import height_distances
 from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
+from contactsim.observables.contact_readings import summarise_readings
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.proportionality import proportionality
@@ -48,7 +49,9 @@ def aggregate(runs: list[dict], settings: dict, source: str) -> xr.Dataset:
     combined = _read_runs([run for run in runs if not run["measures_error"]])
     form = form_of(combined)
     data = form.derive(combined)
-    data = _aggregate_paths(data, form, runs) if form.is_path else _aggregate_loads(data, form, runs, settings)
+    data = (
+        _aggregate_paths(data, form, runs, settings) if form.is_path else _aggregate_loads(data, form, runs, settings)
+    )
     if ROLL_OFF in data.dims:
         data = data.merge(height_distances([run for run in runs if not run["measures_error"]]))
     return dataset.stamp(dataset.describe(data), settings["title"], settings, source)
@@ -84,12 +87,13 @@ def _exact_array(data: xr.Dataset, radius: xr.DataArray | float) -> dict[str, xr
     return {"half_width_array": half_width, "rms_gradient_array": gradient, "kappa_r_array": kappa_r}
 
 
-def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> xr.Dataset:
+def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict], settings: dict) -> xr.Dataset:
     """Return paths with means of their states, and the errors of their summaries."""
+    data = summarise_readings(data, settings)
     if data.member.size > 1:
         data = data.merge(ensemble_means(data, form.averaged))
     for suffix, combined in _error_runs(runs):
-        other = form.derive(combined)
+        other = summarise_readings(form.derive(combined), settings)
         same = data.sel(member=other.member)
         names = [name for name in PATH_SUMMARIES if name in other and name in same]
         changes = {name: same[name] - other[name] for name in names}
@@ -97,7 +101,7 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict]) -> x
         if suffix == GRID_ERROR:
             data = data.assign({f"{name}{GRID_CHANGE}": change.mean("member") for name, change in changes.items()})
         if data.member.size > 1 or form.compares_one_member:
-            data = data.merge(_mean_changes(data, other, suffix, form.averaged))
+            data = data.merge(_mean_changes(data, other, suffix, form.averaged), join="outer")
     return leave_out_unresolved_peel(data)
 
 
@@ -117,15 +121,16 @@ def _error_runs(runs: list[dict]) -> Iterator[tuple[str, xr.Dataset]]:
 
 
 def ensemble_means(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
-    """Return means over members and their standard errors."""
+    """Return means over members and their standard errors; of paths, as far as all of them go."""
     variables = {}
     for name in names:
         if name in data:
             values = converged(data[name], data)
-            count = values.notnull().sum("member")
-            variables[f"{name}_mean"] = values.mean("member")
+            if "step" in values.dims:  # a mean over the paths that still go on would jump where one ends
+                values = values.where(data.status.notnull().all("member"))
             spread = values.std("member", ddof=1) if data.member.size > 1 else values.mean("member") * np.nan
-            variables[f"{name}_standard_error"] = spread / np.sqrt(count)
+            variables[f"{name}_mean"] = values.mean("member")
+            variables[f"{name}_standard_error"] = spread / np.sqrt(values.notnull().sum("member"))
     return xr.Dataset(variables)
 
 

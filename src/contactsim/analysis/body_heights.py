@@ -18,9 +18,8 @@ from contactsim.analysis.ensemble import converged
 from contactsim.analysis.rough_paths import with_indentation
 from contactsim.analysis.scales import body_settings
 from contactsim.grid import Array
+from contactsim.observables.contact_readings import CHAPTER_4_HEIGHT
 
-CHAPTER_4_HEIGHT = 5000.0
-"""Height of the bodies of Chapter 4, nm."""
 SAMPLES = 241
 """Approaches at which curves are compared."""
 Curve = tuple[Array, Array]

@@ -37,6 +37,8 @@ from contactsim.analysis.wording import range_text
 
 SCALES = {"half": 0.5, "double": 2.0}
 """Factors of the band with which each verdict is given again."""
+FIELD_DIMENSIONS = ("x", "y", "normal_gap_bin", "normal_traction_bin")
+"""Dimensions of fields and histograms, which no claim reads and which would be copied again and again."""
 NO_ROW_BESIDE: Mapping[str, object] = {
     "beside_verdict": "",
     **dict.fromkeys(("beside_value", "beside_ensemble_error", "beside_grid_error", "beside_margin"), NAN),
@@ -191,6 +193,7 @@ def judge_claims(
     candidates
         Verdicts of sets of parameters that the text admits, of `contactsim.analysis.admissible.read_candidates`.
     """
+    data = {name: part.drop_dims(FIELD_DIMENSIONS, errors="ignore") for name, part in data.items()}
     rows = []
     for name, settings in claims.items():
         studied = _studied(settings, data)

@@ -12,6 +12,7 @@ import xarray as xr
 from contactsim import dataset, reference
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.fits import fit_line_area
+from contactsim.observables.contact_readings import CRITERIA
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
 from contactsim.status import is_solved
 
@@ -34,6 +35,13 @@ GRADIENT_DEFICITS = {
     "gradient_deficit_subgrid": "rms_gradient_contact_subgrid",
 }
 """The part 1 - ḡ_r/ḡ = 1 - κ_r/κ by which the gradient over the contact is smaller, and that gradient."""
+ERROR_BARS = {
+    f"{name}_error_bar": name
+    for name in ("area_at_12nm", "area_at_20nm", *(f"area_at_12nm_{criterion}" for criterion in CRITERIA))
+}
+"""Lengths of error bars: the standard errors of these numbers."""
+BAR_SHARES = {"relative_contact_area_bar_share": "relative_contact_area"}
+"""Error bars over the range of the axis, which goes from zero to the largest mean."""
 SECOND_ESTIMATORS = {
     f"{name}_corrected": f"{name}_subgrid"
     for name in ("relative_contact_area", "rms_gradient_contact", "kappa", "kappa_r")
@@ -55,7 +63,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     data
         Dataset of a study.
     name
-        A variable, `CRACK_DEPARTURE`, or one of `FITTED`, `SIZES` and `GRADIENT_DEFICITS`.
+        A variable, `CRACK_DEPARTURE`, or one of `FITTED`, `SIZES`, `GRADIENT_DEFICITS`, `ERROR_BARS` and `BAR_SHARES`.
     leave_out_absent
         If True, members whose path was solved and has no such number are left out of the mean.
 
@@ -75,6 +83,11 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
         return mean_quantity(data, PULL_OFF, leave_out_absent) / crack - 1
     if name in GRADIENT_DEFICITS:
         return 1 - mean_quantity(data, GRADIENT_DEFICITS[name]) / data.rms_gradient.mean("member")
+    if name in ERROR_BARS:
+        return _standard_error(data, data[ERROR_BARS[name]])
+    if name in BAR_SHARES:
+        area = converged(data[BAR_SHARES[name]], data)
+        return _standard_error(data, area) / area.mean("member", skipna=False).max()
     values = data[name]
     if "member" not in values.dims:
         return values
@@ -100,6 +113,11 @@ def number_exists(data: xr.Dataset, name: str) -> xr.DataArray:
     return (data[name].notnull() | unknown(data, name)).any("member")
 
 
+def _standard_error(data: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
+    """Return the standard error of the mean of as many members as the study has, from those in the dataset."""
+    return values.std("member", ddof=1, skipna=False) / np.sqrt(dataset.settings_of(data)["members"])
+
+
 def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
     """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure)."""
     area = converged(data.relative_contact_area, data)
@@ -121,8 +139,8 @@ def resolves_edges(data: xr.Dataset) -> bool:
 
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
-    sources = SIZES | GRADIENT_DEFICITS | {CRACK_DEPARTURE: PULL_OFF}
-    source = "relative_contact_area" if name in FITTED else sources.get(name, name)
+    others = SIZES | GRADIENT_DEFICITS | ERROR_BARS | BAR_SHARES | {CRACK_DEPARTURE: PULL_OFF}
+    source = "relative_contact_area" if name in FITTED else others.get(name, name)
     return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
 
 

@@ -9,7 +9,10 @@ import xarray as xr
 
 from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
+from contactsim.observables.linearity import values_at_loads
 
+EQUAL_PRESSURES = 60
+"""Number of pressures at which curves are averaged."""
 ENDS = ("mean", "standard_error")
 """Endings of the names of ensemble means and their errors."""
 WALL_NAMES = {"relative_interacting_area": "relative_contact_area", "normalised_pressure": "normalised_pressure"}
@@ -47,6 +50,52 @@ def reduced_pressure(data: xr.Dataset) -> xr.DataArray:
     """Return p_r* = p/(ḡ_r E*) of the ensemble means; data: of `with_indentation`."""
     gradient = data.rms_gradient.mean([dim for dim in data.rms_gradient.dims if dim != "step"])
     return data.normalised_pressure_mean / (data.gradient_ratio_interacting_mean * gradient)
+
+
+@dataclass(frozen=True)
+class EqualPressure:
+    """Means over members at equal pressures where the load rises for the last time, and their standard errors.
+
+    abscissa: what the area is plotted against; all (pressure,).
+    """
+
+    pressure: Array
+    abscissa: Array
+    abscissa_error: Array
+    area: Array
+    area_error: Array
+
+
+def at_equal_pressure(data: xr.Dataset, reduced: bool, area: str, end: float) -> EqualPressure:
+    """Return the area of one variant at `EQUAL_PRESSURES` even pressures, as far as all members reach them.
+
+    Parameters
+    ----------
+    data
+        Paths of one variant.
+    reduced
+        True for an abscissa of p_r*, the pressure over the gradient in the contact; else it is the pressure over E*.
+    area
+        Name of the area.
+    end
+        Largest pressure over E*.
+    """
+    pressure = converged(data.normalised_pressure, data).transpose("member", "step").values
+    areas = data[area].transpose("member", "step").values
+    gradient = _gradient(data).transpose("member", "step").values if reduced else np.ones_like(pressure)
+    low = float(np.nanmin(pressure, axis=1).max())
+    loads = np.linspace(low, min(float(np.nanmax(pressure, axis=1).min()), end), EQUAL_PRESSURES + 1)[1:]
+    columns = (areas, pressure / gradient)
+    rows = [[values_at_loads(p, row, loads) for p, row in zip(pressure, part, strict=True)] for part in columns]
+    (area_mean, area_error), (mean, error) = (
+        (np.mean(part, axis=0), np.std(part, axis=0, ddof=min(1, len(part) - 1)) / np.sqrt(len(part))) for part in rows
+    )
+    return EqualPressure(loads, mean, error, area_mean, area_error)
+
+
+def _gradient(data: xr.Dataset) -> xr.DataArray:
+    """Return the rms gradient over the contact: by the usual criterion, or at a hard wall."""
+    return data["rms_gradient_interacting" if "rms_gradient_interacting" in data else "rms_gradient_contact"]
 
 
 def member_mean(values: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:

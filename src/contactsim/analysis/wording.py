@@ -25,6 +25,8 @@ SLIDE_SUMMARY_NAMES = {
     name: variables.RESULTS[name].symbol for name in ("static_friction", "first_force_drop", "reattached_fraction")
 }
 """The same for slides."""
+ROUGH_SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in ("area_at_12nm", "area_at_load_0_001")}
+"""The same for paths of rough contacts."""
 REDUCTION_PHRASES = {
     "kappa_fit": "κ of the fit to each H",
     "kappa_fit_logarithm": "κ of the logarithmic fit",
@@ -127,10 +129,12 @@ def sample_texts(data: xr.Dataset) -> list[str]:
     """Return grid, members and unconverged solutions of a dataset as short texts."""
     unconverged, total = ensemble.unconverged(data)
     members = data.member.size
+    bridged = int(data.bridged_states.sum()) if "bridged_states" in data else 0
+    bridged_text = f", {bridged} of them bridged" if bridged else ""
     return [
         grid_text(dataset.settings_of(data), *data.points.values.ravel()),
         f"{members} members" if members > 1 else "1 member",
-        f"{unconverged} of {total} solutions unconverged",
+        f"{unconverged} of {total} solutions unconverged{bridged_text}",
     ]
 
 
@@ -164,6 +168,7 @@ def sources_summary(data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -
 def error_texts(data: xr.Dataset) -> list[str]:
     """Return the largest errors of a dataset's main quantities, one text for each kind of error."""
     names = SLIDE_SUMMARY_NAMES if "static_friction" in data else SUMMARY_NAMES
+    names = ROUGH_SUMMARY_NAMES if "area_at_12nm_by_repulsion" in data else names
     texts = []
     for error in variables.ERRORS:
         sizes = [

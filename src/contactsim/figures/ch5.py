@@ -18,7 +18,6 @@ from contactsim.analysis.contact_criteria import compare_criteria
 from contactsim.analysis.ensemble import relative_change
 from contactsim.analysis.rough_paths import (
     Saving,
-    reduced_pressure,
     with_indentation,
 )
 from contactsim.analysis.scales import LawScales
@@ -31,6 +30,8 @@ from contactsim.observables.adhesion import LEGS
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_pairs", "reduced_pressure_contact")
 PICTURE, COVER_PICTURE, CLOSE_UP = 0.12, 0.3, 0.05
 """Parts of the period that pictures of the interface show."""
+FIG_5_3_ENDS = 0.012, 0.003
+"""Largest pressures over E* of the panels of Fig. 5.3."""
 
 
 def fig_5_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFrame:
@@ -60,18 +61,23 @@ def fig_5_3(
     Thin: the repulsion of each law alone, and adhesion with a stiff one. kappa_r: the thesis's constant without
     adhesion.
     """
-    data, wall, repulsive, stiff = (with_indentation(paths) for paths in (data, wall, repulsive, stiff))
+    data, wall = with_indentation(data), with_indentation(wall)
     ends, works = np.array([0.0, 2.0]), data.work_of_separation.values.tolist()
-    for panel in axes:
-        tables = rough.plot_works(panel, data, wall, rough.AREA, reduced_pressure)
-        tables += rough.plot_repulsions(panel, repulsive, stiff, works, rough.AREA, reduced_pressure)
-        thesis = {"color": style.EXACT, "lw": 0.8, "ls": style.THESIS, "label": f"thesis, {kappa_r:g}"}
+    tables = []
+    for panel, end in zip(axes, FIG_5_3_ENDS, strict=True):
+        for work, colour in style.shades(works).items():
+            variant, label = data.sel(work_of_separation=work), rough.work_label(data, work)
+            tables.append(rough.plot_against_pressure(panel, variant, label, reduced=True, end=end, color=colour))
+        tables += rough.plot_thin_against_pressure(panel, repulsive, stiff, works, end)
+        look = rough.WALL_LOOK | {"lw": 1.4}
+        tables.append(rough.plot_against_pressure(panel, wall, "hard wall", reduced=True, end=end, **look))
+        thesis = {"color": style.GREY, "lw": 0.8, "ls": style.THESIS, "label": f"thesis, {kappa_r:g}", "zorder": 0}
         panel.plot(ends, kappa_r * ends, **thesis)
         panel.set(xlabel=r"reduced pressure $p_r^*$", ylabel=rough.LABELS[rough.AREA])
     axes[0].set(xlim=rough.plotted_range(axes[0], -0.015, 0.06), ylim=(0, 1.02))
     axes[1].set(xlim=(-0.004, 0.012), ylim=(0, 0.5))
     axes[1].xaxis.set_major_locator(MaxNLocator(5))
-    axes[1].legend(loc="lower right", bbox_to_anchor=(1.0, 0.07))
+    axes[1].legend(loc="upper left", bbox_to_anchor=(0.0, 0.93))
     style.add_letters(axes)
     return pd.concat(tables)
 
@@ -89,17 +95,29 @@ def fig_5_4(
         curves += rough.plot_repulsions(panel, repulsive, stiff, works, name, rough.indentation)
         tables[name] = pd.concat(curves)
         panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[name], xlim=(-7, 24.5))
-    axes[0].set_yscale("symlog", linthresh=1e-3)
-    axes[1].set_ylim(0, 1.4)
+    _add_pulls(axes[0])
+    axes[1].set_ylim(0.5, 1.15)
     axes[2].legend(loc="upper left")
     style.add_letters(axes)
     return tables[names[0]]
 
 
+def _add_pulls(axes: Axes) -> None:
+    """Enlarge the pressures about zero in an inset."""
+    inset = axes.inset_axes((0.14, 0.5, 0.52, 0.45))
+    for line in list(axes.lines):
+        look = {"color": line.get_color(), "ls": line.get_linestyle(), "lw": 0.8}
+        inset.plot(line.get_xdata(), line.get_ydata(), **look)
+    inset.axhline(0.0, **style.ZERO)
+    inset.set(xlim=axes.get_xlim(), ylim=(-2.5e-3, 2.5e-3))
+    inset.tick_params(labelsize=6)
+
+
 def fig_5_5(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Plot the interface with the strongest adhesion and with a hard wall (thesis Fig. 5.5)."""
-    table = interfaces.plot_beside_wall(axes, data, wall, PICTURE)
+    table = interfaces.plot_beside_wall(axes, data, wall, COVER_PICTURE)
     axes.legend(loc="lower left")
+    interfaces.add_magnification(axes)
     return table
 
 
@@ -117,10 +135,18 @@ def cover(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
 
 
 def fig_5_6(
-    data: xr.Dataset, middle: xr.Dataset, high: xr.Dataset, exponents_data: xr.Dataset, axes: list[Axes]
+    data: xr.Dataset,
+    middle: xr.Dataset,
+    high: xr.Dataset,
+    exponents_data: xr.Dataset,
+    wall: xr.Dataset,
+    axes: list[Axes],
 ) -> pd.DataFrame:
-    """Plot the area against the pressure for rms heights and Hurst exponents (thesis Fig. 5.6)."""
-    strong = _strongest(data)
+    """Plot the area against the pressure for rms heights and Hurst exponents (thesis Fig. 5.6).
+
+    The hard wall, with H = 0.8 and 10 nm, is the straight line that contacts are said to approach.
+    """
+    strong, wall = _strongest(data), with_indentation(wall)
     heights = {10.0: strong, 15.0: middle, 30.0: high}
     exponents = {
         float(value): exponents_data.sel(hurst_exponent=value) for value in exponents_data.hurst_exponent.values
@@ -130,9 +156,13 @@ def fig_5_6(
         (axes[0], heights, r"h_{\mathrm{rms}}", " nm"),
         (axes[1], exponents, "H", ""),
     ):
-        for (value, variant), colour in zip(variants.items(), style.shades(list(variants)).values(), strict=True):
+        others = iter(style.shades(range(len(variants))).values())
+        next(others)  # the colour of the case that both panels show
+        for value, variant in variants.items():
             label = f"${symbol}={value:g}${unit}"
+            colour = style.EXACT if variant is strong else next(others)
             tables.append(rough.plot_against_pressure(panel, with_indentation(variant), label, color=colour))
+        tables.append(rough.plot_against_pressure(panel, wall, "hard wall", **rough.WALL_LOOK))
         rough.label_pressures(panel)
     style.add_letters(axes)
     return pd.concat(tables)

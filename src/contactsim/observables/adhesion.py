@@ -46,6 +46,10 @@ FINAL = {
     "final_slip": "slip",
 }
 """Numbers at the largest approach, by the number of a state that they are."""
+ALONG_PATH = {"largest_rms_slip": "rms_slip", "largest_slipped_share": "slipped_share"}
+"""Largest numbers along a path, by the number of a state that they are."""
+SLIPPED = 0.3
+"""Slip over the laws' length from which a node counts as slipped: the tangential factor of Eq. 5.2 is 0.91 there."""
 TURN_TOLERANCE = 1e-6
 """Changes of approach (nm) that do not turn a path."""
 LEGS = ("loading", "unloading")
@@ -58,7 +62,7 @@ SUMMARY = (
     "max_jump_unloading",
     *FINAL,
 )
-"""Summary of a path; the slip only where a law reads the tangential gap."""
+"""Summary of a path; the slip, here and in `ALONG_PATH`, only where a law reads the tangential gap."""
 
 
 def contact_length(gap: Array, spacing: float) -> float:
@@ -85,9 +89,11 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
     -------
     dict
         line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, max_pressure and
-        max_tensile_traction, GPa; contact_length, lengths for `INTERACTING`, mean_gap and min_gap, nm. Over the laws'
-        lengths: max_interpenetration, the deepest overlap, and slip, the largest tangential gap under repulsion (of
-        springs, that to the nearest site).
+        max_tensile_traction, GPa; contact_length, lengths for `INTERACTING`, mean_gap and min_gap, nm; the number of
+        touching_peaks. Over the laws' lengths: max_interpenetration, the deepest overlap, and slip, the largest
+        tangential gap under repulsion (of springs, that to the nearest site). Over the contact by `CRITERION`:
+        rms_slip, weighted by the normal traction, and slipped_share, the share of its nodes with a slip above
+        `SLIPPED`.
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength
@@ -107,12 +113,45 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
         "max_interpenetration": max(-smallest, 0.0) / problem.interaction_range,
     }
     numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
+    numbers["touching_peaks"] = touching_peaks(problem.shape[0], size)
     if len(gap) > 1:
-        slip = float(np.abs(problem.offset(gap)).max(where=repulsive, initial=0.0))
-        numbers["slip"] = slip / problem.law.tangential_length
+        slip = np.abs(problem.offset(gap)) / problem.law.tangential_length
+        numbers["slip"] = float(slip.max(where=repulsive, initial=0.0))
+        numbers |= slips(slip, size)
     for row in range(1, len(traction)):
         numbers["friction_force"] = float(traction[row].mean() * length)
     return numbers
+
+
+def touching_peaks(shape: Array, size: Array) -> float:
+    """Return the number of peaks in contact by `CRITERION`.
+
+    Parameters
+    ----------
+    shape
+        Gap of the undeformed surfaces, (n,); a peak is a node where it is smaller than at both neighbours.
+    size
+        Size of the normal traction over the strength, (n,).
+    """
+    is_peak = (shape < np.roll(shape, 1)) & (shape < np.roll(shape, -1))
+    return float(np.count_nonzero(is_peak & (size > INTERACTING[CRITERION])))
+
+
+def slips(slip: Array, size: Array) -> dict[str, float]:
+    """Return the rms slip and the slipped share of the contact, zero without contact.
+
+    Parameters
+    ----------
+    slip
+        Tangential gap over the law's length, (n,).
+    size
+        Size of the normal traction over the strength, (n,).
+    """
+    contact = size > INTERACTING[CRITERION]
+    if not contact.any():
+        return {"rms_slip": 0.0, "slipped_share": 0.0}
+    rms = np.sqrt(np.average(slip[contact] ** 2, weights=size[contact]))
+    return {"rms_slip": float(rms), "slipped_share": float(np.mean(slip[contact] > SLIPPED))}
 
 
 def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Array) -> dict[str, float]:
@@ -211,4 +250,6 @@ def summarise_load_curves(data: xr.Dataset) -> xr.Dataset:
     )
     last = data.approach.argmax("step")
     final = {name: data[of].where(converged).isel(step=last) for name, of in FINAL.items() if of in data}
-    return data.assign(dict(zip(names, columns, strict=True)) | final)
+    has_failed = (data.status.notnull() & ~converged).any("step")
+    along = {name: data[of].max("step").where(~has_failed) for name, of in ALONG_PATH.items() if of in data}
+    return data.assign(dict(zip(names, columns, strict=True)) | final | along)

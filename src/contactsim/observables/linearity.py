@@ -179,6 +179,8 @@ def _read_curve(indentation: Array, columns: list[Array], surface_gradient: floa
 def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Dataset:
     """Return paths with the numbers `AREA_LOAD` of their curves of area against load, and their errors.
 
+    `bridged_states` counts the single states without a solution between two with one.
+
     Parameters
     ----------
     data
@@ -195,5 +197,8 @@ def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Datase
         output_core_dims=[[]] * 2 * len(AREA_LOAD),
         vectorize=True,
     )
+    solved = is_solved(data.status)
+    alone = ~solved & solved.shift(step=1, fill_value=False) & solved.shift(step=-1, fill_value=False)
+    data = data.assign(bridged_states=alone.sum("step"))
     names = (*AREA_LOAD, *(f"{name}_increment_error" for name in AREA_LOAD))
     return data.assign(dict(zip(names, columns, strict=True)))

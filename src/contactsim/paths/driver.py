@@ -84,7 +84,7 @@ class StateDriver:
     """States of cohesive laws, each from the one before."""
 
     words = "smooth laws"
-    options: tuple[str, ...] = ("increments", "snapshots", "keep_fields")
+    options: tuple[str, ...] = ("increments", "snapshots", "keep_fields", "until")
     reuses_points = False
 
     def follow(self, setup: Setup, solver: Any, reuse: Reuse) -> xr.Dataset:
@@ -99,6 +99,7 @@ class StateDriver:
             increments=options.increments or Requested(),
             snapshots=options.snapshots,
             keep_fields=options.keep_fields is not False,
+            until_complete=options.until is not None,
         )
 
 

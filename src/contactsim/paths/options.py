@@ -16,6 +16,9 @@ from contactsim.provenance import digest
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 
+ENDS = ("complete_contact",)
+"""Events that end a path: every gap is closed. Beyond it a contact only overlaps more."""
+
 
 @dataclass(frozen=True)
 class Accuracy:
@@ -61,6 +64,8 @@ class RunOptions:
         Values of the path near which histograms and fields are kept (cohesive laws).
     keep_fields : bool, optional
         False to keep histograms alone at the snapshots (cohesive laws).
+    until : str, optional
+        Event that ends a path, of `ENDS` (cohesive laws); the whole path where None.
     """
 
     points: int | None = None
@@ -72,6 +77,11 @@ class RunOptions:
     increments: Increments | None = None
     snapshots: tuple[float, ...] | None = None
     keep_fields: bool | None = None
+    until: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.until not in (None, *ENDS):
+            raise InputError("until", self.until, f"one of {', '.join(ENDS)}, or left out")
 
 
 @dataclass(frozen=True)
@@ -125,7 +135,7 @@ class Setup:
             if surface.points is not None
         ]
         parts = scene.acting, bodies, surfaces, scene.path, scene.pairing
-        knobs = options.points, options.tolerance, options.solver, options.increments
+        knobs = options.points, options.tolerance, options.solver, options.increments, options.until
         return digest([repr(part) for part in (*parts, *knobs)], numbers)
 
 

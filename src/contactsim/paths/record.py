@@ -46,6 +46,7 @@ def simulate_path(
     increments: Increments,
     snapshots: Sequence[float] | None = None,
     keep_fields: bool = True,
+    until_complete: bool = False,
 ) -> xr.Dataset:
     """Follow a scene's load path.
 
@@ -68,6 +69,8 @@ def simulate_path(
         them keep histograms and fields.
     keep_fields : bool
         False to keep histograms alone.
+    until_complete : bool
+        True to end the path at the first state in which every gap is closed.
 
     Returns
     -------
@@ -97,6 +100,8 @@ def simulate_path(
                 state.status.sentence,
                 f"; jumped {state.jump:.3g} nm" if state.jump else "",
             )
+        if until_complete and state.status.solved and rows[-1]["contact_length"] >= scene.length:
+            break
     data = _join_states(scene, problem, rows, fields).merge(join_folds(folds))
     data = dataset.describe(data.merge(join_slips(slips)) if scene.sliding else data)
     for words in status.describe_excess(data):

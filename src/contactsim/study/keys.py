@@ -14,6 +14,7 @@ from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.observables.contact import KEPT
 from contactsim.paths.increments import INCREMENTS
+from contactsim.paths.options import ENDS
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, positive, text, whole
 from contactsim.surfaces.measured import SURFACES
@@ -138,6 +139,7 @@ PATH_KEYS = {
     "mean_pressure": Key(read_turning_points, "a list of turning points in GPa, two or more", None),
     "increment": Key(positive, "a positive number", None),
     "origin": Key(choice(ORIGINS), f"one of {', '.join(ORIGINS)}", ORIGINS[0]),
+    "until": Key(choice(ENDS), f"one of {', '.join(ENDS)}, or left out for the whole path", None),
 }
 SLIDE_KEYS = {
     "through": Key(read_turning_points, "turning points in nm, two or more; the slide begins at the first"),

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from contactsim.analysis import costs
 from contactsim.analysis.aggregate import ROLL_OFF
-from contactsim.analysis.quantities import CRACK_DEPARTURE, FITTED, GRADIENT_DEFICITS
+from contactsim.analysis.quantities import BAR_SHARES, CRACK_DEPARTURE, ERROR_BARS, FITTED, GRADIENT_DEFICITS
+from contactsim.observables.contact_readings import reading_names
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kinds import study_kind
@@ -29,6 +30,8 @@ def quantities(study: Study) -> list[str]:
         names.add("height_distance")
     if study.dimensions == ["hurst_exponent", "member", "reduced_pressure"]:
         names |= set(FITTED)
+    if study.settings["members"] > 1:
+        names |= {bar for bar, name in BAR_SHARES.items() if name in names}
     return sorted(names)
 
 
@@ -36,9 +39,12 @@ def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
     scene = study.runs()[0].setup.scene
     names = study_kind(study.settings).path_quantities(scene, study.dimensions)
-    is_cylinder = study.settings["surface"]["kind"] == "cylinder"
-    fitted = {CRACK_DEPARTURE} if is_cylinder and "work_of_separation" in study.dimensions else set()
-    return sorted(names | fitted | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
+    names |= reading_names(study.settings)
+    if study.settings["surface"]["kind"] == "cylinder" and "work_of_separation" in study.dimensions:
+        names.add(CRACK_DEPARTURE)
+    if study.settings["members"] > 1:
+        names |= {bar for bar, name in ERROR_BARS.items() if name in names}
+    return sorted(names | _error_names(study, names) | (set(study.dimensions) - {"member", "step"}))
 
 
 def _error_names(study: Study, names: set[str]) -> set[str]:

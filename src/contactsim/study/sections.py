@@ -88,6 +88,8 @@ def read_load(settings: dict, file: object, prefix: str) -> dict:
             allowed = "path: a state of cohesive laws depends on those before"
             raise InputError(f"{prefix}.load", settings["load"], allowed, file)
         return _read_loads(settings["load"], file, f"{prefix}.load")
+    if "until" in settings["path"] and not study_kind(settings).needs_path:
+        raise InputError(f"{prefix}.path.until", settings["path"]["until"], "left out, but for cohesive laws", file)
     return _read_path(settings["path"], settings["accuracy"] is not None, file, f"{prefix}.path")
 
 
@@ -129,6 +131,8 @@ def _read_path(section: dict, accurate: bool, file: object, prefix: str) -> dict
         if control is not Trait.APPROACH:
             raise InputError(f"{prefix}.origin", section["origin"], "left out, for pressure has none", file)
         path["origin"] = section["origin"]
+    if section["until"] is not None:
+        path["until"] = section["until"]
     return {"name": "step"} | path | {"values": [step.value for step in steps]}
 
 

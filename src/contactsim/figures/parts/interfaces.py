@@ -68,6 +68,17 @@ def add_scale_bars(axes: Axes, x: float, z: float) -> None:
     axes.text(x + 65, z + 5, "10 nm", fontsize=7, **VERTICAL_TEXT)
 
 
+def add_magnification(axes: Axes) -> None:
+    """Add how many times larger heights are drawn than lengths; the panel must have its final limits."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    figure.draw_without_rendering()  # gives the panel its final size
+    box = axes.get_window_extent()
+    heights, lengths = (abs(high - low) for low, high in (axes.get_ylim(), axes.get_xlim()))
+    times = (box.height / heights) / (box.width / lengths)
+    axes.text(0.01, 0.92, f"heights × {times:.2g}", transform=axes.transAxes, fontsize=7, va="top")
+
+
 def highest_place(data: xr.Dataset) -> float:
     """Return the place of the highest point of the first member, as a part of the period."""
     heights = data.heights.isel(member=0).values
@@ -89,6 +100,7 @@ def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> N
         nodes = nodes_around(data, place, share)
         plot_interface(axes, data, nodes, colour=colour, label=waves_label(waves), filled=data is many)
     axes.legend(loc="lower right")
+    add_magnification(axes)
 
 
 def waves_label(waves: int) -> str:

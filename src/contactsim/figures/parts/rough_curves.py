@@ -11,7 +11,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from contactsim.analysis.ensemble import converged
-from contactsim.analysis.rough_paths import ENDS, mean_with_increments, member_mean, on_full_grid, relative_areas
+from contactsim.analysis.rough_paths import (
+    ENDS,
+    at_equal_pressure,
+    mean_with_increments,
+    member_mean,
+    on_full_grid,
+    reduced_pressure,
+    relative_areas,
+)
 from contactsim.analysis.scales import reduced_work
 from contactsim.figures import style
 from contactsim.observables.adhesion import CRITERION, INTERACTING, LEGS, legs
@@ -32,6 +40,8 @@ LABELS = {
     "gradient_ratio_interacting": r"$\bar g_r/\bar g$",
     "indentation": r"$\delta$ (nm)",
 }
+LARGEST_PRESSURE = 0.03
+"""Largest pressure over E* up to which curves are averaged at equal pressure."""
 WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
 """Look of a hard wall beside adhesive contacts."""
 
@@ -116,6 +126,22 @@ def plot_repulsions(
     return tables
 
 
+def plot_thin_against_pressure(
+    axes: Axes, repulsive: xr.Dataset, stiff: xr.Dataset, works: list[float], end: float
+) -> list[pd.DataFrame]:
+    """Plot the area by the repulsion of each law alone, and with a stiff repulsion, against p_r* as thin lines.
+
+    works: of all adhesive laws, whose colours the lines have; end: largest pressure over E*
+    """
+    colours, tables = style.shades(works), []
+    for data, line, words in ((repulsive, ":", "repulsion alone"), (stiff, "-.", "stiff repulsion")):
+        for work in data.work_of_separation.values:
+            means = at_equal_pressure(data.sel(work_of_separation=work), True, AREA, end)
+            axes.plot(means.abscissa, means.area, color=colours[float(work)], ls=line, lw=0.6)
+            tables.append(pd.DataFrame(vars(means)).assign(case=f"{words}, {work:g} N/m"))
+    return tables
+
+
 def indentation(data: xr.Dataset) -> xr.DataArray:
     """Return the approach beyond first touch, nm; data: of `contactsim.analysis.rough_paths.with_indentation`."""
     return data.indentation
@@ -153,9 +179,42 @@ def plot_against_height(
     return {f"{name}_mean": mean, f"{name}_error": error, f"{name}_members": members}
 
 
-def plot_against_pressure(axes: Axes, data: xr.Dataset, label: str, **look: Any) -> pd.DataFrame:
-    """Plot the relative area against the pressure."""
-    return plot_path(axes, data, data.normalised_pressure_mean, "relative_interacting_area", label, lw=1.0, **look)
+def plot_against_pressure(
+    axes: Axes, data: xr.Dataset, label: str, *, reduced: bool = False, end: float = LARGEST_PRESSURE, **look: Any
+) -> pd.DataFrame:
+    """Plot the relative area against the pressure: means over members at equal pressure, where the load rises.
+
+    Bars are standard errors at equal pressure, of the area and of p_r*. The states before, in which loads fall as the
+    area grows, are a faint line of means at equal approach.
+
+    Parameters
+    ----------
+    axes
+        To plot on.
+    data
+        Of one variant, of `contactsim.analysis.rough_paths.with_indentation`.
+    label
+        Of the curve.
+    reduced
+        True to plot against p_r*.
+    end
+        Largest pressure over E*.
+    look
+        Of the curve, with its color.
+    """
+    marker, name = look.pop("marker", "o"), AREA if AREA in data else "relative_contact_area"
+    means = at_equal_pressure(data, reduced, name, end)
+    axes.plot(means.abscissa, means.area, **{"lw": 1.0, **look})
+    least = int(np.nanargmin(data.normalised_pressure_mean.values))
+    before = slice(0, least + 1)
+    x = reduced_pressure(data) if reduced else data.normalised_pressure_mean
+    axes.plot(x[before], data[f"{AREA}_mean"][before], color=look["color"], lw=0.6, alpha=style.FAINT)
+    some = slice(4, None, 8)
+    bars = {"xerr": means.abscissa_error[some] if reduced else None, "yerr": means.area_error[some]}
+    dots = {"fmt": marker, "ms": 3, "mfc": "white", "color": look["color"]}
+    axes.errorbar(means.abscissa[some], means.area[some], **bars, **dots, **style.BARS)
+    axes.plot([], [], marker=marker, ms=3, mfc="white", label=label, **{"lw": 1.0, **look})
+    return pd.DataFrame(vars(means)).assign(case=label.replace("$", ""))
 
 
 def label_pressures(axes: Axes) -> None:

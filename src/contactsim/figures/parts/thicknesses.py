@@ -14,6 +14,8 @@ from contactsim.variables import RESULTS
 
 LINES = ("-", ":", "-.", "--")
 """Lines of thicknesses, the largest first."""
+HALF_SPACE = 1e8
+"""Thickness (nm) from which a layer is a half-space to rounding."""
 CHANGE_OPACITIES = {"kappa_r": 1.0, "relative_contact_area": style.FAINT}
 """Opacity of the changes of each quantity."""
 FACTOR_OPACITIES = {"Eq. 3.8": 1.0, "pairs in contact": style.FAINT}
@@ -63,13 +65,13 @@ def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     area.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
     factor.set(ylabel=r"$\kappa_r^{1D}$")
     style.include_range(factor, kappa_r - 0.1, kappa_r + 0.1)
-    change.set(ylabel=rf"relative change from $h={_number(data.thickness.max())}$ nm")
+    change.set(ylabel=f"relative change from {_body_label(float(data.thickness.max()))}")
     error.set(yscale="log", ylabel=r"grid error of $\kappa_r^{1D}$")
     for panel in axes:
         panel.set(xscale="log", xlabel="reduced pressure " + (r"$p^*$" if panel is change else r"$p_r^*$"))
     style.add_letters(axes)
     colours = {f"$H={value:g}$": style.hurst_colour(value) for value in data.hurst_exponent.values}
-    lines = {f"$h={_number(value)}$ nm": thickness_line(data, value) for value in data.thickness.values}
+    lines = {_body_label(value): thickness_line(data, value) for value in data.thickness.values}
     handles = style.colour_handles(colours) + style.line_handles(lines | {f"thesis, {kappa_r:g}": style.THESIS})
     area.legend(handles=handles + style.poisson_handles(data.poisson_ratio.values), loc="upper left")
     opacities = {RESULTS[name].symbol: alpha for name, alpha in CHANGE_OPACITIES.items()}
@@ -78,6 +80,6 @@ def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     error.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="lower left")
 
 
-def _number(value: float) -> str:
-    """Return a number as it is, a large one as a power of ten."""
-    return f"{value:g}" if value < 1e5 else f"10^{{{np.log10(value):.3g}}}"
+def _body_label(thickness: float) -> str:
+    """Return the label of a body by its thickness, nm; one that is thick beyond measure is a half-space."""
+    return "half-space" if thickness >= HALF_SPACE else f"$h={thickness:g}$ nm"

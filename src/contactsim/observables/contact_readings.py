@@ -1,0 +1,194 @@
+"""Numbers of paths through rough contacts by other readings of the text: of what is contact, and of the body's height.
+
+The text counts as contact what exceeds "a threshold approaching zero", and gives no height of the body. Names of these
+numbers are those of `contactsim.observables.linearity` with the criterion or the height behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contactsim import reference
+from contactsim.grid import Array
+from contactsim.observables.adhesion import legs
+from contactsim.observables.linearity import (
+    APPROACH_LEVELS,
+    LOAD_LEVELS,
+    bridge_gaps,
+    summarise_area_load,
+    value_at_level,
+    values_at_loads,
+)
+from contactsim.status import is_solved
+
+CRITERIA = {
+    "by_repulsion": ("contact_length", "rms_gradient_repulsive"),
+    "above_0_1": ("interacting_length_0_1", "rms_gradient_interacting_0_1"),
+    "above_0_001": ("interacting_length_0_001", "rms_gradient_interacting_0_001"),
+    "above_1e_6": ("interacting_length_1e_6", "rms_gradient_interacting_1e_6"),
+}
+"""Length of contact and gradient over it by each criterion beside that of a hundredth of the strength."""
+CRITERION_NUMBERS = (
+    *("nonlinearity", "nonlinearity_reduced", "area_at_zero_load", "area_at_load_0_001"),
+    *("area_at_12nm", "area_at_20nm", "gradient_ratio_at_area_0_02"),
+)
+"""Numbers that depend on the criterion."""
+CHAPTER_4_HEIGHT = 5000.0
+"""Height of the bodies of Chapter 4, nm."""
+HEIGHTS = ("on_5um", "on_one_period", "on_two_periods")
+"""Bodies: of Chapter 4's height, as high as the period, and twice as high."""
+HEIGHT_NUMBERS = ("area_at_12nm", "pressure_at_20nm")
+"""Numbers at an approach, which depends on the height of the body."""
+BY_CRITERION = tuple(f"{number}_{criterion}" for criterion in CRITERIA for number in CRITERION_NUMBERS)
+BY_HEIGHT = tuple(f"{number}_{height}" for height in HEIGHTS for number in HEIGHT_NUMBERS)
+"""Names of the numbers by each reading."""
+AT_LOAD = ("mean_gap_at_load_0_001",)
+PEAKS = ("touching_peaks_at_20nm",)
+"""Further numbers of rough contacts: the gap at a load, and how many peaks of the profile are in contact."""
+READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *PEAKS)
+"""Names of all these numbers."""
+ERROR = "_increment_error"
+
+
+def reading_names(settings: Mapping[str, Any]) -> set[str]:
+    """Return the names of the numbers that a study with these settings has."""
+    is_rough = settings["surface"]["kind"] == "self_affine" and settings["path"] is not None
+    names = {*BY_CRITERION, *AT_LOAD} if is_rough else set()
+    names |= {*PEAKS} if is_rough and settings["effects"] != ["hard_wall"] else set()
+    return names | ({*BY_HEIGHT} if is_rough and _is_one_half_space(settings) else set())
+
+
+def summarise_readings(data: xr.Dataset, settings: Mapping[str, Any]) -> xr.Dataset:
+    """Return paths with the numbers that a study with these settings has, and the errors of their increments."""
+    names = reading_names(settings)
+    if set(BY_CRITERION) & names:
+        data = data.assign(numbers_by_criterion(data))
+        data = data.assign(_read_loading(data, "mean_gap", AT_LOAD[0], _gap_at_load))
+    if "touching_peaks" in data and set(PEAKS) & names:
+        data = data.assign(_read_loading(data, "touching_peaks", PEAKS[0], _peaks_at_approach))
+    if set(BY_HEIGHT) & names:
+        data = data.assign(numbers_by_height(data, settings["body"]))
+    return data
+
+
+def numbers_by_criterion(data: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Return `BY_CRITERION` and their errors; at a hard wall all criteria are the same."""
+    numbers: dict[str, xr.DataArray] = {}
+    for criterion, (length, gradient) in CRITERIA.items():
+        curves = data
+        if length in data:
+            areas = data.assign(area_by_criterion=data[length] / data.length)
+            curves = summarise_area_load(areas, "area_by_criterion", gradient)
+        for name in CRITERION_NUMBERS:
+            numbers |= {f"{name}_{criterion}{end}": curves[f"{name}{end}"] for end in ("", ERROR)}
+    return numbers
+
+
+def numbers_by_height(data: xr.Dataset, body: Mapping[str, Any]) -> dict[str, xr.DataArray]:
+    """Return `BY_HEIGHT` and their errors.
+
+    A body of height h adds p h/C11 to the approach. If it is half as high as the period, the longest wave is stiffer
+    by 8 %, which is left out.
+    """
+    area = data["relative_interacting_area" if "relative_interacting_area" in data else "relative_contact_area"]
+    pressure = data.normalised_pressure.where(is_solved(data.status))
+    strain = pressure * data.contact_modulus / reference.uniaxial_modulus(body["youngs_modulus"], body["poisson_ratio"])
+    heights = (CHAPTER_4_HEIGHT, data.length, 2 * data.length)
+    numbers: dict[str, xr.DataArray] = {}
+    for name, height in zip(HEIGHTS, heights, strict=True):
+        columns = xr.apply_ufunc(
+            _numbers_on_body,
+            data.approach - data.approach_first_touch,
+            strain * height,
+            area,
+            pressure,
+            input_core_dims=[["step"]] * 4,
+            output_core_dims=[[]] * 2 * len(HEIGHT_NUMBERS),
+            vectorize=True,
+        )
+        ends = [f"{number}_{name}{end}" for end in ("", ERROR) for number in HEIGHT_NUMBERS]
+        numbers |= dict(zip(ends, columns, strict=True))
+    return numbers
+
+
+def _numbers_on_body(indentation: Array, added: Array, area: Array, pressure: Array) -> tuple[float, ...]:
+    """Return `HEIGHT_NUMBERS` of a path on loading, and their changes without every second state; all (step,).
+
+    States that the body passes in a jump, because it is more compliant than the contact, are left out: the approach
+    never falls back.
+    """
+    pressure, approach, area = solved_loading(indentation, pressure, indentation + added, area)
+    rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
+    approach, columns = approach[rises], (area[rises], pressure[rises])
+    numbers, coarse = (
+        [value_at_level(approach[part], x, y[part]) for x, y in zip(APPROACH_LEVELS, columns, strict=True)]
+        for part in (slice(None), slice(approach.size % 2 == 0, None, 2))
+    )
+    return *numbers, *np.abs(np.subtract(coarse, numbers))
+
+
+def solved_loading(indentation: Array, pressure: Array, *others: Array) -> list[Array]:
+    """Return pressure and other columns on loading up to the first unknown state; a single one is bridged.
+
+    All (step,); a state is unknown where the pressure is NaN.
+    """
+    loading = legs(indentation)[0]
+    columns = bridge_gaps([column[loading] for column in (pressure, *others)], 0.5)
+    unknown = np.flatnonzero(np.isnan(columns[0]))
+    end = int(unknown[0]) if unknown.size else columns[0].size
+    return [column[:end] for column in columns]
+
+
+def _read_loading(
+    data: xr.Dataset, name: str, number: str, read: Callable[[Array, Array, Array], float]
+) -> dict[str, xr.DataArray]:
+    """Return one number of each path on loading, and its change without every second state.
+
+    Parameters
+    ----------
+    data
+        Paths.
+    name
+        Quantity of a state that is read.
+    number
+        Name of the number.
+    read
+        Function of the mean pressure over E*, of the approach beyond first touch, and of the quantity, (step,).
+    """
+
+    def per_path(indentation: Array, pressure: Array, values: Array) -> tuple[float, float]:
+        """Return the number and its change."""
+        columns = solved_loading(indentation, pressure, indentation, values)
+        value = read(*columns)
+        return value, abs(read(*(column[::-2][::-1] for column in columns)) - value)
+
+    columns = xr.apply_ufunc(
+        per_path,
+        data.approach - data.approach_first_touch,
+        data.normalised_pressure.where(is_solved(data.status)),
+        data[name],
+        input_core_dims=[["step"]] * 3,
+        output_core_dims=[[], []],
+        vectorize=True,
+    )
+    return dict(zip((number, f"{number}{ERROR}"), columns, strict=True))
+
+
+def _gap_at_load(pressure: Array, indentation: Array, gap: Array) -> float:
+    """Return the mean gap where the load last rises through 0.001 E*."""
+    return float(values_at_loads(pressure, gap, np.array([LOAD_LEVELS["area_at_load_0_001"]]))[0])
+
+
+def _peaks_at_approach(pressure: Array, indentation: Array, peaks: Array) -> float:
+    """Return the number of peaks in contact at 20 nm beyond first touch."""
+    return value_at_level(indentation, APPROACH_LEVELS[1], peaks)
+
+
+def _is_one_half_space(settings: Mapping[str, Any]) -> bool:
+    """Return True if all variants are pressed into the same half-space."""
+    varies_body = any(key.startswith("body.") for key in settings["vary"] or {})
+    return settings["body"]["kind"] == "half_space" and not varies_body

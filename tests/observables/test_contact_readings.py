@@ -1,0 +1,93 @@
+"""Other readings of what contact is and how high the body is, on made paths whose numbers are known by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contactsim.observables.contact_readings import (
+    BY_CRITERION,
+    CRITERIA,
+    CRITERION_NUMBERS,
+    numbers_by_criterion,
+    numbers_by_height,
+    reading_names,
+    solved_loading,
+    summarise_readings,
+)
+from contactsim.reference import uniaxial_modulus
+
+STEPS = np.arange(0.0, 31.0)
+LENGTH, MODULUS = 1000.0, 2.0
+BODY = {"kind": "half_space", "youngs_modulus": 1.5, "poisson_ratio": 0.3}
+SETTINGS = {
+    "surface": {"kind": "self_affine"},
+    "path": {"control": "approach"},
+    "effects": ["normal_cohesive_zone"],
+    "body": BODY,
+    "vary": {},
+}
+
+
+def rough_path(pressure: np.ndarray = 1e-4 * STEPS) -> xr.Dataset:
+    """A path whose criteria differ by a factor: its lengths are those of half the period at the end, by place."""
+    lengths = {length: LENGTH * STEPS / 60 * (place + 1) / 4 for place, (length, _) in enumerate(CRITERIA.values())}
+    slopes = {slope: np.full(STEPS.size, 0.1) for _, slope in CRITERIA.values()}
+    columns = {"approach": STEPS - 5.0, "normalised_pressure": pressure, "mean_gap": 40.0 - STEPS}
+    columns |= {"touching_peaks": 10 * STEPS, "status": np.zeros(STEPS.size), "relative_interacting_area": STEPS / 60}
+    data = xr.Dataset({name: ("step", values) for name, values in (columns | lengths | slopes).items()})
+    return data.assign(length=LENGTH, contact_modulus=MODULUS, approach_first_touch=-5.0, rms_gradient=0.2)
+
+
+def test_each_criterion_has_the_numbers_of_its_own_length_and_gradient():
+    found = numbers_by_criterion(rough_path())
+    for place, criterion in enumerate(CRITERIA):
+        assert float(found[f"area_at_12nm_{criterion}"]) == pytest.approx(12 / 60 * (place + 1) / 4)
+        assert float(found[f"area_at_load_0_001_{criterion}"]) == pytest.approx(10 / 60 * (place + 1) / 4)
+        assert float(found[f"gradient_ratio_at_area_0_02_{criterion}"]) == pytest.approx(0.5)
+    assert set(found) == {f"{name}{end}" for name in BY_CRITERION for end in ("", "_increment_error")}
+
+
+def test_at_a_hard_wall_all_criteria_are_the_same():
+    numbers = {f"{name}{end}": float(len(name)) for name in CRITERION_NUMBERS for end in ("", "_increment_error")}
+    found = numbers_by_criterion(xr.Dataset(numbers))
+    assert {float(found[f"area_at_12nm_{criterion}"]) for criterion in CRITERIA} == {float(len("area_at_12nm"))}
+
+
+def test_a_body_of_finite_height_reaches_an_approach_under_a_smaller_pressure():
+    found = numbers_by_height(rough_path(), BODY)
+    strain = 1e-4 * MODULUS / uniaxial_modulus(1.5, 0.3)  # for each nm of approach
+    for height, name in ((LENGTH, "on_one_period"), (2 * LENGTH, "on_two_periods"), (5000.0, "on_5um")):
+        share = 1 / (1 + strain * height)
+        assert float(found[f"pressure_at_20nm_{name}"]) == pytest.approx(1e-4 * 20 * share)
+        assert float(found[f"area_at_12nm_{name}"]) == pytest.approx(12 / 60 * share)
+        assert float(found[f"area_at_12nm_{name}_increment_error"]) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_body_that_falls_back_passes_the_states_in_a_jump():
+    pulled = np.where((STEPS > 5) & (STEPS < 10), -0.01, 1e-4 * STEPS)
+    found = numbers_by_height(rough_path(pulled), BODY)
+    after = 1e-4 * 20 / (1 + 1e-4 * MODULUS * LENGTH / uniaxial_modulus(1.5, 0.3))
+    assert float(found["pressure_at_20nm_on_one_period"]) == pytest.approx(after)
+
+
+def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
+    data = summarise_readings(rough_path(), SETTINGS)
+    assert float(data.mean_gap_at_load_0_001) == pytest.approx(30.0)
+    assert float(data.touching_peaks_at_20nm) == pytest.approx(200.0)
+    assert reading_names(SETTINGS) <= set(data)
+
+
+def test_other_surfaces_and_bodies_have_no_such_numbers():
+    assert reading_names(SETTINGS | {"surface": {"kind": "cylinder"}}) == set()
+    assert reading_names(SETTINGS | {"path": None}) == set()
+    layer = reading_names(SETTINGS | {"body": BODY | {"kind": "layer"}})
+    varied = reading_names(SETTINGS | {"vary": {"body.poisson_ratio": [0.1, 0.3]}})
+    assert layer == varied and not any(name.endswith("on_5um") for name in layer)
+    assert "touching_peaks_at_20nm" not in reading_names(SETTINGS | {"effects": ["hard_wall"]})
+
+
+def test_a_single_unknown_state_is_bridged_and_two_end_the_loading():
+    pressure = np.array([0.0, np.nan, 2.0, np.nan, np.nan, 5.0])
+    assert solved_loading(np.arange(6.0), pressure, 10 * np.arange(6.0))[0].tolist() == [0.0, 1.0, 2.0]
