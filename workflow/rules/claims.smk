@@ -1,6 +1,8 @@
 # From datasets to verdicts on the statements of the thesis.
 rule assess_claims:
-    input: RESULT_JOBS.claims_data
+    input:
+        data=RESULT_JOBS.claims_data,
+        candidates=CANDIDATE_JOBS.claims_candidates,
     output:
         csv=RESULTS / "claims/{chapter}.csv",
         png=RESULTS / "claims/{chapter}.png",

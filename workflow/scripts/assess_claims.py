@@ -12,6 +12,7 @@ from contactsim.figures.diagnostics.claims import write_claims
 
 open_log(snakemake.log[0])
 plan = json.loads(snakemake.params.plan)
-data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input), strict=True))
-candidates = read_candidates(Path(snakemake.output.csv).with_name("candidates.csv"))
+data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input.data), strict=True))
+file = snakemake.input.get("candidates")
+candidates = read_candidates(Path(file) if file else None)
 write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)

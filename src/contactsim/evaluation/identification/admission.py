@@ -1,18 +1,17 @@
-"""Decide whether a candidate for the cell of the probe is admitted: by contact mechanics, before any statement is judged."""
+"""Rules that admit a candidate for the cell of the probe: by contact mechanics, before any statement is judged."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from contactsim import reference
+from contactsim.analysis.candidate_shares import DRAWN, SETS
 from contactsim.analysis.scales import LawScales, radius
 from contactsim.grid import Array
-
-BY_SIGNS = "admitted_by_signs"
-"""Entry of a candidate that belongs to the second set too."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +22,7 @@ class Limits:
     replicas: float
     slope: float
     start: float
+    min_isolated: int
     pulls_to: float
     presses_from: float
 
@@ -71,20 +71,36 @@ class AdmissionNumbers:
                 float(np.divide(start, np.abs(load).max())),
             )
 
-    def admits(self, limits: Limits) -> bool:
-        """Return True if a candidate with these numbers is admitted; an unknown number does not admit it."""
-        return bool(
-            self.friction >= limits.friction
-            and self.replicas < limits.replicas
-            and self.slope < limits.slope
-            and self.start < limits.start
-        )
+    def is_sound(self, limits: Limits) -> bool:
+        """Return True with friction, small slopes and no traction at the start; an unknown number is not sound."""
+        return self.friction >= limits.friction and self.slope < limits.slope and self.start < limits.start
+
+    def is_isolated(self, limits: Limits) -> bool:
+        """Return True if replicas do not interact; not if it is unknown."""
+        return self.replicas < limits.replicas
 
 
 def _relative_change(values: Array, others: Array) -> float:
     """Return the largest difference over the largest value; both may cross zero."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return float(np.divide(np.abs(values - others).max(), np.abs(values).max()))
+
+
+def admit(candidates: pd.DataFrame, min_isolated: int) -> pd.DataFrame:
+    """Return a table of candidates with the columns `SETS`.
+
+    Parameters
+    ----------
+    candidates
+        With the columns candidate, sound, isolated and signs; a candidate may have several rows.
+    min_isolated
+        Number of sound and isolated drawn candidates below which those that are not isolated are admitted too.
+    """
+    apart = candidates.sound & candidates.isolated
+    drawn = candidates.candidate.str.fullmatch(DRAWN)
+    few = candidates.candidate[apart & drawn].nunique() < min_isolated
+    admitted = candidates.sound if few else apart
+    return candidates.assign(**dict(zip(SETS, (admitted, admitted & candidates.signs), strict=True)))
 
 
 def has_signs_of_text(strong: xr.Dataset, limits: Limits) -> bool:

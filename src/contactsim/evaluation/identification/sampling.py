@@ -45,9 +45,7 @@ def draw_candidates(seed: int, count: int, ranges: CandidateRanges) -> list[Cand
         Ranges of a candidate; width and thickness ratio are uniform in their logarithms.
     """
     places = qmc.LatinHypercube(d=3, rng=np.random.default_rng(seed)).random(count)
-    low, high = np.array(
-        [np.log(ranges.width), np.log(ranges.thickness_ratio), ranges.lattice_constant], dtype=float
-    ).T
+    low, high = np.array([np.log(ranges.width), np.log(ranges.thickness_ratio), ranges.lattice_constant], dtype=float).T
     drawn = qmc.scale(places, low, high)
     return [
         Candidate(

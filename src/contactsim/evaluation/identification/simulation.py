@@ -1,4 +1,4 @@
-"""Simulate a candidate for the cell of the probe: its interfaces at all approaches, and the strong one in twice the period."""
+"""Simulate a candidate for the cell of the probe: all interfaces, and the strong one in twice the period."""
 
 from __future__ import annotations
 
