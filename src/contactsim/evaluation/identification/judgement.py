@@ -62,7 +62,7 @@ def admission_entries(data: Mapping[str, xr.Dataset], strong: str, limits: Limit
 
 def _unsolved(data: xr.Dataset) -> np.ndarray:
     """Return True for the states of a slide that have no solution; a slide that has ended has no more states."""
-    return (data.status.notna() & ~is_solved(data.status)).values
+    return (data.status.notnull() & ~is_solved(data.status)).values  # noqa: PD004 (of xarray)
 
 
 def judge_candidate(
