@@ -154,7 +154,7 @@ def test_the_rule_on_replicas_is_dropped_for_all_where_fewer_drawn_cells_meet_it
 
 @pytest.fixture(scope="module")
 def judged():
-    """Settings and data of the default cell at the quick tier, and the table of it and of another with the same data."""
+    """Settings and data of the default cell at the quick tier, and a table of it and of another with the same data."""
     own = read("quick")
     data = simulate_candidate(own.job("default", "quick"))
     rows = [

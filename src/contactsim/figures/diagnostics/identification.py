@@ -57,9 +57,11 @@ def footer_text(tier: str, candidates: pd.DataFrame) -> str:
     """Return the numbers of candidates, of states without a solution, and of pairs that never hold together."""
     cells = candidates.drop_duplicates("candidate")
     drawn = cells[cells.candidate.astype(str).str.fullmatch(DRAWN)]
-    admitted = [int(drawn[name].astype(bool).sum()) for name in SETS]
+    counts = {name: int(drawn[name].astype(bool).sum()) for name in (*SETS, "isolated")}
+    dropped = ": that rule is dropped" if counts[SETS[0]] > counts["isolated"] else ""
     return (
-        f"{tier} tier · {len(drawn)} candidates drawn, {admitted[0]} admitted, {admitted[1]} with the text's signs · "
+        f"{tier} tier · {len(drawn)} candidates drawn, {counts['isolated']} apart from their replicas{dropped} · "
+        f"{counts[SETS[0]]} admitted, {counts[SETS[1]]} with the text's signs · "
         f"{int((cells.unsolved > 0).sum())} candidates with states without a solution · "
         f"{len(incompatible_pairs(candidates))} pairs of statements never hold together · "
         "the cells of studies enter no share"
