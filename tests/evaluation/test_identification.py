@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.analysis.admissible import read_candidates
 from contactsim.analysis.candidate_shares import FILE, SETS
 from contactsim.errors import InputError
 from contactsim.evaluation.identification import settings as identification
@@ -204,11 +205,12 @@ def test_the_figure_shows_all_candidates_and_writes_the_shares(judged, tmp_path)
 
 
 def test_the_table_of_the_package_is_of_the_candidates_and_statements_of_the_config():
-    own, table = read(), pd.read_csv(FILE)
+    own, table = read(), read_candidates(FILE)
     cells = table.drop_duplicates("candidate")
     held = {row.candidate: (row.width, row.thickness, row.lattice_constant) for row in cells.itertuples()}
     listed = {cell.name: (cell.width, cell.thickness, cell.lattice_constant) for cell in own.candidates}
     assert list(held) == list(listed)[: len(held)]
+    assert FILE.read_text(encoding="utf-8").startswith(f"# The first {len(held)} of {len(listed)} candidates")
     assert all(held[name] == listed[name] for name in held)
     assert table.groupby("candidate").claim.apply(list).map(lambda claims: claims == list(own.claims)).all()
 

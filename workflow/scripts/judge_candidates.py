@@ -4,9 +4,9 @@ import json
 
 from joblog import open_log
 
-from contactsim.evaluation.identification.judgement import judge_files
+from contactsim.evaluation.identification.judgement import judge_files, table_text
 from contactsim.files import write_text
 
 open_log(snakemake.log[0])
-table = judge_files(json.loads(snakemake.params.plan), snakemake.input)
-write_text(table.to_csv(index=False), snakemake.output[0])
+plan = json.loads(snakemake.params.plan)
+write_text(table_text(judge_files(plan, snakemake.input), len(plan["candidates"])), snakemake.output[0])

@@ -87,7 +87,7 @@ def choice_entries(row: Mapping, choices: Sequence[Choice], candidates: Sequence
 
 def read_candidates(file: Path | None) -> pd.DataFrame:
     """Return the verdicts of sets of parameters that the text leaves open; empty without a file."""
-    return pd.DataFrame(columns=list(CANDIDATE_COLUMNS)) if file is None else pd.read_csv(file)
+    return pd.DataFrame(columns=list(CANDIDATE_COLUMNS)) if file is None else pd.read_csv(file, comment="#")
 
 
 def candidate_choices(candidates: pd.DataFrame, claim: str) -> list[Choice]:

@@ -60,8 +60,8 @@ class AdmissionNumbers:
             for name in ("initial_load", "initial_contact_length")
         ]
         longest = float(length.max())
-        friction = strong.static_friction.values
-        largest = float(np.nanmax(friction)) if np.isfinite(friction).any() else np.nan
+        forces = strong.static_friction.values[np.isfinite(strong.static_friction.values)]
+        largest = float(forces.max()) if forces.size else np.nan
         start = np.abs(strong.line_load.isel(step=0).values).max()
         with np.errstate(divide="ignore", invalid="ignore"):
             return cls(

@@ -107,6 +107,12 @@ def judge_files(job: Mapping, files: Sequence[str]) -> pd.DataFrame:
     return admit(candidates_table(rows), limits.min_isolated)
 
 
+def table_text(table: pd.DataFrame, count: int) -> str:
+    """Return a table as CSV below a comment that says how many of the candidates it holds; count: of all candidates."""
+    head = f"# The first {table.candidate.nunique()} of {count} candidates of config/identification.yaml\n"
+    return head + table.to_csv(index=False)
+
+
 def candidates_table(rows: Sequence[Mapping[str, object]]) -> pd.DataFrame:
     """Return the rows of all candidates as a table, its numbers rounded; the candidate and its cell come first."""
     table = pd.DataFrame(list(rows))
