@@ -15,6 +15,7 @@ include: "workflow/rules/robustness.smk"
 include: "workflow/rules/effects.smk"
 include: "workflow/rules/effect_maps.smk"
 include: "workflow/rules/trials.smk"
+include: "workflow/rules/identification.smk"
 include: "workflow/rules/report.smk"
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
-
 import pandas as pd
 import pytest
 
 from contactsim.analysis.admissible import (
+    BANDS,
+    CANDIDATE_COLUMNS,
     DEFAULT,
     Choice,
     candidate_choices,
@@ -18,6 +18,7 @@ from contactsim.analysis.admissible import (
 from contactsim.analysis.causes import UNKNOWN, claims_without_cause
 from contactsim.analysis.claims import judge_claims
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.wording import choices_text
 from contactsim.errors import InputError
 from contactsim.publish.gallery import count_verdicts
 from contactsim.study.claim_plan import read_claim
@@ -76,20 +77,43 @@ def test_what_is_not_decidable_counts_neither_way(default, others, verdict, deci
     assert entries["choices_share"] == pytest.approx(share)
 
 
-def test_admitted_candidates_are_readings(tmp_path):
-    file = tmp_path / "candidates.csv"
-    assert read_candidates(file).empty
+def verdicts_in_cells(*verdicts):
+    """Drawn candidates, each admitted, with the verdict on the claim `test`; the first lacks the signs."""
     rows = [
-        ("a", "test", REPRODUCED, 2.0, 9.0, True),
-        ("b", "test", NOT_REPRODUCED, 2.4, 8.0, False),
-        ("c", "other", NOT_REPRODUCED, 2.4, 8.0, True),
+        {"candidate": f"c{number}", "claim": "test", "value": 2.0, "margin": 9.0, "admitted": True}
+        | dict.fromkeys(BANDS, verdict)
+        | {"admitted_by_signs": number > 1}
+        for number, verdict in enumerate(verdicts, start=1)
     ]
-    pd.DataFrame(rows, columns=["candidate", "claim", "verdict", "value", "margin", "admitted"]).to_csv(file)
-    assert [choice.choice for choice in candidate_choices(read_candidates(file), "test")] == ["a"]
-    failing = read_candidates(file).assign(admitted=True)
-    judged = judge_claims({"test": claim()}, {"rough_line": DATA}, failing).iloc[0]
-    assert (judged.verdict, judged.choices_decided) == (DEPENDS, 3)
-    assert [entry["choice"] for entry in json.loads(judged.choices)] == [DEFAULT, "a", "b"]
+    return pd.DataFrame(rows, columns=list(CANDIDATE_COLUMNS))
+
+
+def test_admitted_candidates_are_readings_of_their_claim(tmp_path):
+    table = verdicts_in_cells(REPRODUCED, NOT_REPRODUCED)
+    table.to_csv(tmp_path / "candidates.csv", index=False)
+    read = read_candidates(tmp_path / "candidates.csv")
+    assert [choice.choice for choice in candidate_choices(read, "test")] == ["c1", "c2"]
+    assert candidate_choices(read, "other") == []
+    assert candidate_choices(read.assign(admitted=[False, True]), "test")[0].choice == "c2"
+    assert read_candidates(None).empty
+
+
+def test_a_statement_that_fails_in_some_admitted_cells_depends_on_what_is_open_with_both_shares_beside_it():
+    table = verdicts_in_cells(REPRODUCED, NOT_REPRODUCED, NOT_REPRODUCED, NOT_DECIDABLE)
+    judged = judge_claims({"test": claim()}, {"rough_line": DATA}, table).iloc[0]
+    assert (judged.verdict, judged.default_verdict) == (DEPENDS, REPRODUCED)
+    assert (judged.admitted_decided, judged.admitted_by_signs_decided) == (3, 2)
+    assert (judged.admitted_share, judged.admitted_by_signs_share) == (pytest.approx(1 / 3), 0.0)
+    assert judged.choices == ""
+    assert "33% ± 28% of 3 admitted cells" in choices_text(judged)
+    assert "0% ± 31% of 2 those with the signs of the text" in choices_text(judged)
+
+
+def test_a_statement_that_holds_in_all_admitted_cells_keeps_its_verdict():
+    judged = judge_claims({"test": claim()}, {"rough_line": DATA}, verdicts_in_cells(REPRODUCED, REPRODUCED)).iloc[0]
+    assert judged.verdict == REPRODUCED
+    without = judge_claims({"test": claim()}, {"rough_line": DATA}).iloc[0]
+    assert choices_text(without) == ""
 
 
 def test_a_claim_asks_for_the_studies_of_its_alternatives():

@@ -11,6 +11,7 @@ from contactsim.errors import InputError
 from contactsim.evaluation.calibration import sampling
 from contactsim.evaluation.effects import effect_cost, map_settings
 from contactsim.evaluation.figure_settings import FigureSettings
+from contactsim.evaluation.identification import settings as identification_settings
 from contactsim.evaluation.robustness import survey
 from contactsim.evaluation.work_precision import case_config
 from contactsim.evaluation.work_precision.cases import Case
@@ -39,6 +40,8 @@ class Products:
         What neglecting effects changes.
     overview
         The page of all cases.
+    identification
+        Candidates for what Chapter 6 leaves open.
     """
 
     config: Path
@@ -49,6 +52,7 @@ class Products:
     trials: sampling.Trials | None
     maps: map_settings.EffectMaps | None
     overview: FigureSettings | None
+    identification: identification_settings.Identification | None
 
     @classmethod
     def read(cls, config: Path, options: Mapping[str, str]) -> Products:
@@ -80,6 +84,7 @@ class Products:
             trials=sampling.read_trials(config, plan.overrides["trials"], plan.tier),
             maps=map_settings.read_maps(config, plan.overrides["effect_maps"], plan.tier),
             overview=case_config.read_overview(config) if cases else None,
+            identification=identification_settings.read_identification(config, plan),
         )
 
     @property
@@ -100,6 +105,7 @@ class Products:
             "accuracy": cases | _present(trials=self.trials, overview=self.overview),
             "stability": _present(stability=self.hazards),
             "effects": _present(effects=self.effects, effect_maps=self.maps),
+            "identification": _present(identification=self.identification),
         }
 
     @property

@@ -3,6 +3,7 @@ rule assess_claims:
     input:
         data=RESULT_JOBS.claims_data,
         costs=RESULT_JOBS.claims_costs,
+        candidates=CANDIDATE_JOBS.claims_candidates,
     output:
         csv=RESULTS / "claims/{chapter}.csv",
         png=RESULTS / "claims/{chapter}.png",

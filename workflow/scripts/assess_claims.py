@@ -16,5 +16,6 @@ plan = json.loads(snakemake.params.plan)
 data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input.data), strict=True))
 for study, path in zip(plan["costs"], snakemake.input.get("costs", []), strict=True):
     data[study] = with_costs(data[study], read_costs(path))
-candidates = read_candidates(Path(snakemake.output.csv).with_name("candidates.csv"))
+file = snakemake.input.get("candidates")
+candidates = read_candidates(Path(file) if file else None)
 write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from contactsim.analysis.candidate_shares import SETS, holding_candidates
 from contactsim.analysis.uncertainty import NAN
 from contactsim.analysis.verdict import DEPENDS, NOT_DECIDABLE, REPRODUCED
 
@@ -17,8 +18,8 @@ DEFAULT = "as judged"
 """Name of the reading of the claim itself."""
 BANDS = ("verdict", "verdict_half", "verdict_double")
 """Entries of a row with a verdict, one for each width of the bands."""
-CANDIDATE_COLUMNS = ("candidate", "claim", "verdict", "value", "margin", "admitted")
-"""Columns of a table of sets of parameters that the text admits, each with its verdicts."""
+CANDIDATE_COLUMNS = ("candidate", "claim", *BANDS, "value", "margin", *SETS)
+"""Columns that a table of sets of parameters needs, each with its verdicts."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,8 @@ def joint_verdict(default: str, others: Iterable[str]) -> str:
     return DEPENDS if 0 < share < 1 else default
 
 
-def choice_entries(row: Mapping, choices: Sequence[Choice]) -> dict[str, object]:
-    """Return the entries of a row of verdicts that its admissible readings change or add.
+def choice_entries(row: Mapping, choices: Sequence[Choice], candidates: Sequence[Choice] = ()) -> dict[str, object]:
+    """Return the entries of a row of verdicts that its admissible readings and sets of parameters change or add.
 
     Parameters
     ----------
@@ -65,31 +66,44 @@ def choice_entries(row: Mapping, choices: Sequence[Choice]) -> dict[str, object]
         Row of the claim with its default reading.
     choices
         The other readings; none leave the verdict as it is.
+    candidates
+        Admitted sets of parameters. They enter the verdict, and not the share of the readings.
     """
-    if not choices:
+    if not choices and not candidates:
         return {"default_verdict": "", "choices_decided": NAN, "choices_share": NAN, "choices": ""}
-    default = Choice.of(DEFAULT, row)
-    decided, share = holding_share(choice.verdict for choice in (default, *choices))
+    others = (*choices, *candidates)
     verdicts = {
-        name: joint_verdict(str(row[name]), [getattr(choice, name) or choice.verdict for choice in choices])
+        name: joint_verdict(str(row[name]), [getattr(choice, name) or choice.verdict for choice in others])
         for name in BANDS
     }
+    added = verdicts | {"default_verdict": row["verdict"]}
+    if not choices:
+        return added | {"choices_decided": NAN, "choices_share": NAN, "choices": ""}
+    default = Choice.of(DEFAULT, row)
+    decided, share = holding_share(choice.verdict for choice in (default, *choices))
     table = [asdict(choice) for choice in (default, *choices)]
-    added = {"default_verdict": row["verdict"], "choices_decided": decided, "choices_share": share}
-    return verdicts | added | {"choices": json.dumps(table)}
+    return added | {"choices_decided": decided, "choices_share": share, "choices": json.dumps(table)}
 
 
-def read_candidates(file: Path) -> pd.DataFrame:
-    """Return the verdicts of sets of parameters that the text admits, computed elsewhere; empty without the file."""
-    if not file.exists():
-        return pd.DataFrame(columns=list(CANDIDATE_COLUMNS))
-    return pd.read_csv(file)[list(CANDIDATE_COLUMNS)]
+def read_candidates(file: Path | None) -> pd.DataFrame:
+    """Return the verdicts of sets of parameters that the text leaves open; empty without a file."""
+    return pd.DataFrame(columns=list(CANDIDATE_COLUMNS)) if file is None else pd.read_csv(file, comment="#")
 
 
 def candidate_choices(candidates: pd.DataFrame, claim: str) -> list[Choice]:
     """Return the admitted candidates as readings of a claim; candidates: of `read_candidates`."""
-    rows = candidates[(candidates.claim == claim) & candidates.admitted.astype(bool)]
+    rows = candidates[(candidates.claim == claim) & candidates[SETS[0]].astype(bool)]
     return [Choice.of(str(row["candidate"]), row) for row in rows.to_dict("records")]
+
+
+def candidate_entries(candidates: pd.DataFrame, claim: str) -> dict[str, object]:
+    """Return the shares of the candidates of both sets in which a claim holds, with their errors; NaN without any."""
+    entries: dict[str, object] = {}
+    for group in SETS:
+        held = holding_candidates(candidates, claim, group)
+        numbers = {"decided": held.decided or NAN, "share": held.share, "error": held.error}
+        entries |= {f"{group}_{name}": number for name, number in numbers.items()}
+    return entries
 
 
 def choices_table(claims: pd.DataFrame) -> pd.DataFrame:

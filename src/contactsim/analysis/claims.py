@@ -12,7 +12,7 @@ from dataclasses import replace
 import pandas as pd
 import xarray as xr
 
-from contactsim.analysis.admissible import Choice, candidate_choices, choice_entries
+from contactsim.analysis.admissible import Choice, candidate_choices, candidate_entries, choice_entries, read_candidates
 from contactsim.analysis.cases import DEFAULT as DEFAULT_CASE
 from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
@@ -194,14 +194,13 @@ def judge_claims(
         Verdicts of sets of parameters that the text admits, of `contactsim.analysis.admissible.read_candidates`.
     """
     data = {name: part.drop_dims(FIELD_DIMENSIONS, errors="ignore") for name, part in data.items()}
-    rows = []
+    rows, candidates = [], read_candidates(None) if candidates is None else candidates
     for name, settings in claims.items():
         studied = _studied(settings, data)
         claim = counted_row(settings, studied)
         choices = judge_choices(settings, data)
-        choices += [] if candidates is None else candidate_choices(candidates, name)
         row = judge_cases(settings, data)
-        row |= choice_entries(row, choices)
+        row |= choice_entries(row, choices, candidate_choices(candidates, name)) | candidate_entries(candidates, name)
         cause = None if claim["cause"] is None else Cause(**claim["cause"])
         rows.append(
             {

@@ -81,9 +81,3 @@ def critical_modulus_ratio(data: xr.Dataset) -> float:
 def lattice_constant(data: xr.Dataset) -> float:
     """Return the lattice constant of the sites that springs join, nm."""
     return float(dataset.settings_of(data)["pairing"]["lattice_constant"])
-
-
-def varied_key(data: xr.Dataset) -> str:
-    """Return the one key of the config that a study varies."""
-    (key,) = dataset.settings_of(data)["vary"]
-    return str(key)

@@ -90,12 +90,25 @@ def beside_text(row: Mapping[str, Any]) -> str:
 
 
 def choices_text(row: Mapping[str, Any]) -> str:
-    """Return with how many admissible readings a claim holds, and the verdict of the default; or nothing."""
-    if not isinstance(row.get("choices"), str) or not row["choices"]:
-        return ""
-    count = int(row["choices_decided"])
-    share = f"{row['choices_share']:.0%}" if count else "none"
-    return f"holds with {share} of {count} decided readings; as judged: {row['default_verdict']}"
+    """Return with how many admissible readings and sets of parameters a claim holds, and the default's verdict."""
+    texts = [candidates_text(row)]
+    if isinstance(row.get("choices"), str) and row["choices"]:
+        count = int(row["choices_decided"])
+        share = f"{row['choices_share']:.0%}" if count else "none"
+        texts = [f"holds with {share} of {count} decided readings", *texts]
+    texts = [text for text in texts if text]
+    return "; ".join([*texts, f"as judged: {row['default_verdict']}"]) if texts else ""
+
+
+def candidates_text(row: Mapping[str, Any]) -> str:
+    """Return the shares of both sets of candidates in which a claim holds, with binomial errors; or nothing."""
+    words = {"admitted": "admitted cells", "admitted_by_signs": "those with the signs of the text"}
+    texts = [
+        f"{row[f'{group}_share']:.0%} ± {row[f'{group}_error']:.0%} of {row[f'{group}_decided']:.0f} {name}"
+        for group, name in words.items()
+        if row.get(f"{group}_decided", 0.0) > 0
+    ]
+    return f"holds in {' and '.join(texts)}" if texts else ""
 
 
 def printed(text: str) -> str:

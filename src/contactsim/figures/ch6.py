@@ -13,14 +13,13 @@ from matplotlib.axes import Axes
 
 from contactsim import reference
 from contactsim.analysis import slide_tables
-from contactsim.analysis.scales import LawScales, lattice_constant, varied_key
+from contactsim.analysis.scales import LawScales, lattice_constant
 from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
 from contactsim.figures.parts import law_curves
 from contactsim.figures.parts import slide_curves as curves
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import EVENT
-from contactsim.variables import dimension_name
 
 LATTICES = (1.0, 1.5, 2.0, 2.44, 4.88)
 """Lattice constants over δt of Fig. 6.3c."""
@@ -29,8 +28,6 @@ SMOOTH = ((70.0, 0.01), (70.0, 0.005), (400.0, 0.05))
 """Young's modulus (GPa) and ratio of works of the curves of Figs 6.4a and 6.4b."""
 CASES = {"I": (-2.0, 0), "II": (5.0, 0), "III": (5.0, 1)}
 """Approach (nm) of the cases of Fig. 6.7, and which of the two studies they belong to."""
-THICK, THIN = 2.6, 0.7
-"""Widths of the first and the last of curves that may cover each other."""
 
 
 def fig_6_3(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -284,43 +281,6 @@ def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.
         force.legend(loc="upper left", ncols=2)
     style.add_letters(axes)
     return pd.concat(tables)
-
-
-def open_choices(
-    width: xr.Dataset,
-    height: xr.Dataset,
-    lattice: xr.Dataset,
-    window: xr.Dataset,
-    depth: xr.Dataset,
-    damping: xr.Dataset,
-    axes: list[Axes],
-) -> pd.DataFrame:
-    """Plot the force of the probe for choices that the thesis leaves open, one panel each."""
-    studies = (width, height, lattice, window, depth, damping)
-    tables = [_plot_choice(panel, study) for panel, study in zip(axes, studies, strict=True)]
-    style.add_letters(axes)
-    return pd.concat(tables)
-
-
-def _plot_choice(axes: Axes, data: xr.Dataset) -> pd.DataFrame:
-    """Plot the force for each value of the key that a study varies; earlier curves are wider."""
-    key = varied_key(data)
-    dim, name = dimension_name(key), key.rpartition(".")[2].replace("_", " ")
-    columns = ("static_friction", "peeled_fraction", "reattached_fraction", "first_slip_periods")
-    rows = []
-    widths = np.linspace(THICK, THIN, data[dim].size)
-    for (value, colour), line_width in zip(style.shades(data[dim]).items(), widths, strict=True):
-        path = data.sel({dim: value}).isel(member=0)
-        table = slide_table(path)
-        force = table.force * float(path.length)
-        axes.plot(table.slide, force, color=colour, lw=line_width, label=f"{value:g}")
-        rows.append({column: float(path[column]) for column in columns} | {"choice": name, "value": value})
-    axes.set(xlabel=curves.SLIDE_NM, ylabel=r"$F/E$ (nm)")
-    style.add_headroom(axes, 0.35)
-    unit = data[dim].attrs["units"]
-    title = name if unit == "1" else f"{name} ({unit})"
-    axes.legend(title=title, loc="upper left", ncols=3, fontsize=6.5)
-    return pd.DataFrame(rows)
 
 
 def rough_slide_forces(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:

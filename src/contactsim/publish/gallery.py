@@ -164,8 +164,8 @@ def _statement(row: Mapping) -> str:
             result += f"; {words} {row[name]:.2g}"
     if beside := beside_text(row):
         result += f"; beside it {beside}"
-    if texts.get("choices"):
-        result += f"; {choices_text(row)}"
+    if readings := choices_text(row):
+        result += f"; {readings}"
     if texts.get("cause"):
         result += f"; {texts['cause']}"
     cells = (

@@ -36,7 +36,7 @@ def boolean(value: object) -> bool:
     return value
 
 
-OVERRIDES = ("stability", "effects", "trials", "effect_maps")
+OVERRIDES = ("stability", "effects", "trials", "effect_maps", "identification")
 """Files beside tiers.yaml whose keys a tier can override."""
 TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),

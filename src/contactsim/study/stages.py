@@ -32,6 +32,9 @@ STAGES: dict[str, tuple[str, ...]] = {
     "effects_figure": ("contactsim.figures.diagnostics.effects",),
     "measure_effect_map": ("contactsim.evaluation.effects.survey",),
     "maps_figure": ("contactsim.figures.diagnostics.effect_maps",),
+    "candidate": ("contactsim.evaluation.identification.simulation",),
+    "judge_candidates": ("contactsim.evaluation.identification.judgement",),
+    "identification_figure": ("contactsim.figures.diagnostics.identification",),
     "hazard": ("contactsim.evaluation.robustness.survey",),
 }
 """Modules by stage."""

@@ -1,0 +1,155 @@
+"""Settings of the identification: candidates, their runs, what admits them, and the statements that are judged."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from contactsim.errors import InputError
+from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
+from contactsim.evaluation.identification.admission import Limits
+from contactsim.evaluation.identification.sampling import (
+    Candidate,
+    CandidateRanges,
+    draw_candidates,
+    named_candidates,
+)
+from contactsim.evaluation.identification.simulation import CandidateJob, RunSettings
+from contactsim.provenance import digest
+from contactsim.solvers.registry import solver_module
+from contactsim.study.plan import Plan, boolean
+from contactsim.study.reading import Key, keys_of, listed, load_yaml, mapping, pair, positive, read, text, tiered, whole
+from contactsim.study.stages import computing_stage_digest, stage_digest
+
+NAME = "identification"
+POSITIVE = "a positive number"
+KEYS = FIGURE_KEYS | {
+    "chapter": Key(text, "the name of a chapter"),
+    "seed": Key(whole(0), "a whole number, 0 or more"),
+    "candidates": Key(whole(1), "how many are drawn"),
+    "ranges": Key(mapping, "a mapping from a length to its range"),
+    "named": Key(mapping, "a mapping from names to studies whose cells are judged too"),
+    "interfaces": Key(listed(text), "a list of studies of the chapter, the strong interface first"),
+    "not_judged": Key(listed(text), "a list of claims"),
+    "runs": Key(mapping, "a mapping"),
+    "admit": Key(mapping, "a mapping from a criterion to its limit"),
+    "from_package": Key(boolean, "true or false"),
+}
+RANGE_KEYS = dict.fromkeys(
+    ("width", "thickness_ratio", "lattice_constant"), Key(pair, "a pair of numbers, the least and the largest")
+)
+RUN_KEYS = {
+    "approaches": keys_of(RunSettings)["approaches"],
+    "points": Key(whole(1), "a whole number, 1 or more"),
+    "slips": Key(whole(1), "a whole number, 1 or more"),
+    **dict.fromkeys(("spacing", "increment", "fold_width", "tolerance", "flow_step"), Key(positive, POSITIVE)),
+    "grid_approach": keys_of(RunSettings)["grid_approach"],
+}
+
+
+@dataclass(frozen=True)
+class Identification(FigureSettings):
+    """Candidates for the cell of the probe, their runs, and what admits them.
+
+    Parameters
+    ----------
+    chapter
+        Chapter whose statements are judged.
+    candidates
+        The cells of studies, then those that are drawn.
+    sections
+        Section of each interface by its name, the strong one first.
+    claims
+        Settings of each claim that is judged, by name.
+    runs, limits
+        Grid and increments, and what admits a candidate.
+    seed
+        Seed of the studies.
+    from_package
+        True where verdicts and figure take the candidates that the package holds.
+    """
+
+    chapter: str
+    candidates: Sequence[Candidate]
+    sections: Mapping[str, dict]
+    claims: Mapping[str, dict]
+    runs: RunSettings
+    limits: Limits
+    seed: int
+    from_package: bool
+
+    def job(self, name: str, tier: str) -> CandidateJob:
+        """Return the job of a candidate."""
+        candidate = next(entry for entry in self.candidates if entry.name == name)
+        return CandidateJob(candidate, self.sections, self.runs, self.seed, tier)
+
+
+def read_identification(folder: str | Path, plan: Plan) -> Identification | None:
+    """Return the settings of identification.yaml with a tier's changes; None without that file."""
+    source = tiered(Path(folder) / f"{NAME}.yaml", plan.overrides[NAME], plan.tier)
+    if source is None:
+        return None
+    section, file = source
+    settings: dict[str, Any] = read(section, KEYS, file)
+    chapter = settings["chapter"]
+    studies = load_yaml(Path(folder) / f"{chapter}.yaml")["studies"]
+    for key in ("interfaces", "named"):
+        for study in settings[key] if key == "interfaces" else settings[key].values():
+            if study not in studies:
+                raise InputError(key, study, f"one of {', '.join(studies)}", file)
+    ranges = CandidateRanges(**read(settings["ranges"], RANGE_KEYS, file, "ranges"))
+    drawn = draw_candidates(settings["seed"], settings["candidates"], ranges)
+    claims = {name: claim.settings for name, claim in plan.claims.get(chapter, {}).items()}
+    return Identification(
+        **{key: settings[key] for key in (*FIGURE_KEYS, "chapter", "from_package")},
+        candidates=[*named_candidates(settings["named"], studies), *drawn],
+        sections={name: studies[name] for name in settings["interfaces"]},
+        claims=claims_on(claims, settings["interfaces"], settings["not_judged"]),
+        runs=RunSettings(**read(settings["runs"], RUN_KEYS, file, "runs")),
+        limits=Limits(**read(settings["admit"], keys_of(Limits), file, "admit")),
+        seed=plan.seed,
+    )
+
+
+def claims_on(claims: Mapping[str, dict], studies: Sequence[str], left_out: Sequence[str]) -> dict[str, dict]:
+    """Return the claims that read some studies and no others, without their admissible readings.
+
+    claims: settings by name; left_out: claims that are not judged
+    """
+    judged = {}
+    for name, claim in claims.items():
+        cases = [claim, *(claim.get("cases") or {}).values()]
+        read_studies = {case[key] for case in cases for key in ("study", "relative_to", "minus")} - {None}
+        if read_studies and read_studies <= set(studies) and not claim["is_finding"] and name not in left_out:
+            judged[name] = {**claim, "admissible": None}
+    return judged
+
+
+def candidate_job(settings: Identification, name: str, tier: str) -> dict[str, Any]:
+    """Return what the datasets of a candidate depend on."""
+    source = computing_stage_digest("candidate", solver_module("newton"))
+    return settings.job(name, tier).settings | {"source": source}
+
+
+def judgement_job(settings: Identification, tier: str) -> dict[str, Any]:
+    """Return what the verdicts in all candidates depend on: claims in their order, limits, and the candidates' data."""
+    jobs = [candidate_job(settings, candidate.name, tier) for candidate in settings.candidates]
+    return {
+        "candidates": [asdict(candidate) for candidate in settings.candidates],
+        "interfaces": list(settings.sections),
+        "claims": [[name, claim] for name, claim in settings.claims.items()],
+        "limits": asdict(settings.limits),
+        "source": stage_digest("judge_candidates"),
+        "data": digest(jobs),
+    }
+
+
+def figure_job(settings: Identification, tier: str) -> dict[str, Any]:
+    """Return what the figure depends on beside the table of candidates."""
+    return {
+        "settings": settings.layout,
+        "tier": tier,
+        "source": stage_digest("identification_figure"),
+    }

@@ -1,0 +1,12 @@
+"""All statements on the probe in all candidates, as one table."""
+
+import json
+
+from joblog import open_log
+
+from contactsim.evaluation.identification.judgement import judge_files, table_text
+from contactsim.files import write_text
+
+open_log(snakemake.log[0])
+plan = json.loads(snakemake.params.plan)
+write_text(table_text(judge_files(plan, snakemake.input), len(plan["candidates"])), snakemake.output[0])

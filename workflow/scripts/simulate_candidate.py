@@ -1,0 +1,14 @@
+"""One candidate for the cell of the probe: a dataset for each interface."""
+
+import json
+from pathlib import Path
+
+from joblog import open_log
+
+from contactsim import dataset
+from contactsim.evaluation.identification.simulation import CandidateJob, simulate_candidate
+
+open_log(snakemake.log[0])
+data = simulate_candidate(CandidateJob.from_settings(json.loads(snakemake.params.plan)))
+for file in snakemake.output:
+    dataset.write(data[Path(file).stem], file)
