@@ -232,19 +232,42 @@ def test_a_comparison_names_both_studies_and_asks_for_both(key, word, value):
 # --- the claims of this project -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("chapter", PLAN.claims)
-def test_every_claim_of_the_config_is_judged_or_says_why_not(made, chapter):
+UNANSWERED = {
+    "ch2": [],
+    "ch3": ["fit_scaraggi"],
+    "ch4": ["neglected_experiments"],
+    "ch5": [],
+    "ch6": [],
+}
+
+LACKING = {
+    "ch2": [],
+    "ch3": [],
+    "ch4": ["compressible_curves_weak", "friction_size_4", "incompressible_slope_strong", "incompressible_slope_weak"],
+    "ch5": [
+        *("area_larger", "linearity_breaks", "heights_ordered", "heights_ordered_middle", "hurst_ordered"),
+        *("hurst_ordered_ends", "nonlinear_heights", "nonlinear_hurst", "uncoupled", "compressibility_adhesive"),
+        "friction",
+    ],
+    "ch6": ["share_in_tension"],
+}
+"""Claims that need members, coarser grids or works of separation that the quick tier leaves out."""
+
+
+@pytest.mark.parametrize(("chapter", "unanswered"), UNANSWERED.items())
+def test_every_claim_of_the_config_is_judged(made, chapter, unanswered):
+    assert set(UNANSWERED) == set(PLAN.claims)
     folder = made / "results/quick/claims"
     rows = pd.read_csv(folder / f"{chapter}.csv", keep_default_na=False, na_values=["", "nan"])
     assert rows.claim.tolist() == list(PLAN.claims[chapter])
     assert rows.verdict.isin(COLOURS).all()
     answered = rows.study.notna() | rows.measure.fillna("").str.startswith("exact number")
-    assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
+    assert rows.claim[~answered].tolist() == unanswered
     is_order = rows.measure.fillna("").str.startswith(tuple(ORDERS))  # its value is a step in its own errors
     known = np.isfinite(rows.value) & (np.isfinite(rows.ensemble_error) | is_order)
-    lacking = rows[answered & ~known]
-    assert lacking.verdict.isin([NOT_DECIDABLE, FINDING]).all()
-    assert len(lacking) <= len(rows) / 3  # of the quick tier, which leaves out members, grids and works
+    assert rows.claim[answered & ~known].tolist() == LACKING[chapter]
+    assert rows.verdict[answered & ~known].isin([NOT_DECIDABLE, FINDING]).all()
+    assert (rows.verdict[~answered] == NOT_DECIDABLE).all()
 
 
 def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():

@@ -59,7 +59,7 @@ def test_what_is_not_known_is_told_and_not_counted_as_nothing(plan):
     lines = {line.split("  ")[0]: line for line in estimate.cost_table(ROOT / "config", plan).splitlines()}
     assert estimate.figure_costs(plan, {})["fig_6_4"].unknown == estimate.figure_costs(plan, {})["fig_6_4"].jobs
     assert "unknown" in lines["fig_6_4"]
-    assert f"and {estimate.figure_costs(plan, {})['friction_loop'].unknown} of unknown cost" in lines["friction_loop"]
+    assert "and 8 of unknown cost" in lines["friction_loop"]
     assert "solves nothing" in lines["fig_2_2"]
     hazards = read_robustness(ROOT / "config", plan).hazards
     assert lines["stability"].split() == ["stability", str(len(hazards)), "unknown", "unknown"]
