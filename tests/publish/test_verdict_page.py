@@ -48,6 +48,7 @@ def test_changes_are_listed_with_their_reasons(verdicts):
     page = changes_page(before, verdicts, reasons)
     assert "| fails | reproduced | not reproduced | band; grid |" in page
     assert "| gone | not decidable | – | reason not yet given |" in page
+    assert "| puzzles | not reproduced |\n" in page[page.index("## New") : page.index("## As before")]
     assert "| holds | reproduced |" in page.split("## As before")[1]
 
 

@@ -78,16 +78,18 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
     texts = reasons.groupby("claim", sort=False).reason.agg("; ".join)
     names = [*now.index, *earlier.index.difference(now.index, sort=False)]
     rows = [(name, earlier.get(name, ABSENT), now.get(name, ABSENT), texts.get(name, "")) for name in names]
-    changed = [(*row[:3], row[3] or "reason not yet given") for row in rows if row[1] != row[2]]
-    same = [row for row in rows if row[1] == row[2]]
-    heads = ("statement", "before", "now", "what changed it")
+    changed = [(*row[:3], row[3] or "reason not yet given") for row in rows if ABSENT != row[1] != row[2]]
+    new = [(row[0], row[2]) for row in rows if row[1] == ABSENT]
+    same = [row[:2] for row in rows if row[1] == row[2]]
     introduction = (
         "# Verdicts before and now\n\nBefore: one error decided, the number of the grid was taken as it was, and "
         "unknown states were dropped. Now: the rules of [how statements are judged](judging.md). A dash: no such "
-        f"statement. Of {len(rows)} statements and findings {len(changed)} have another verdict, or are new or gone.\n"
+        f"statement any more. Of {len(rows) - len(new)} statements and findings {len(changed)} have another verdict or "
+        f"are gone; {len(new)} are new.\n"
     )
-    parts = [introduction, "## Changed\n", _table(heads, changed), "## As before\n"]
-    return "\n".join([*parts, _table(("statement", "verdict"), (row[:2] for row in same))])
+    parts = [introduction, "## Changed\n", _table(("statement", "before", "now", "what changed it"), changed)]
+    parts += ["## New\n", "Sentences that nothing judged before, and findings.\n", _table(("statement", "now"), new)]
+    return "\n".join([*parts, "## As before\n", _table(("statement", "verdict"), same)])
 
 
 def write_verdict_pages(folder: Path) -> None:
