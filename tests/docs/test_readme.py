@@ -19,6 +19,8 @@ from contactsim.analysis.quantities import FITTED
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.evaluation.calibration import sampling
 from contactsim.evaluation.effects import map_settings
+from contactsim.evaluation.identification import settings as identification
+from contactsim.evaluation.identification.admission import Limits
 from contactsim.evaluation.robustness.survey import ROBUSTNESS_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
@@ -238,6 +240,7 @@ TABLES = [
         map_settings.AXIS_KEYS,
         map_settings.PANEL_KEYS,
     ),
+    *(identification.KEYS, identification.RANGE_KEYS, identification.RUN_KEYS, keys_of(Limits)),
     *(CLAIM_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     *(keys for _, _, keys in ERROR_RUNS.values()),
     *sampling.RANGES.values(),

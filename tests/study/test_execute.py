@@ -412,6 +412,7 @@ def test_what_a_hard_wall_has_no_use_for_is_refused(options, refused):
 def test_what_a_smooth_law_has_no_use_for_is_refused():
     scene = smooth.scene_of(smooth.LAWS["uncoupled"], loading.approaches([-9.0]))
     with pytest.raises(
-        InputError, match=r"keep: got \('contact',\); allowed: none with smooth laws, only points, .* keep_fields$"
+        InputError,
+        match=r"keep: got \('contact',\); allowed: none with smooth laws, only points, .* keep_fields, until$",
     ):
         contactsim.simulate(scene, points=64, keep=["contact"])

@@ -1,7 +1,6 @@
 """The claims of a chapter: verdicts as CSV, and as a table in PNG and PDF."""
 
 import json
-from pathlib import Path
 
 from joblog import open_log
 
@@ -16,6 +15,5 @@ plan = json.loads(snakemake.params.plan)
 data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input.data), strict=True))
 for study, path in zip(plan["costs"], snakemake.input.get("costs", []), strict=True):
     data[study] = with_costs(data[study], read_costs(path))
-file = snakemake.input.get("candidates")
-candidates = read_candidates(Path(file) if file else None)
+candidates = read_candidates(snakemake.input.get("candidates"))
 write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)

@@ -85,7 +85,7 @@ def choice_entries(row: Mapping, choices: Sequence[Choice], candidates: Sequence
     return added | {"choices_decided": decided, "choices_share": share, "choices": json.dumps(table)}
 
 
-def read_candidates(file: Path | None) -> pd.DataFrame:
+def read_candidates(file: str | Path | None) -> pd.DataFrame:
     """Return the verdicts of sets of parameters that the text leaves open; empty without a file."""
     return pd.DataFrame(columns=list(CANDIDATE_COLUMNS)) if file is None else pd.read_csv(file, comment="#")
 

@@ -189,6 +189,6 @@ def _peaks_at_approach(pressure: Array, indentation: Array, peaks: Array) -> flo
 
 
 def _is_one_half_space(settings: Mapping[str, Any]) -> bool:
-    """Return True if all variants are pressed into the same half-space."""
+    """Return True if all variants are pressed into the same half-space, of known modulus and Poisson's ratio."""
     varies_body = any(key.startswith("body.") for key in settings["vary"] or {})
-    return settings["body"]["kind"] == "half_space" and not varies_body
+    return settings["body"]["kind"] == "half_space" and "youngs_modulus" in settings["body"] and not varies_body

@@ -57,20 +57,21 @@ def displacement_numbers(displacement: Array, heights: Array) -> tuple[float, fl
 
 
 def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
-    """Return paths with the numbers `DEFORMATION`; NaN where a state did not converge or no fields are kept.
+    """Return paths with the numbers `DEFORMATION`; NaN where a state did not converge or its fields were not kept.
 
     data: with the summaries of load curves
     """
-    at, after = xr.apply_ufunc(
-        gaps_about_pull_off,
-        data.approach,
-        data.min_gap.where(is_solved(data.status)),
-        data.pull_off_approach_loading,
-        input_core_dims=[["step"], ["step"], []],
-        output_core_dims=[[], []],
-        vectorize=True,
-    )
-    peak = far = xr.full_like(at, np.nan)
+    at = after = peak = far = xr.full_like(data.pull_off_approach_loading, np.nan)
+    if "min_gap" in data:
+        at, after = xr.apply_ufunc(
+            gaps_about_pull_off,
+            data.approach,
+            data.min_gap.where(is_solved(data.status)),
+            data.pull_off_approach_loading,
+            input_core_dims=[["step"], ["step"], []],
+            output_core_dims=[[], []],
+            vectorize=True,
+        )
     if "normal_displacement" in data and "heights" in data:
         peak, far = xr.apply_ufunc(
             displacement_numbers,

@@ -240,16 +240,18 @@ def _released_share(line: Polyline, states: Mapping[str, Array], events: Mapping
     """Return the elastic energy that the first slip releases over that which the slide has added up to it.
 
     The energy after the slip follows from the three states after it, by a parabola: there the path is smooth, while it
-    is steep before a slip. NaN without a slip and three states after it, and where the slide adds no energy.
+    is steep before a slip. NaN without a slip and three states after it in one direction, and where the slide adds no
+    energy.
     """
     if not line.slips.size:
         return np.nan
     first = line.slips[0]
     energy, distance = states["elastic_energy"], states["sliding_distance"]
     beyond = slice(line.state[first] + 1, line.state[first] + 1 + MIN_STATES)
-    if energy[beyond].size < MIN_STATES:
-        return np.nan
     ahead = distance[beyond] - line.sliding_distance[first]
+    moves = np.diff(ahead)
+    if ahead.size < MIN_STATES or not ((moves > 0).all() or (moves < 0).all()):
+        return np.nan
     after = float(np.polyfit(ahead, energy[beyond], 2)[-1])
     released = events["event_released_energy"][0]
     added = after + released - energy[0]

@@ -92,7 +92,7 @@ def robustness_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
 
 def robustness_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
     """Return what the figure of all hazards depends on, in the form of `Plan.figure_settings`."""
-    layout = {"panels": 2, "select": {}, "reference": {}, "law": None, "film": None}
+    layout = {"panels": 2, "rows": 1, "select": {}, "reference": {}, "law": None, "film": None}
     module = "contactsim.figures.diagnostics.stability"
     return {
         "name": "stability",
