@@ -61,10 +61,11 @@ def _factors(data: xr.Dataset) -> np.ndarray:
 def stated_error(values: xr.DataArray) -> xr.DataArray:
     """Return the error of the corrected estimator: its last change, or the distance to the second one if larger.
 
-    The second one counts from 16 points per shortest wavelength.
+    The second one counts from 16 points per shortest wavelength, without its error of second order.
     """
-    corrected, second = values.sel(estimator="corrected"), values.sel(estimator="subgrid")
+    corrected, subgrid = values.sel(estimator="corrected"), values.sel(estimator="subgrid")
     change = abs(corrected - corrected.shift(points=1))
+    second = subgrid + (subgrid - subgrid.shift(points=1)) / 3
     return xr.where(values.points >= 16, np.maximum(change, abs(second - corrected)), change)
 
 
