@@ -58,18 +58,18 @@ def _factors(data: xr.Dataset) -> np.ndarray:
     return np.stack([kappa, np.array([part.values for part in slopes]) / GRADIENT * kappa])
 
 
-def stated_error(values: xr.DataArray) -> xr.DataArray:
+def stated_error(values: xr.DataArray, is_surface: bool) -> xr.DataArray:
     """Return the error of the corrected estimator: its last change, or the distance to the second one if larger.
 
-    The second one counts from 16 points per shortest wavelength, without its error of second order.
+    The second one counts from 16 points per shortest wavelength; that of surfaces without its error of second order.
     """
     corrected, subgrid = values.sel(estimator="corrected"), values.sel(estimator="subgrid")
     change = abs(corrected - corrected.shift(points=1))
-    second = subgrid + (subgrid - subgrid.shift(points=1)) / 3
+    second = subgrid + ((subgrid - subgrid.shift(points=1)) / 3 if is_surface else 0.0)
     return xr.where(values.points >= 16, np.maximum(change, abs(second - corrected)), change)
 
 
-def print_table(name: str, values: xr.DataArray) -> None:
+def print_table(name: str, values: xr.DataArray, is_surface: bool) -> None:
     """Print the distance of each estimator from the finest grid in per cent, and how often the error covers it."""
     finest = values.sel(estimator="subgrid").isel(points=-1)
     print(f"| {name} by | H | p* | " + " | ".join(f"{count:d}" for count in values.points.values) + " |")
@@ -82,7 +82,9 @@ def print_table(name: str, values: xr.DataArray) -> None:
                 cells = " | ".join(f"{number:+.2f}" for number in row.values)
                 print(f"| {estimator} | {hurst:g} | {pressure:g} | {cells} |")
     inner = values.isel(points=slice(1, -1))
-    covers = abs(inner.sel(estimator="corrected") - finest) <= stated_error(values).isel(points=slice(1, -1))
+    covers = abs(inner.sel(estimator="corrected") - finest) <= stated_error(values, is_surface).isel(
+        points=slice(1, -1)
+    )
     print(f"\nThe stated error covers the distance in {int(covers.sum())} of {covers.size} cases.\n")
 
 
@@ -91,7 +93,7 @@ def main() -> None:
     kind = sys.argv[1]
     values = estimates(kind, int(sys.argv[2]) if len(sys.argv) > 2 else 6)
     for name, symbol in {"kappa": "κ", "kappa_r": "κ_r"}.items():
-        print_table(symbol, values[name])
+        print_table(symbol, values[name], kind == "surfaces")
 
 
 if __name__ == "__main__":

@@ -168,6 +168,14 @@ def test_a_corrected_quantity_is_as_uncertain_as_its_second_estimator_where_the_
     assert (found.value, found.grid_error) == pytest.approx((1.9, error))
 
 
+@pytest.mark.parametrize(("is_surface", "error"), [(False, 0.07), (True, 0.04)])
+def test_on_rough_surfaces_the_second_estimator_is_freed_of_its_second_order(is_surface, error):
+    data = with_corrected(made_up(), 1.9, change=0.02, subgrid=1.83)
+    data["kappa_subgrid_grid_change"] = data.kappa_grid_change * 0 + 0.09  # 1.83 and, on half the points, 1.74: to 1.86
+    data = data.assign(length_y=160000.0) if is_surface else data
+    assert number(claim(quantity="kappa_corrected"), data).grid_error == pytest.approx(error)
+
+
 def test_a_close_second_estimator_does_not_lower_the_error():
     data = with_corrected(made_up(), 1.9, change=-0.02, subgrid=1.901)
     assert number(claim(quantity="kappa_corrected"), data).grid_error == pytest.approx(0.02)

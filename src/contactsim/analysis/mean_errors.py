@@ -6,14 +6,13 @@ import numpy as np
 import xarray as xr
 
 from contactsim.analysis.comparison import Comparison
-from contactsim.analysis.quantities import SECOND_ESTIMATORS, resolves_edges
+from contactsim.analysis.quantities import SECOND_ESTIMATORS, resolves_edges, second_estimate
 from contactsim.analysis.uncertainty import Estimate, estimate, is_on_thesis_grid
 
 
-def resolved_second(data: xr.Dataset, name: str) -> str | None:
-    """Return the second estimator of a corrected quantity if the grids of a dataset resolve it, else None."""
-    second = SECOND_ESTIMATORS.get(name)
-    return second if second is not None and resolves_edges(data) else None
+def second_mean(data: xr.Dataset, name: str) -> xr.DataArray | None:
+    """Return the mean of the second estimator of a corrected quantity if the grids resolve it, else None."""
+    return second_estimate(data, name, "_mean") if name in SECOND_ESTIMATORS and resolves_edges(data) else None
 
 
 def grid_error(data: xr.Dataset, name: str) -> xr.DataArray:
@@ -24,10 +23,10 @@ def grid_error(data: xr.Dataset, name: str) -> xr.DataArray:
     """
     if name not in SECOND_ESTIMATORS and is_on_thesis_grid(data):
         return xr.DataArray(0.0)
-    change, second = data.get(f"{name}_grid_error", xr.DataArray(np.nan)), resolved_second(data, name)
+    change, second = data.get(f"{name}_grid_error", xr.DataArray(np.nan)), second_mean(data, name)
     if second is None:
         return change
-    return xr.apply_ufunc(np.maximum, change, abs(data[f"{name}_mean"] - data[f"{second}_mean"]))
+    return xr.apply_ufunc(np.maximum, change, abs(data[f"{name}_mean"] - second))
 
 
 def mean_error(data: xr.Dataset, name: str) -> xr.DataArray:

@@ -7,7 +7,7 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.analysis.ensemble import ratio_of_means
-from contactsim.analysis.mean_errors import resolved_second
+from contactsim.analysis.mean_errors import second_mean
 
 
 def ratio_curves(above: xr.Dataset, below: xr.Dataset, name: str) -> pd.DataFrame:
@@ -28,9 +28,8 @@ def ratio_curves(above: xr.Dataset, below: xr.Dataset, name: str) -> pd.DataFram
     mean, change = f"{name}_mean", f"{name}_grid_change"
     coarse = (above[mean] - above[change]) / (below[mean] - below[change])
     grid_error = abs(coarse - ratio.value)
-    seconds = [resolved_second(data, name) for data in (above, below)]
-    if all(seconds):
-        numerator, denominator = (data[f"{second}_mean"] for data, second in zip((above, below), seconds, strict=True))
+    numerator, denominator = (second_mean(data, name) for data in (above, below))
+    if numerator is not None and denominator is not None:
         grid_error = np.maximum(grid_error, abs(numerator / denominator - ratio.value))
     error = np.hypot(ratio.error.fillna(0.0), grid_error)
     table = xr.Dataset({"value": ratio.value, "error": error}).to_dataframe().reset_index()

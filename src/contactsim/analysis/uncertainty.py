@@ -12,7 +12,13 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.comparison import Comparison, Datasets, members_left_out
-from contactsim.analysis.quantities import SECOND_ESTIMATORS, grid_change_name, resolves_edges, source_quantity
+from contactsim.analysis.quantities import (
+    SECOND_ESTIMATORS,
+    grid_change_name,
+    resolves_edges,
+    second_estimate,
+    source_quantity,
+)
 from contactsim.grid import Array
 
 NAN = float("nan")
@@ -113,9 +119,9 @@ def _grid_error(number: Number, comparison: Comparison) -> Any:
     fine = number(data)
     coarse = [study.assign({name: study[name] - study[change] for name, change in changes.items()}) for study in data]
     change = abs(number(coarse) - fine)
-    seconds = {name: SECOND_ESTIMATORS[name] for name in changes if name in SECOND_ESTIMATORS}
-    if seconds and all(resolves_edges(study) for study in data):
-        second = [study.assign({name: study[other] for name, other in seconds.items()}) for study in data]
+    corrected = [name for name in changes if name in SECOND_ESTIMATORS]
+    if corrected and all(resolves_edges(study) for study in data):
+        second = [study.assign({name: second_estimate(study, name) for name in corrected}) for study in data]
         change = np.maximum(change, abs(number(second) - fine))
     moved = [parts for name in changes for parts in _moved_by_path_errors(data, name)]
     return _in_quadrature([change, *(number(parts) - fine for parts in moved)])
