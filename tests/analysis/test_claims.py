@@ -242,12 +242,15 @@ UNANSWERED = {
 
 LACKING = {
     "ch2": [],
-    "ch3": [],
-    "ch4": ["compressible_curves_weak", "friction_size_4", "incompressible_slope_strong", "incompressible_slope_weak"],
+    "ch3": ["surface_area_linear"],
+    "ch4": [
+        *("compressible_curves_weak", "friction_size_4", "incompressible_slope_strong", "incompressible_slope_weak"),
+        *("gap_at_pull_off", "crack_departure_strong"),
+    ],
     "ch5": [
-        *("area_larger", "linearity_breaks", "heights_ordered", "heights_ordered_middle", "hurst_ordered"),
-        *("hurst_ordered_ends", "nonlinear_heights", "nonlinear_hurst", "uncoupled", "compressibility_adhesive"),
-        "friction",
+        *("error_bars", "area_larger", "linearity_breaks", "error_bars_larger", "heights_ordered", "hurst_ordered"),
+        *("gap_heights", "gap_hurst", "heights_linear", "hurst_linear", "uncoupled", "compressibility_adhesive"),
+        *("friction", "hurst_step"),
     ],
     "ch6": ["share_in_tension"],
 }
