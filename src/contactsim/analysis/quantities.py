@@ -114,7 +114,12 @@ def number_exists(data: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def _standard_error(data: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
-    """Return the standard error of the mean of as many members as the study has, from those in the dataset."""
+    """Return the standard error of the mean of as many members as the study has, from those in the dataset.
+
+    It is unknown from one member.
+    """
+    if data.sizes["member"] < 2:
+        return xr.full_like(values.mean("member"), np.nan)
     return values.std("member", ddof=1, skipna=False) / np.sqrt(dataset.settings_of(data)["members"])
 
 
