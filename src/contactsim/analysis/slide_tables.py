@@ -13,7 +13,7 @@ from contactsim import reference
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.scales import LawScales, body_settings, critical_modulus_ratio, lattice_constant, radius
 from contactsim.grid import Array
-from contactsim.observables.friction import SHRINKING
+from contactsim.observables.slide_peeling import SHRINKING
 
 MODULUS, FIRST_APPROACH = 70.0, 10.0
 """Young's modulus (GPa) that forces are given over, and δ0 (nm) that approaches are given over."""

@@ -16,7 +16,7 @@ from contactsim.analysis import slide_tables
 from contactsim.analysis.scales import LawScales, lattice_constant
 from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
-from contactsim.figures.parts import law_curves
+from contactsim.figures.parts import flats, law_curves
 from contactsim.figures.parts import slide_curves as curves
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import EVENT
@@ -59,50 +59,21 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
             if modulus in data.counter_body_youngs_modulus and ratio in data.work_ratio
         ]
         curves_of_panel = [
-            _plot_flat(panel, data.sel(counter_body_youngs_modulus=modulus, work_ratio=ratio), colour)
+            flats.plot_flat(panel, data.sel(counter_body_youngs_modulus=modulus, work_ratio=ratio), colour)
             for (modulus, ratio), colour in zip(simulated, style.shades(range(len(simulated))).values(), strict=True)
         ]
         error = max(float(np.abs(curve.force - curve.exact).max() / curve.exact.max()) for curve in curves_of_panel)
         label = f"exact, one degree of freedom\n(apart by {error:.0e} of the force at most)"
         panel.plot([], [], ".", color=style.EXACT, ms=3, label=label)
-        panel.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=_sine_label(data))
+        panel.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=flats.prandtl_tomlinson_label(data))
         panel.axhline(0.0, **style.ZERO)
-        _mark_periods(panel, lattice_constant(data), float(curves_of_panel[0].slide.max()))
+        flats.mark_periods(panel, lattice_constant(data), float(curves_of_panel[0].slide.max()))
         panel.set(xlabel=curves.SLIDE_NM, ylabel=curves.FORCE)
         style.add_headroom(panel, 0.95)
         panel.legend(loc="upper left")
         tables += curves_of_panel
     style.add_letters(axes)
     return pd.concat(tables)
-
-
-def _sine_label(data: xr.Dataset) -> str:
-    """Return the label of the model of Prandtl and Tomlinson, with the distance of the springs' sum to its sine."""
-    lattice, length = lattice_constant(data), LawScales.of(data).tangential_length
-    places = np.linspace(0.0, lattice, 1001)
-    sums, sine = reference.spring_sum(places, lattice, length)[1], reference.sine_sum(places, lattice, length)
-    return f"Prandtl–Tomlinson: a sine as high\n(springs' sum apart by {np.abs(sums - sine).max() / sums.max():.0e})"
-
-
-def _mark_periods(axes: Axes, lattice: float, end: float) -> None:
-    """Mark the multiples of the lattice constant on the upper edge of a panel of slides, nm."""
-    for place in np.arange(lattice, end, lattice):
-        axes.axvline(place, ymin=0.97, color=style.LIGHT_GREY, lw=0.6)
-
-
-def _plot_flat(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
-    """Plot the force of one flat and the exact answer."""
-    path = data.isel(member=0)
-    modulus = float(path.counter_body_youngs_modulus)
-    work = float(path.work_ratio) * LawScales.of(data).work_of_separation
-    table = slide_table(path)
-    table = table.assign(exact=slide_tables.exact_flat_force(path, table.slide.values))
-    label = rf"$\bar E={modulus:g}$, $\bar\varphi_t={work:g}$"
-    axes.plot(table.slide, table.force, color=colour, lw=1.1, label=label)
-    axes.plot(table.slide[::4], table.exact[::4], ".", color=style.EXACT, ms=1.6, zorder=3)
-    sine = slide_tables.exact_flat_force(path, table.slide.values, sine=True)
-    axes.plot(table.slide, sine, color=colour, lw=0.7, ls=":")
-    return table.assign(sine=sine, youngs_modulus=modulus, tangential_work=work)
 
 
 def fig_6_5(
@@ -117,7 +88,7 @@ def fig_6_5(
         by_modulus, by_work = (slide_tables.friction_against_modulus(data) for data in studies)
         thickness, critical = by_modulus.thickness.iloc[0], by_modulus.critical.iloc[0]
         largest = max(table.modulus_over_strength.max() for table in (by_modulus, by_work))
-        _plot_friction(axes[0], by_modulus, colour, rf"$h={thickness:g}$ nm")
+        flats.plot_friction(axes[0], by_modulus, colour, rf"$h={thickness:g}$ nm")
         for table, marker, fill in ((by_modulus, "o", colour), (by_work, "D", "none")):
             look = style.marker_look(colour, marker, size=3.5, fill=fill)
             axes[1].plot(table.modulus_over_strength, table.relative_friction, ls="none", **look)
@@ -125,7 +96,7 @@ def fig_6_5(
         sine = slide_tables.friction_by_prandtl_tomlinson(studies[0], ratios)
         axes[1].plot(ratios, sine, color=colour, lw=0.8, ls=":")
         if critical < largest:
-            _shade_smooth(axes[0], critical, 1.3 * largest, thickness, colour)
+            flats.shade_smooth(axes[0], critical, 1.3 * largest, thickness, colour)
         errors = ["mean_friction_increment_error", "average_friction_increment_error"]
         tables += [table.drop(columns=errors) for table in (by_modulus, by_work)]
     lines = style.line_handles({r"$(F_s+F_k)/2$ (Eq. 6.7)": "-", "mean over whole periods": "--"})
@@ -138,27 +109,11 @@ def fig_6_5(
     looks = (("$E$ varied", "o", style.EXACT), (r"$\varphi_t$ varied, $E=70$ GPa", "D", "none"))
     for label, marker, fill in looks:
         axes[1].plot([], [], ls="none", label=label, **style.marker_look(style.EXACT, marker, size=3.5, fill=fill))
-    axes[1].plot([], [], color=style.EXACT, lw=0.8, ls=":", label=_sine_label(thin))
+    axes[1].plot([], [], color=style.EXACT, lw=0.8, ls=":", label=flats.prandtl_tomlinson_label(thin))
     style.add_headroom(axes[1], 0.35)
     axes[1].legend(loc="upper right")
     style.add_letters(axes)
     return pd.concat(tables)
-
-
-def _plot_friction(axes: Axes, table: pd.DataFrame, colour: str, label: str) -> None:
-    """Plot both means of the friction of flats against modulus over strength, with their increment errors."""
-    for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):
-        own_label = label if name == "mean_friction" else None
-        look = style.marker_look(colour, size=3.5, fill=fill) | {"ls": line, "lw": 0.9, "label": own_label}
-        axes.errorbar(table.modulus_over_strength, table[name], table[f"{name}_increment_error"], **look, **style.BARS)
-
-
-def _shade_smooth(axes: Axes, critical: float, end: float, thickness: float, colour: str) -> None:
-    """Shade the range in which flats slide without stick-slip."""
-    axes.axvspan(critical, end, color=colour, alpha=0.12, lw=0)
-    axes.axvline(critical, color=colour, lw=0.8, ls=":")
-    text = {"transform": axes.get_xaxis_transform(), "fontsize": 7, "va": "top", "color": colour}
-    axes.text(1.04 * critical, 0.3, f"smooth at\n$h={thickness:g}$ nm", **text)
 
 
 def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:

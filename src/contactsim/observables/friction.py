@@ -12,16 +12,9 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.observables.peeling import (
-    PEELING,
-    edge_peel,
-    edge_shift,
-    fit_exponent,
-    fit_quadratic_law,
-    peel_asymmetry,
-    peel_rate_ratio,
-)
+from contactsim.observables.peeling import PEELING
 from contactsim.observables.polyline import Polyline, average_force, loop_energy
+from contactsim.observables.slide_peeling import peeling_numbers, regained_lengths
 from contactsim.observables.sliding import EVENT, TOUCHING
 from contactsim.observables.threshold import fit_thresholds
 from contactsim.status import is_solved
@@ -67,8 +60,6 @@ SLIDE_INPUTS = (*STATE_NUMBERS, *EVENT)
 """Variables that only a dataset of slides has all of."""
 MIN_STATES = 3
 """Smallest number of states that is summarised."""
-SHRINKING = {"quarter": 0.25, "three_quarters": 0.75}
-"""Parts of the length lost up to the onset of sliding at which the shift of the contact is read."""
 STORING_SLIDE = 1.0
 """Sliding distance, nm, up to which the stored energy is compared while the contact sticks."""
 
@@ -101,12 +92,12 @@ def summarise_slide(
     line = Polyline.from_states(states, events, int(np.flatnonzero(on_slide)[0]))
     numbers["initial_contact_length"], numbers["initial_load"] = states["contact_length"][0], states["line_load"][0]
     numbers["slip_count"], numbers["stored_energy"] = float(line.slips.size), _stored_energy(line, states)
-    gains = _regained_lengths(line)
+    gains = regained_lengths(line)
     numbers["reattachment_count"] = np.nan if np.isnan(gains).any() else float(np.count_nonzero(gains > 0))
     onset = line.onset
     if onset is None:
         return numbers, errors
-    numbers |= _peeling_numbers(line, states, onset) | _sticking_numbers(line, onset)
+    numbers |= peeling_numbers(line, states, onset) | _sticking_numbers(line, onset)
     for more_numbers, more_errors in (
         _friction_numbers(line, states, onset, period),
         _slip_numbers(line, events, period),
@@ -158,66 +149,6 @@ def _stored_energy(line: Polyline, states: Mapping[str, Array]) -> float:
         return np.nan
     stored = np.interp(STORING_SLIDE, states["sliding_distance"], states["elastic_energy"])
     return float(stored - states["elastic_energy"][0])
-
-
-def _peeling_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> dict[str, float]:
-    """Return how the contact peels up to the onset; its laws are fitted to the states with contact."""
-    force, length = line.force[: onset + 1], line.length[: onset + 1]
-    contact = length > 0
-    coefficient, r_squared = fit_quadratic_law(force[contact], length[contact])
-    return {
-        "quadratic_coefficient": coefficient,
-        "quadratic_r_squared": r_squared,
-        "quadratic_r_squared_all": fit_quadratic_law(force, length)[1],
-        "peel_rate_ratio": peel_rate_ratio(force[contact], length[contact]),
-        "peel_exponent": fit_exponent(force[contact], length[contact]),
-        "peeled_fraction": 1 - line.length[onset] * _per_initial_length(states),
-    } | (_edge_numbers(line, states, onset) | _reattachment(line, states))
-
-
-def _edge_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> dict[str, float]:
-    """Return what peels at each edge and how far the centre shifts, half way to the onset and at the state before."""
-    last = int(line.state[onset])
-    trailing, leading = (states[f"contact_{edge}_edge"][: last + 1] for edge in ("trailing", "leading"))
-    distance = states["sliding_distance"][: last + 1]
-    numbers = {
-        f"contact_shift_{name}": edge_shift(trailing, leading, share) * _per_initial_length(states)
-        for name, share in SHRINKING.items()
-    }
-    for suffix, place in (("_halfway", line.sliding_distance[onset] / 2), ("", float(distance[-1]))):
-        behind, ahead = edge_peel(trailing, leading, distance, place)
-        numbers |= {
-            f"trailing_peel{suffix}": behind,
-            f"leading_peel{suffix}": ahead,
-            f"peel_asymmetry{suffix}": peel_asymmetry(behind, ahead),
-            f"contact_shift{suffix}": (behind - ahead) / 2 * _per_initial_length(states),
-        }
-    return numbers
-
-
-def _reattachment(line: Polyline, states: Mapping[str, Array]) -> dict[str, float]:
-    """Return the parts of the initial contact after the first slip, and regained at it; nothing without a slip.
-
-    A contact that is lost after the slip has no reattached part.
-    """
-    if not line.slips.size:
-        return {}
-    first, share = line.slips[0], _per_initial_length(states)
-    return {
-        "reattached_fraction": line.length[first] * share if line.length[first] > 0 else np.nan,
-        "regained_fraction": _regained_lengths(line)[0] * share,
-    }
-
-
-def _regained_lengths(line: Polyline) -> Array:
-    """Return the length (nm) by which the contact grows at each slip; NaN of flats."""
-    return line.length[line.slips] - line.length[line.slips - 1]
-
-
-def _per_initial_length(states: Mapping[str, Array]) -> float:
-    """Return one over the contact length before the slide, 1/nm; NaN without contact."""
-    length = states["contact_length"][0]
-    return 1 / length if length > 0 else np.nan
 
 
 def _slip_numbers(

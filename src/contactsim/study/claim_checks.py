@@ -1,0 +1,102 @@
+"""Check the settings of a claim against each other and against the studies that answer it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from contactsim.analysis.comparison import SECOND_STUDY
+from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
+from contactsim.errors import InputError
+from contactsim.study.quantity_names import quantities
+from contactsim.study.study import Study
+
+BANDS = ({"expect", "tolerance"}, {"at_least"}, {"at_most"})
+"""Sets of keys that give a band."""
+WITHOUT_STUDY = ("source", "statement", "rationale", "cause", "is_finding")
+"""Settings of a claim that no study answers."""
+WITH_FORMULA = (*WITHOUT_STUDY, "formula", "neutral", *sorted(set.union(*BANDS)))
+"""Settings of a claim that an equation answers."""
+INPUTS = ("against", "along", "across")
+"""Keys that a reduction may need beside the quantity."""
+
+
+def check_without_study(settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for a claim of an equation, or without an answer, with a key that it has no use for."""
+    has_formula = settings["formula"] is not None
+    allowed = WITH_FORMULA if has_formula else WITHOUT_STUDY
+    for key in settings:
+        if key not in allowed and settings[key] is not None:
+            raise InputError(f"{prefix}.{key}", settings[key], "left out, for there is no study", file)
+    if not has_formula:
+        return
+    check_band(settings, file, prefix)
+    if not settings["is_finding"] and settings["expect"] is None and settings["neutral"] is None:
+        raise InputError(f"{prefix}.neutral", None, "a number, where an equation is held against an edge", file)
+
+
+def check_no_verdict(settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for a finding with a key that speaks of a verdict."""
+    for key in ("cases", "admissible", "cause"):
+        if settings[key] is not None:
+            raise InputError(f"{prefix}.{key}", settings[key], "left out: a finding has no verdict", file)
+
+
+def check_band(settings: dict, file: object, prefix: str) -> None:
+    """Raise InputError for a band where there is no verdict or only a sense, and for a claim without one."""
+    band = {key for key in set.union(*BANDS) if settings[key] is not None}
+    unused = sorted(band) + ["neutral"] * (settings["neutral"] is not None)
+    if settings["is_finding"]:
+        if unused:
+            raise InputError(prefix, unused, "no band: a finding is a number without a verdict", file)
+        if settings["reduce"] in ORDERS:
+            raise InputError(f"{prefix}.reduce", settings["reduce"], f"one of {', '.join(REDUCTIONS)}", file)
+    elif settings["reduce"] in ORDERS:
+        if unused:
+            raise InputError(prefix, unused, f"no band: {settings['reduce']} has only a sense", file)
+    elif band not in BANDS:
+        raise InputError(prefix, sorted(band), "expect with tolerance, or at_least, or at_most", file)
+
+
+def study_dimensions(studies: Mapping[str, Study], name: str) -> list[str]:
+    """Return the dimensions of a study without its members; none for an unknown study."""
+    return [dim for dim in studies[name].dimensions if dim != "member"] if name in studies else []
+
+
+def check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[str], file: object, prefix: str) -> None:
+    """Raise InputError for a reduction, quantity or dimension that the claim's studies do not have."""
+    study = studies[settings["study"]]
+    own = quantities(study)
+    seconds = [key for key in SECOND_STUDY if settings[key] is not None]
+    if len(seconds) > 1:
+        raise InputError(prefix, seconds, "one of them", file)
+    shared = _shared_quantities(settings, seconds[0], studies, file, prefix) if seconds else own
+    allowed = {"quantity": shared, "against": own, "along": dims, "across": dims}
+    check_one_of(settings, "reduce", [*REDUCTIONS, *ORDERS], file, prefix)
+    inputs = reduction_inputs(settings["reduce"])
+    for key in ("quantity", *inputs):
+        check_one_of(settings, key, allowed[key], file, prefix)
+    if settings["beside"] is not None:
+        check_one_of(settings, "beside", [name for name in shared if name != settings["quantity"]], file, prefix)
+    for key in INPUTS:
+        if key not in inputs and settings[key] is not None:
+            unused = f"left out: {settings['reduce']} does not use it"
+            raise InputError(f"{prefix}.{key}", settings[key], unused, file)
+    if seconds and settings["against"] is not None and not REDUCTIONS[settings["reduce"]].against_first:
+        single = [name for name in (*REDUCTIONS, *ORDERS) if "against" not in reduction_inputs(name)]
+        message = f"with `{seconds[0]}`, one of {', '.join(single)}"
+        raise InputError(f"{prefix}.reduce", settings["reduce"], message, file)
+
+
+def _shared_quantities(settings: dict, key: str, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:
+    """Return the quantities that both studies of a comparison have; the second must be loaded in the same way."""
+    study = studies[settings["study"]]
+    alike = [name for name, other in studies.items() if other.dimensions[-1] == study.dimensions[-1]]
+    others = [name for name in alike if name != settings["study"]]
+    check_one_of(settings, key, others, file, prefix)
+    return sorted(set(quantities(study)) & set(quantities(studies[settings[key]])))
+
+
+def check_one_of(settings: dict, key: str, allowed: Iterable[str], file: object, prefix: str) -> None:
+    """Raise InputError for a value that is not allowed."""
+    if settings[key] not in allowed:
+        raise InputError(f"{prefix}.{key}", settings[key], f"one of {', '.join(allowed)}", file)
