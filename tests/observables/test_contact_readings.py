@@ -35,6 +35,7 @@ def rough_path(pressure: np.ndarray = 1e-4 * STEPS) -> xr.Dataset:
     lengths = {length: LENGTH * STEPS / 60 * (place + 1) / 4 for place, (length, _) in enumerate(CRITERIA.values())}
     slopes = {slope: np.full(STEPS.size, 0.1) for _, slope in CRITERIA.values()}
     columns = {"approach": STEPS - 5.0, "normalised_pressure": pressure, "mean_gap": 40.0 - STEPS}
+    columns |= {"conformity_long": STEPS / 40, "conformity_short": STEPS / 50}
     columns |= {"touching_peaks": 10 * STEPS, "status": np.zeros(STEPS.size), "relative_interacting_area": STEPS / 60}
     data = xr.Dataset({name: ("step", values) for name, values in (columns | lengths | slopes).items()})
     return data.assign(length=LENGTH, contact_modulus=MODULUS, approach_first_touch=-5.0, rms_gradient=0.2)
@@ -76,6 +77,9 @@ def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
     data = summarise_readings(rough_path(), SETTINGS)
     assert float(data.mean_gap_at_load_0_001) == pytest.approx(30.0)
     assert float(data.touching_peaks_at_20nm) == pytest.approx(200.0)
+    assert float(data.conformity_at_20nm_long) == pytest.approx(0.5)
+    assert float(data.conformity_at_20nm_contrast) == pytest.approx(-0.1)
+    assert float(data.gap_at_20nm_long_over_short) == pytest.approx(0.5 / 0.6)
     assert reading_names(SETTINGS) <= set(data)
 
 

@@ -47,9 +47,15 @@ BY_CRITERION = tuple(f"{number}_{criterion}" for criterion in CRITERIA for numbe
 BY_HEIGHT = tuple(f"{number}_{height}" for height in HEIGHTS for number in HEIGHT_NUMBERS)
 """Names of the numbers by each reading."""
 AT_LOAD = ("mean_gap_at_load_0_001",)
-PEAKS = ("touching_peaks_at_20nm",)
-"""Further numbers of rough contacts: the gap at a load, and how many peaks of the profile are in contact."""
-READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *PEAKS)
+AT_APPROACH = {
+    "touching_peaks": "touching_peaks_at_20nm",
+    "conformity_long": "conformity_at_20nm_long",
+    "conformity_short": "conformity_at_20nm_short",
+}
+"""Further numbers of rough contacts: the gap at a load, and numbers of a state that are read at an approach."""
+BY_WAVES = ("conformity_at_20nm_contrast", "gap_at_20nm_long_over_short")
+"""Short waves against long ones: the difference of what is followed, and the ratio of what is not."""
+READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVES)
 """Names of all these numbers."""
 ERROR = "_increment_error"
 
@@ -58,7 +64,7 @@ def reading_names(settings: Mapping[str, Any]) -> set[str]:
     """Return the names of the numbers that a study with these settings has."""
     is_rough = settings["surface"]["kind"] == "self_affine" and settings["path"] is not None
     names = {*BY_CRITERION, *AT_LOAD} if is_rough else set()
-    names |= {*PEAKS} if is_rough and settings["effects"] != ["hard_wall"] else set()
+    names |= {*AT_APPROACH.values(), *BY_WAVES} if is_rough and settings["effects"] != ["hard_wall"] else set()
     return names | ({*BY_HEIGHT} if is_rough and _is_one_half_space(settings) else set())
 
 
@@ -68,8 +74,10 @@ def summarise_readings(data: xr.Dataset, settings: Mapping[str, Any]) -> xr.Data
     if set(BY_CRITERION) & names:
         data = data.assign(numbers_by_criterion(data))
         data = data.assign(_read_loading(data, "mean_gap", AT_LOAD[0], _gap_at_load))
-    if "touching_peaks" in data and set(PEAKS) & names:
-        data = data.assign(_read_loading(data, "touching_peaks", PEAKS[0], _peaks_at_approach))
+    if set(BY_WAVES) & names and set(AT_APPROACH) <= set(data):
+        for name, number in AT_APPROACH.items():
+            data = data.assign(_read_loading(data, name, number, _value_at_approach))
+        data = data.assign(_compare_waves(data))
     if set(BY_HEIGHT) & names:
         data = data.assign(numbers_by_height(data, settings["body"]))
     return data
@@ -183,9 +191,22 @@ def _gap_at_load(pressure: Array, indentation: Array, gap: Array) -> float:
     return float(values_at_loads(pressure, gap, np.array([LOAD_LEVELS["area_at_load_0_001"]]))[0])
 
 
-def _peaks_at_approach(pressure: Array, indentation: Array, peaks: Array) -> float:
-    """Return the number of peaks in contact at 20 nm beyond first touch."""
-    return value_at_level(indentation, APPROACH_LEVELS[1], peaks)
+def _value_at_approach(pressure: Array, indentation: Array, values: Array) -> float:
+    """Return a quantity at 20 nm beyond first touch."""
+    return value_at_level(indentation, APPROACH_LEVELS[1], values)
+
+
+def _compare_waves(data: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Return `BY_WAVES` and their errors, those of the two conformities in quadrature."""
+    long, short = AT_APPROACH["conformity_long"], AT_APPROACH["conformity_short"]
+    left = {name: 1 - data[name] for name in (long, short)}
+    contrast, ratio = BY_WAVES
+    numbers = {contrast: data[short] - data[long], ratio: left[long] / left[short]}
+    errors = {name: data[f"{name}{ERROR}"] for name in (long, short)}
+    numbers[f"{contrast}{ERROR}"] = np.hypot(errors[short], errors[long])
+    relative = np.hypot(errors[short] / left[short], errors[long] / left[long])
+    numbers[f"{ratio}{ERROR}"] = numbers[ratio] * relative
+    return numbers
 
 
 def _is_one_half_space(settings: Mapping[str, Any]) -> bool:

@@ -17,6 +17,7 @@ from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
 from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
+from contactsim.observables.conformity import conformities, first_short_mode
 from contactsim.observables.load_curve import join_folds
 from contactsim.observables.sliding import join_slips, slide_observables
 from contactsim.paths.increments import Increments
@@ -81,12 +82,13 @@ def simulate_path(
     problem = pose_cohesive(scene, heights, tolerance, threads)
     snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
     slopes: dict[int, Array] = {}
+    first_short = first_short_mode(heights)
     fields: dict[int, dict[str, Array]] = {}
     rows, folds, slips, begin, total, marks = [], [], [], time.process_time(), 0.0, [0.0]
     for count, state in enumerate(increments.follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        rows.append(_state_numbers(scene, state, slopes))
+        rows.append(_state_numbers(scene, state, slopes, first_short))
         folds += [fold_numbers(problem, jump, count) for jump in state.jumps if not jump.step.held]
         slips += [slip_numbers(problem, jump, count) for jump in state.jumps if jump.step.held]
         if count in snapshot_steps:
@@ -109,8 +111,20 @@ def simulate_path(
     return data.assign(seconds=("step", np.diff(marks)))
 
 
-def _state_numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> dict[str, float]:
-    """Return the numbers of a state; slopes: local squares by grid, which are kept for later steps."""
+def _state_numbers(scene: Scene, state: PathState, slopes: dict[int, Array], first_short: int) -> dict[str, float]:
+    """Return the numbers of a state.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    state
+        The state.
+    slopes
+        Local squares of the profile's slopes by number of points, which are kept for later steps.
+    first_short
+        Number of the longest of the profile's short waves.
+    """
     problem, (gap, traction) = state.problem, state.fields()
     zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
     if state.points not in slopes:
@@ -119,6 +133,7 @@ def _state_numbers(scene: Scene, state: PathState, slopes: dict[int, Array]) -> 
         "approach": approach_of(problem, state.displacement),
         **state_observables(problem, gap, traction),
         **gradients(slopes[state.points], problem, gap, traction),
+        **conformities(problem.shape[0], gap[0], first_short),
         "process_zone_step": problem.grid.spacing[0] / zone,
     }
     if scene.sliding:
