@@ -15,5 +15,5 @@ plan = json.loads(snakemake.params.plan)
 data = dict(zip(sorted(plan["data"]), map(dataset.load_dataset, snakemake.input.data), strict=True))
 for study, path in zip(plan["costs"], snakemake.input.get("costs", []), strict=True):
     data[study] = with_costs(data[study], read_costs(path))
-candidates = read_candidates(snakemake.input.get("candidates"))
+candidates = read_candidates(snakemake.input.get("candidates") or None)  # no file is an empty list
 write_claims(judge_claims(dict(plan["claims"]), data, candidates), plan["chapter"], data, snakemake.output)
