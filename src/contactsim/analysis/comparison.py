@@ -18,7 +18,7 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.analysis.cross_validation import joint_splits
 from contactsim.analysis.ensemble import widen_interval
-from contactsim.analysis.quantities import mean_quantity, number_exists, source_quantity, unknown
+from contactsim.analysis.quantities import mean_quantity, number_exists, source_quantity, unknown, with_quantities
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.analysis.wording import quantity_text, range_text
 from contactsim.grid import Array
@@ -48,6 +48,8 @@ class Comparison:
 
     def __init__(self, claim: Mapping, data: Datasets) -> None:
         self.claim = claim
+        names = [name for name in (claim["quantity"], claim["against"]) if name is not None]
+        data = [with_quantities(study, names) for study in data]
         self.data = list(xr.align(*data, join="inner", exclude={"member", *PATH_DIMENSIONS}))
         self.is_empty = any(0 in study.sizes.values() for study in self.data)
         self.groups = _groups_of_members(self.data)

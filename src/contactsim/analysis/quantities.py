@@ -6,6 +6,8 @@ left out of a mean if the claim says so.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import xarray as xr
 
@@ -53,6 +55,22 @@ PULL_OFF = "pull_off_load_loading"
 """The pull-off load of the thesis."""
 RESOLVED_WAVELENGTH = 16
 """Points per shortest wavelength from which edges can be placed between points."""
+
+
+READ_BY_ALL = ("status", "points", "length", "length_y", "contact_modulus", "rms_gradient")
+"""Variables from which quantities are computed, or by which they are known to be unknown."""
+
+
+def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
+    """Return a dataset with what some quantities are computed from, with their errors and changes, and nothing else.
+
+    Members are left out of a dataset again and again, which takes as long as it has variables.
+    """
+    sources = {computed_from(name) for name in names}
+    sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
+    starts = tuple(f"{source}_" for source in sources)
+    is_read = (*READ_BY_ALL, *sources)
+    return data[[name for name in data.data_vars if name in is_read or str(name).startswith(starts)]]
 
 
 def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:
@@ -154,10 +172,15 @@ def second_estimate(data: xr.Dataset, name: str, suffix: str = "") -> xr.DataArr
     return data[f"{other}{suffix}"] + (data[f"{other}_grid_change"] / 3 if is_rough_surface else 0.0)
 
 
+def computed_from(name: str) -> str:
+    """Return the variable that a quantity is computed from."""
+    others = SIZES | GRADIENT_DEFICITS | ERROR_BARS | BAR_SHARES | {CRACK_DEPARTURE: PULL_OFF}
+    return "relative_contact_area" if name in FITTED else others.get(name, name)
+
+
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
-    others = SIZES | GRADIENT_DEFICITS | ERROR_BARS | BAR_SHARES | {CRACK_DEPARTURE: PULL_OFF}
-    source = "relative_contact_area" if name in FITTED else others.get(name, name)
+    source = computed_from(name)
     return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
 
 
