@@ -83,6 +83,26 @@ def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
     assert reading_names(SETTINGS) <= set(data)
 
 
+def test_the_largest_slip_is_that_up_to_twenty_nm_and_unknown_where_the_path_ends_before():
+    coupled = SETTINGS | {"effects": ["cohesive_zone"]}
+    slips = {"rms_slip": ("step", STEPS / 10), "slipped_share": ("step", 0.8 - abs(STEPS - 10) / 20)}
+    data = summarise_readings(rough_path().assign(slips), coupled)
+    assert float(data.rms_slip_to_20nm) == pytest.approx(2.0)
+    assert float(data.slipped_share_to_20nm) == pytest.approx(0.8)
+    short = summarise_readings(rough_path().assign(slips).isel(step=slice(0, 20)), coupled)
+    assert np.isnan(float(short.rms_slip_to_20nm))
+    assert "rms_slip_to_20nm" not in reading_names(SETTINGS)
+
+
+def test_a_largest_slip_bridges_one_unknown_state_and_no_two():
+    coupled = SETTINGS | {"effects": ["cohesive_zone"]}
+    slips = {"rms_slip": ("step", STEPS / 10), "slipped_share": ("step", STEPS / 100)}
+    for lost, known in ((slice(7, 8), True), (slice(7, 9), False), (slice(23, 30), True)):
+        data = rough_path().assign(slips)
+        data.status[lost] = 1
+        assert np.isfinite(float(summarise_readings(data, coupled).rms_slip_to_20nm)) == known
+
+
 def test_other_surfaces_and_bodies_have_no_such_numbers():
     assert reading_names(SETTINGS | {"surface": {"kind": "cylinder"}}) == set()
     assert reading_names(SETTINGS | {"path": None}) == set()

@@ -46,8 +46,6 @@ FINAL = {
     "final_slip": "slip",
 }
 """Numbers at the largest approach, by the number of a state that they are."""
-ALONG_PATH = {"largest_rms_slip": "rms_slip", "largest_slipped_share": "slipped_share"}
-"""Largest numbers along a path, by the number of a state that they are."""
 SLIPPED = 0.3
 """Slip over the laws' length from which a node counts as slipped: the tangential factor of Eq. 5.2 is 0.91 there."""
 TURN_TOLERANCE = 1e-6
@@ -62,7 +60,7 @@ SUMMARY = (
     "max_jump_unloading",
     *FINAL,
 )
-"""Summary of a path; the slip, here and in `ALONG_PATH`, only where a law reads the tangential gap."""
+"""Summary of a path; the slip only where a law reads the tangential gap."""
 
 
 def contact_length(gap: Array, spacing: float) -> float:
@@ -250,6 +248,4 @@ def summarise_load_curves(data: xr.Dataset) -> xr.Dataset:
     )
     last = data.approach.argmax("step")
     final = {name: data[of].where(converged).isel(step=last) for name, of in FINAL.items() if of in data}
-    has_failed = (data.status.notnull() & ~converged).any("step")
-    along = {name: data[of].max("step").where(~has_failed) for name, of in ALONG_PATH.items() if of in data}
-    return data.assign(dict(zip(names, columns, strict=True)) | final | along)
+    return data.assign(dict(zip(names, columns, strict=True)) | final)

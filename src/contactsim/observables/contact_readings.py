@@ -14,7 +14,8 @@ import xarray as xr
 
 from contactsim import reference
 from contactsim.grid import Array
-from contactsim.observables.adhesion import legs
+from contactsim.interface.registry import EFFECTS
+from contactsim.observables.adhesion import TURN_TOLERANCE, legs
 from contactsim.observables.linearity import (
     APPROACH_LEVELS,
     LOAD_LEVELS,
@@ -55,7 +56,9 @@ AT_APPROACH = {
 """Further numbers of rough contacts: the gap at a load, and numbers of a state that are read at an approach."""
 BY_WAVES = ("conformity_at_20nm_contrast", "gap_at_20nm_long_over_short")
 """Short waves against long ones: the difference of what is followed, and the ratio of what is not."""
-READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVES)
+UP_TO_APPROACH = {"rms_slip": "rms_slip_to_20nm", "slipped_share": "slipped_share_to_20nm"}
+"""Largest numbers of a state on loading up to 20 nm, where a law reads the tangential gap."""
+READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVES, *UP_TO_APPROACH.values())
 """Names of all these numbers."""
 ERROR = "_increment_error"
 
@@ -65,6 +68,8 @@ def reading_names(settings: Mapping[str, Any]) -> set[str]:
     is_rough = settings["surface"]["kind"] == "self_affine" and settings["path"] is not None
     names = {*BY_CRITERION, *AT_LOAD} if is_rough else set()
     names |= {*AT_APPROACH.values(), *BY_WAVES} if is_rough and settings["effects"] != ["hard_wall"] else set()
+    slips = any("t" in EFFECTS[effect].reads for effect in settings["effects"])
+    names |= {*UP_TO_APPROACH.values()} if is_rough and slips else set()
     return names | ({*BY_HEIGHT} if is_rough and _is_one_half_space(settings) else set())
 
 
@@ -78,6 +83,9 @@ def summarise_readings(data: xr.Dataset, settings: Mapping[str, Any]) -> xr.Data
         for name, number in AT_APPROACH.items():
             data = data.assign(_read_loading(data, name, number, _value_at_approach))
         data = data.assign(_compare_waves(data))
+    for name, number in UP_TO_APPROACH.items():
+        if number in names and name in data:
+            data = data.assign(_read_loading(data, name, number, _largest_up_to_approach))
     if set(BY_HEIGHT) & names:
         data = data.assign(numbers_by_height(data, settings["body"]))
     return data
@@ -196,6 +204,13 @@ def _value_at_approach(pressure: Array, indentation: Array, values: Array) -> fl
     return value_at_level(indentation, APPROACH_LEVELS[1], values)
 
 
+def _largest_up_to_approach(pressure: Array, indentation: Array, values: Array) -> float:
+    """Return the largest value up to 20 nm beyond first touch; NaN for a path that ends before."""
+    last = APPROACH_LEVELS[1] + TURN_TOLERANCE
+    is_reached = indentation.size > 0 and indentation[-1] >= last - 2 * TURN_TOLERANCE
+    return float(values[indentation <= last].max()) if is_reached else np.nan
+
+
 def _compare_waves(data: xr.Dataset) -> dict[str, xr.DataArray]:
     """Return `BY_WAVES` and their errors, those of the two conformities in quadrature."""
     long, short = AT_APPROACH["conformity_long"], AT_APPROACH["conformity_short"]
@@ -203,9 +218,9 @@ def _compare_waves(data: xr.Dataset) -> dict[str, xr.DataArray]:
     contrast, ratio = BY_WAVES
     numbers = {contrast: data[short] - data[long], ratio: left[long] / left[short]}
     errors = {name: data[f"{name}{ERROR}"] for name in (long, short)}
-    numbers[f"{contrast}{ERROR}"] = np.hypot(errors[short], errors[long])
-    relative = np.hypot(errors[short] / left[short], errors[long] / left[long])
-    numbers[f"{ratio}{ERROR}"] = numbers[ratio] * relative
+    numbers[f"{contrast}{ERROR}"] = (errors[short] ** 2 + errors[long] ** 2) ** 0.5
+    squares = [(errors[name] / left[name]) ** 2 for name in (short, long)]
+    numbers[f"{ratio}{ERROR}"] = numbers[ratio] * sum(squares) ** 0.5
     return numbers
 
 

@@ -13,7 +13,7 @@ from typing import Protocol
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.observables.adhesion import ALONG_PATH, SUMMARY
+from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.contact_readings import READINGS
 from contactsim.observables.deformation import DEFORMATION
 from contactsim.observables.derived import summarise_approaches, summarise_paths
@@ -56,7 +56,7 @@ AVERAGED_STATES = (
     "mean_gap",
 )
 """Numbers of a state of a cohesive path that are averaged over members."""
-PATH_SUMMARIES = (*SUMMARY, *ALONG_PATH, *CYCLE, *DEFORMATION, *AREA_LOAD, *READINGS, *ONSET, *THRESHOLD)
+PATH_SUMMARIES = (*SUMMARY, *CYCLE, *DEFORMATION, *AREA_LOAD, *READINGS, *ONSET, *THRESHOLD)
 """Numbers that summarise a path."""
 
 

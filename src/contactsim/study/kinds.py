@@ -9,7 +9,7 @@ from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
-from contactsim.observables.adhesion import ALONG_PATH, FINAL, SUMMARY
+from contactsim.observables.adhesion import FINAL, SUMMARY
 from contactsim.observables.deformation import DEFORMATION
 from contactsim.observables.friction import ERRORS, ONSET
 from contactsim.observables.hysteresis import CYCLE
@@ -116,7 +116,6 @@ class CohesiveStudy:
         """Return what load curves, cycles and slides amount to, as far as the scene has them."""
         slips = "t" in scene.components
         names = {name for name in (*SUMMARY, *CYCLE, *DEFORMATION) if slips or FINAL.get(name) != "slip"}
-        names |= set(ALONG_PATH) if slips else set()
         if scene.sliding:
             names |= {*ONSET, *(f"{name}_increment_error" for name in ERRORS)}
             names |= {*(THRESHOLD if set(ALONG) & set(dimensions) else ())}
