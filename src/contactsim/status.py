@@ -83,6 +83,6 @@ def describe_excess(data: xr.Dataset) -> list[str]:
     for name, (limit, words) in LIMITS.items():
         share = float(((flags & FLAGS[name]) > 0).mean())
         if share:
-            part = "all" if share == 1 else f"{100 * share:.2g} %"
+            part = "all" if share == 1 else f"{100 * share:.3g} %"
             texts.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {part}")
     return texts

@@ -91,11 +91,16 @@ def test_a_footer_says_grid_members_losses_and_time(made):
         "3 members",
         "0 of 45 solutions unconverged",
         "grid error up to: κ ",
-        f"study solved in {costs.seconds.sum():.3g} CPU s",
+        f"study solved in {wording.seconds_text([costs])}",
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
     assert "1 of 45 solutions unconverged" in wording.dataset_summary(data, costs)
+
+
+@pytest.mark.parametrize(("seconds", "text"), [(0.123, "0.12 CPU s"), (12.0, "12 CPU s"), (1265.4, "1265 CPU s")])
+def test_a_footer_has_no_powers_of_ten_in_its_seconds(seconds: float, text: str):
+    assert wording.seconds_text([pd.DataFrame({"seconds": [seconds / 2]})] * 2) == text
 
 
 def test_a_short_footer_has_grids_and_members_of_all_studies_and_no_errors(made, tmp_path, monkeypatch):

@@ -163,7 +163,7 @@ def dataset_summary(data: xr.Dataset, costs: pd.DataFrame) -> str:
     parts = [f"{settings['tier']} tier, {settings['name'].replace('_', ' ')}", *sample_texts(data)]
     if "validity_flags" in data and (excess := status.describe_excess(data)):
         parts.append(f"beyond the model: {', '.join(excess)} of the states")
-    return " · ".join([*parts, *error_texts(data), f"study solved in {costs.seconds.sum():.3g} CPU s"])
+    return " · ".join([*parts, *error_texts(data), f"study solved in {seconds_text([costs])}"])
 
 
 def sources_summary(data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -> str:
@@ -175,7 +175,13 @@ def sources_summary(data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -
         parts.append(f"{own['name'].replace('_', ' ')}: {grid}, {members}")
     unconverged, total = (sum(counts) for counts in zip(*map(ensemble.unconverged, data), strict=True))
     parts.append(f"{unconverged} of {total} solutions unconverged")
-    return " · ".join([*parts, f"studies solved in {sum(table.seconds.sum() for table in costs):.3g} CPU s"])
+    return " · ".join([*parts, f"studies solved in {seconds_text(costs)}"])
+
+
+def seconds_text(costs: Sequence[pd.DataFrame]) -> str:
+    """Return the CPU time of some tables of costs in words."""
+    seconds = float(sum(table.seconds.sum() for table in costs))
+    return f"{seconds:.0f} CPU s" if seconds >= 100 else f"{seconds:.2g} CPU s"
 
 
 def error_texts(data: xr.Dataset) -> list[str]:
