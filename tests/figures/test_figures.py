@@ -98,7 +98,7 @@ def test_a_footer_says_grid_members_losses_and_time(made):
     assert "1 of 45 solutions unconverged" in wording.dataset_summary(data, costs)
 
 
-@pytest.mark.parametrize(("seconds", "text"), [(0.123, "0.12 CPU s"), (12.0, "12 CPU s"), (1265.4, "1265 CPU s")])
+@pytest.mark.parametrize(("seconds", "text"), [(0.123, "0.12 CPU s"), (99.7, "100 CPU s"), (1265.4, "1265 CPU s")])
 def test_a_footer_has_no_powers_of_ten_in_its_seconds(seconds: float, text: str):
     assert wording.seconds_text([pd.DataFrame({"seconds": [seconds / 2]})] * 2) == text
 

@@ -181,7 +181,7 @@ def sources_summary(data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -
 def seconds_text(costs: Sequence[pd.DataFrame]) -> str:
     """Return the CPU time of some tables of costs in words."""
     seconds = float(sum(table.seconds.sum() for table in costs))
-    return f"{seconds:.0f} CPU s" if seconds >= 100 else f"{seconds:.2g} CPU s"
+    return f"{seconds:.0f} CPU s" if seconds >= 10 else f"{seconds:.2g} CPU s"
 
 
 def error_texts(data: xr.Dataset) -> list[str]:
