@@ -55,7 +55,6 @@ PAGES = {
         "docs/accuracy.md",
         "docs/architecture.md",
         "docs/cluster.md",
-        "docs/findings.md",
         "benchmarks/README.md",
         "config/README.md",
     )
