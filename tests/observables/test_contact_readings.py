@@ -80,36 +80,34 @@ def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
     assert float(data.conformity_at_20nm_long) == pytest.approx(0.5)
     assert float(data.conformity_at_20nm_contrast) == pytest.approx(-0.1)
     assert float(data.gap_at_20nm_long_over_short) == pytest.approx(0.5 / 0.6)
-    assert reading_names(SETTINGS) <= set(data)
+    assert reading_names(SETTINGS, False) <= set(data)
 
 
 def test_the_largest_slip_is_that_up_to_twenty_nm_and_unknown_where_the_path_ends_before():
-    coupled = SETTINGS | {"effects": ["cohesive_zone"]}
     slips = {"rms_slip": ("step", STEPS / 10), "slipped_share": ("step", 0.8 - abs(STEPS - 10) / 20)}
-    data = summarise_readings(rough_path().assign(slips), coupled)
+    data = summarise_readings(rough_path().assign(slips), SETTINGS)
     assert float(data.rms_slip_to_20nm) == pytest.approx(2.0)
     assert float(data.slipped_share_to_20nm) == pytest.approx(0.8)
-    short = summarise_readings(rough_path().assign(slips).isel(step=slice(0, 20)), coupled)
+    short = summarise_readings(rough_path().assign(slips).isel(step=slice(0, 20)), SETTINGS)
     assert np.isnan(float(short.rms_slip_to_20nm))
-    assert "rms_slip_to_20nm" not in reading_names(SETTINGS)
+    assert "rms_slip_to_20nm" not in reading_names(SETTINGS, False)
 
 
 def test_a_largest_slip_bridges_one_unknown_state_and_no_two():
-    coupled = SETTINGS | {"effects": ["cohesive_zone"]}
     slips = {"rms_slip": ("step", STEPS / 10), "slipped_share": ("step", STEPS / 100)}
     for lost, known in ((slice(7, 8), True), (slice(7, 9), False), (slice(23, 30), True)):
         data = rough_path().assign(slips)
         data.status[lost] = 1
-        assert np.isfinite(float(summarise_readings(data, coupled).rms_slip_to_20nm)) == known
+        assert np.isfinite(float(summarise_readings(data, SETTINGS).rms_slip_to_20nm)) == known
 
 
 def test_other_surfaces_and_bodies_have_no_such_numbers():
-    assert reading_names(SETTINGS | {"surface": {"kind": "cylinder"}}) == set()
-    assert reading_names(SETTINGS | {"path": None}) == set()
-    layer = reading_names(SETTINGS | {"body": BODY | {"kind": "layer"}})
-    varied = reading_names(SETTINGS | {"vary": {"body.poisson_ratio": [0.1, 0.3]}})
+    assert reading_names(SETTINGS | {"surface": {"kind": "cylinder"}}, False) == set()
+    assert reading_names(SETTINGS | {"path": None}, False) == set()
+    layer = reading_names(SETTINGS | {"body": BODY | {"kind": "layer"}}, False)
+    varied = reading_names(SETTINGS | {"vary": {"body.poisson_ratio": [0.1, 0.3]}}, False)
     assert layer == varied and not any(name.endswith("on_5um") for name in layer)
-    assert "touching_peaks_at_20nm" not in reading_names(SETTINGS | {"effects": ["hard_wall"]})
+    assert "touching_peaks_at_20nm" not in reading_names(SETTINGS | {"effects": ["hard_wall"]}, False)
 
 
 def test_a_single_unknown_state_is_bridged_and_two_end_the_loading():

@@ -14,7 +14,6 @@ import xarray as xr
 
 from contactsim import reference
 from contactsim.grid import Array
-from contactsim.interface.registry import EFFECTS
 from contactsim.observables.adhesion import TURN_TOLERANCE, legs
 from contactsim.observables.linearity import (
     APPROACH_LEVELS,
@@ -63,19 +62,18 @@ READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVE
 ERROR = "_increment_error"
 
 
-def reading_names(settings: Mapping[str, Any]) -> set[str]:
-    """Return the names of the numbers that a study with these settings has."""
+def reading_names(settings: Mapping[str, Any], slips: bool) -> set[str]:
+    """Return the names of the numbers that a study has; slips: if one of its laws reads the tangential gap."""
     is_rough = settings["surface"]["kind"] == "self_affine" and settings["path"] is not None
     names = {*BY_CRITERION, *AT_LOAD} if is_rough else set()
     names |= {*AT_APPROACH.values(), *BY_WAVES} if is_rough and settings["effects"] != ["hard_wall"] else set()
-    slips = any("t" in EFFECTS[effect].reads for effect in settings["effects"])
     names |= {*UP_TO_APPROACH.values()} if is_rough and slips else set()
     return names | ({*BY_HEIGHT} if is_rough and _is_one_half_space(settings) else set())
 
 
 def summarise_readings(data: xr.Dataset, settings: Mapping[str, Any]) -> xr.Dataset:
     """Return paths with the numbers that a study with these settings has, and the errors of their increments."""
-    names = reading_names(settings)
+    names = reading_names(settings, "rms_slip" in data)
     if set(BY_CRITERION) & names:
         data = data.assign(numbers_by_criterion(data))
         data = data.assign(_read_loading(data, "mean_gap", AT_LOAD[0], _gap_at_load))
@@ -84,7 +82,7 @@ def summarise_readings(data: xr.Dataset, settings: Mapping[str, Any]) -> xr.Data
             data = data.assign(_read_loading(data, name, number, _value_at_approach))
         data = data.assign(_compare_waves(data))
     for name, number in UP_TO_APPROACH.items():
-        if number in names and name in data:
+        if number in names:
             data = data.assign(_read_loading(data, name, number, _largest_up_to_approach))
     if set(BY_HEIGHT) & names:
         data = data.assign(numbers_by_height(data, settings["body"]))

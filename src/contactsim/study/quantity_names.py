@@ -39,7 +39,7 @@ def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
     scene = study.runs()[0].setup.scene
     names = study_kind(study.settings).path_quantities(scene, study.dimensions)
-    names |= reading_names(study.settings)
+    names |= reading_names(study.settings, "t" in scene.components)
     if study.settings["surface"]["kind"] == "cylinder" and "work_of_separation" in study.dimensions:
         names.add(CRACK_DEPARTURE)
     if study.settings["members"] > 1:
