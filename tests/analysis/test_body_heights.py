@@ -10,7 +10,7 @@ import xarray as xr
 
 import contactsim as cs
 from contactsim.analysis.body_heights import compare_heights, curve_of_body, largest_difference
-from contactsim.reference import body_compression, uniaxial_modulus
+from contactsim.reference.hard_wall import body_compression, uniaxial_modulus
 
 MODULUS, RATIO, LENGTH = 70.0, 0.45, 500.0
 STEPS = np.arange(0.0, 10.5, 0.5)

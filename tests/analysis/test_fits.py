@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import t as student
 
-from contactsim import reference
 from contactsim.analysis.fits import WEIGHTINGS, fit_line_area, fit_line_areas
+from contactsim.reference import hard_wall
 from support.ensembles import ensemble
 
 LOADS = np.geomspace(1e-3, 1, 12)
@@ -17,14 +17,14 @@ PLANTED = {0.2: (0.6, 1.3), 0.8: (0.9, 4.0)}
 @pytest.mark.parametrize("weighting", WEIGHTINGS)
 @pytest.mark.parametrize("planted", [*PLANTED.values(), (1.3, 0.5)])
 def test_a_fit_recovers_the_planted_parameters(planted, weighting):
-    area = np.tile(reference.line_area(LOADS, *planted), (2, 3, 1))
+    area = np.tile(hard_wall.line_area(LOADS, *planted), (2, 3, 1))
     # Convergence of least squares to 1e-8 of the cost, which is quadratic: half the digits of b2, the looser one.
     np.testing.assert_allclose(fit_line_area(LOADS, area, weighting), planted, rtol=1e-4)
 
 
 def noisy(planted, members, size, seed):
     draw = np.random.default_rng(seed)
-    clean = reference.line_area(LOADS, *planted)
+    clean = hard_wall.line_area(LOADS, *planted)
     return clean * (1 + size * draw.standard_normal((1, members, LOADS.size)))
 
 
@@ -33,7 +33,7 @@ def test_a_fit_of_noisy_areas_is_the_least_of_its_own_sum_of_squares(weighting):
     area = noisy(PLANTED[0.2], 3, 0.05, 0)
 
     def cost(b1, b2):
-        model = reference.line_area(LOADS, b1, b2)
+        model = hard_wall.line_area(LOADS, b1, b2)
         return np.sum((model - area) ** 2 if weighting == "area" else np.log(model / area) ** 2)
 
     b1, b2 = fit_line_area(LOADS, area, weighting)
@@ -43,7 +43,7 @@ def test_a_fit_of_noisy_areas_is_the_least_of_its_own_sum_of_squares(weighting):
 
 @pytest.mark.parametrize("weighting", WEIGHTINGS)
 def test_a_fit_leaves_out_areas_that_are_not_known_or_zero(weighting):
-    area = np.tile(reference.line_area(LOADS, *PLANTED[0.2]), (1, 3, 1))
+    area = np.tile(hard_wall.line_area(LOADS, *PLANTED[0.2]), (1, 3, 1))
     area[0, 0, 3] = np.nan
     area[0, 1, :2] = 0.0
     np.testing.assert_allclose(fit_line_area(LOADS, area, weighting), PLANTED[0.2], rtol=1e-4)

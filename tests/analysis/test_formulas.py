@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim import reference
 from contactsim.analysis import formulas
 from contactsim.analysis.claims import judge_claims
 from contactsim.analysis.verdict import FINDING, NOT_REPRODUCED, REPRODUCED
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
+from contactsim.reference import adhesion
 from contactsim.study.claim_plan import read_claim
 
 CASES = [(0.1, 0.3), (1.0, 0.1), (1.0, 0.45), (5.0, 0.3)]
@@ -75,7 +75,7 @@ def test_what_remains_of_xu_and_needlemans_normal_traction_follows_from_their_po
     opening = np.linspace(0.0, 12.0, 4001)
     tractions = {slip: np.gradient(potential(opening, slip), opening)[1:-1] for slip in (0.0, 0.7, 20.0)}
     for slip, traction in tractions.items():
-        assert np.allclose(traction, reference.xu_needleman_normal(opening[1:-1], slip, ratio), atol=1e-5)
+        assert np.allclose(traction, adhesion.xu_needleman_normal(opening[1:-1], slip, ratio), atol=1e-5)
     remainder = tractions[20.0].max() / tractions[0.0].max()
     assert remainder == pytest.approx(formulas.xu_needleman_remainder(ratio), abs=1e-5)
 

@@ -7,10 +7,11 @@ import json
 import numpy as np
 import pytest
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.quantities import mean_quantity
 from contactsim.analysis.uncertainty import estimate, estimate_on_thesis_grid, estimate_steps
+from contactsim.reference import hard_wall
 from support.claims import BANDLESS, claim, made_up, path_claim, paths, with_corrected
 
 RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
@@ -249,5 +250,5 @@ def test_the_fits_are_those_of_the_dataset(made):
     ):
         for row, sample in zip(mean_quantity(below, name).values, fitted, strict=True):
             fit = data.sel(weighting=weighting, fit_limit=0.1, fitted=sample)
-            expected = reference.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
+            expected = hard_wall.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
             assert np.allclose(row, expected)

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.analysis import wording
 from contactsim.analysis.mean_errors import estimate_trend, grid_error
 from contactsim.analysis.quantities import mean_quantity
@@ -21,6 +21,7 @@ from contactsim.evaluation.work_precision.case_config import MEASURED_QUANTITIES
 from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
+from contactsim.reference import hard_wall
 from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
 from contactsim.study.quantity_names import quantities
@@ -69,7 +70,7 @@ def test_plotting_chapter_3_imports_few_modules_of_the_package():
     code += "print(*sorted(name for name in sys.modules if name.startswith('contactsim')))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     modules = run.stdout.split()
-    assert len(modules) <= 75, modules  # trends and errors are those of verdicts, from the code that judges
+    assert len(modules) <= 70, modules  # trends and errors are those of verdicts, from the code that judges
     rooms = {name.split(".")[1] for name in modules if "." in name}
     assert not rooms & {"study", "error_control", "evaluation", "simulation", "paths"}
 
@@ -241,7 +242,7 @@ def test_ratios_of_lines_to_surfaces_have_one_range_and_a_label_each(made):
     assert (own.error > 0).all()
     assert axes[0].get_ylim() == axes[1].get_ylim()
     assert axes[0].get_ylabel() != axes[1].get_ylabel()
-    for value in (0.92, reference.CYLINDER_KAPPA_R / reference.SPHERE_KAPPA_R):
+    for value in (0.92, hard_wall.CYLINDER_KAPPA_R / hard_wall.SPHERE_KAPPA_R):
         levels = [[line.get_ydata()[0] for line in panel.lines if len(line.get_ydata()) == 2] for panel in axes]
         assert value in levels[1]
         assert value not in levels[0]  # they are ratios of κ_r

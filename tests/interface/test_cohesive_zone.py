@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactsim import reference
 from contactsim.errors import InputError
 from contactsim.interface.base import potential
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.exponentials import MAX_OVERLAP
 from contactsim.interface.superposition import Superposition, superpose
+from contactsim.reference import adhesion
 from contactsim.traits import Trait
 from support.cases import refusal
 
@@ -216,7 +216,7 @@ def _read(kind, given):
 
 def test_the_strength_of_the_bsg_law_falls_under_overclosure_and_changes_its_sign():
     closure = np.array([0.0, -0.5, -1.0, -2.0])
-    strength = reference.bsg_factor(closure) * reference.tangential_strength(1.0, 1.0, closure)
+    strength = adhesion.bsg_factor(closure) * adhesion.tangential_strength(1.0, 1.0, closure)
     assert (np.diff(strength) < 0).all()
     assert strength[2] == 0
     assert strength[3] < 0 < strength[1]

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim import reference
 from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
@@ -19,6 +18,7 @@ from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import ALIGNED
 from contactsim.interface.superposition import superpose
+from contactsim.reference.springs import spring_sum, steepest_fall
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
 
@@ -88,7 +88,7 @@ def test_the_tangent_is_the_derivative_of_the_traction():
 def test_a_flat_lattice_sums_to_the_exact_series():
     lattice, gap = 1.95, np.stack((np.linspace(-1.0, 4.0, 50), np.linspace(-7.0, 7.0, 50)))
     springs = Lattice(lattice, tangential_cutoff=10.0).join(LAW, np.zeros(50), 100.0)
-    cosines, sines = reference.spring_sum(gap[1], lattice, LAW.tangential_length)
+    cosines, sines = spring_sum(gap[1], lattice, LAW.tangential_length)
     opening = gap[0] / LAW.normal_length
     normal = LAW.work_of_separation / LAW.normal_length * opening * np.exp(-opening) * cosines
     tangential = LAW.tangential_work / LAW.tangential_length * np.exp(-opening) * sines
@@ -107,9 +107,9 @@ def test_a_flat_lattice_sums_to_the_exact_series():
     ],
 )
 def test_sums_of_springs_have_their_known_strength_and_fall(ratio, largest, fall):
-    sums = reference.spring_sum(np.linspace(0, ratio, 2001), ratio)[1]
+    sums = spring_sum(np.linspace(0, ratio, 2001), ratio)[1]
     assert sums.max() == pytest.approx(largest, rel=0.06)
-    assert reference.steepest_fall(ratio) == pytest.approx(fall, rel=0.06)
+    assert steepest_fall(ratio) == pytest.approx(fall, rel=0.06)
 
 
 def test_a_slide_by_whole_lattice_constants_changes_nothing():

@@ -8,7 +8,6 @@ import xarray as xr
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from contactsim import reference
 from contactsim.contact.loading import approaches
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
@@ -26,6 +25,7 @@ from contactsim.observables.adhesion import (
     touching_peaks,
 )
 from contactsim.observables.load_curve import LoadCurve, join_folds
+from contactsim.reference import adhesion, hard_wall
 from contactsim.simulation import simulate
 from contactsim.study.law_table import tabulate_law
 from contactsim.surfaces.shapes import Cylinder
@@ -96,10 +96,10 @@ def test_the_pull_off_of_jkr_is_the_least_load_of_its_crack():
 
     def load(half_width):
         opened = np.sqrt(2 * np.pi * modulus * work * half_width)
-        return reference.cylinder_load(half_width, radius, modulus) - opened
+        return hard_wall.cylinder_load(half_width, radius, modulus) - opened
 
     least = minimize_scalar(load, bounds=(1.0, 2000.0), method="bounded", options={"xatol": 1e-9})
-    assert reference.cylinder_pull_off(work, radius, modulus) == pytest.approx(-least.fun, rel=1e-10)
+    assert adhesion.cylinder_pull_off(work, radius, modulus) == pytest.approx(-least.fun, rel=1e-10)
     assert least.x**3 == pytest.approx(2 * work * radius**2 / (np.pi * modulus), rel=1e-4)
 
 
@@ -117,7 +117,7 @@ def test_the_pull_off_of_a_rigid_cylinder_is_the_largest_of_its_integrals():
         return quad(lambda x: law.traction(np.array([[gap + x**2 / (2 * radius)]]))[0, 0], -400, 400, limit=200)[0]
 
     best = minimize_scalar(lambda gap: -pull(gap), bounds=(0.0, 3.0), method="bounded")
-    assert reference.rigid_cylinder_pull_off(work, radius, length) == pytest.approx(-best.fun, rel=1e-6)
+    assert adhesion.rigid_cylinder_pull_off(work, radius, length) == pytest.approx(-best.fun, rel=1e-6)
     assert best.x == pytest.approx(length / 2, abs=1e-3)
 
 
@@ -132,9 +132,9 @@ def test_a_tabulated_law_peaks_at_its_strengths():
     settings = {"effect": "cohesive_zone", "work_of_separation": 2.0, "work_ratio": 0.5, "normal_length": 1.5}
     settings |= {"tangential_length": 0.8, "normal_gap": [-0.5, 0.0, 1.0], "tangential_gap": [0.0, 0.4], "reach": 6.0}
     data = tabulate_law(settings)
-    normal = reference.normal_strength(2.0, 1.5, data.tangential_gap.values / 0.8)
+    normal = adhesion.normal_strength(2.0, 1.5, data.tangential_gap.values / 0.8)
     assert np.allclose(data.normal_traction.max("opening"), normal, rtol=1e-4)
-    tangential = reference.tangential_strength(1.0, 0.8, data.normal_gap.values / 1.5)
+    tangential = adhesion.tangential_strength(1.0, 0.8, data.normal_gap.values / 1.5)
     assert np.allclose(data.tangential_traction.max("slip_gap"), tangential, rtol=1e-3)
     assert np.allclose(data.tangential_traction, -data.tangential_traction[:, ::-1])
     assert abs(normal[0] - CohesiveZone(2.0, 0.5, 1.5, 0.8).strength) < 1e-15
@@ -207,11 +207,11 @@ def test_fields_of_some_members_alone_are_kept_and_histograms_of_all():
 
 def test_the_pull_off_of_maugis_lies_between_a_crack_and_rigid_bodies():
     work, radius, modulus = np.array([0.5, 2.0]), 1000.0, 70.0
-    crack = reference.maugis_cylinder_pull_off(work, radius, modulus, 1e3)
-    assert crack == pytest.approx(reference.cylinder_pull_off(work, radius, modulus), rel=2e-3)
+    crack = adhesion.maugis_cylinder_pull_off(work, radius, modulus, 1e3)
+    assert crack == pytest.approx(adhesion.cylinder_pull_off(work, radius, modulus), rel=2e-3)
     strength = 0.01
-    rigid = reference.maugis_cylinder_pull_off(work, 10.0, 1e6, strength)
+    rigid = adhesion.maugis_cylinder_pull_off(work, 10.0, 1e6, strength)
     assert rigid == pytest.approx(2 * strength * np.sqrt(2 * 10.0 * work / strength), rel=2e-3)
-    between = reference.maugis_cylinder_pull_off(work, radius, modulus, 1.0)
-    assert (between < reference.cylinder_pull_off(work, radius, modulus)).all()
+    between = adhesion.maugis_cylinder_pull_off(work, radius, modulus, 1.0)
+    assert (between < adhesion.cylinder_pull_off(work, radius, modulus)).all()
     assert (between < 2 * np.sqrt(2 * radius * work)).all()

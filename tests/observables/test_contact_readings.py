@@ -16,7 +16,7 @@ from contactsim.observables.contact_readings import (
     solved_loading,
     summarise_readings,
 )
-from contactsim.reference import uniaxial_modulus
+from contactsim.reference.hard_wall import uniaxial_modulus
 
 STEPS = np.arange(0.0, 31.0)
 LENGTH, MODULUS = 1000.0, 2.0

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim import reference
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadPath, sweep
 from contactsim.contact.pose_cohesive import pose_cohesive
@@ -24,6 +23,7 @@ from contactsim.observables import friction, peeling, polyline, sliding, thresho
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.state import PathState
+from contactsim.reference import springs
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Cylinder, Flat
@@ -74,7 +74,7 @@ FLATS = {"requested": Requested(), "adaptive": INCREMENTS["adaptive"](error=0.00
 
 
 def exact(modulus: float, work: float, slides: np.ndarray) -> np.ndarray:
-    return reference.uniform_slide(slides, modulus / (2 * (1 + RATIO)) / 500.0, work, LATTICE)
+    return springs.uniform_slide(slides, modulus / (2 * (1 + RATIO)) / 500.0, work, LATTICE)
 
 
 @pytest.mark.parametrize("increments", ["requested", "adaptive"])
@@ -97,9 +97,9 @@ def test_flats_slide_as_one_degree_of_freedom_slips_included(modulus, work, incr
 def test_stick_slip_ends_where_the_body_is_stiffer_than_the_springs_soften(lattice, beside, slips):
     work = 0.1
     places = np.linspace(0.0, lattice, 20001)
-    sums = reference.spring_sum(places, lattice)[1]
+    sums = springs.spring_sum(places, lattice)[1]
     steepest = places[np.argmin(np.gradient(sums, places))]
-    fall = reference.steepest_fall(lattice)
+    fall = springs.steepest_fall(lattice)
     stiffness = beside * work * fall
     about = steepest + work / stiffness * np.interp(steepest, places, sums)
     increment = 2e-4
@@ -122,9 +122,9 @@ def test_flats_do_not_depend_on_the_mesh(points):
 def test_an_exact_slide_carries_what_the_springs_pull():
     slides = np.linspace(0, 12, 241)
     stiffness, strength = 0.05, 0.2
-    force = reference.uniform_slide(slides, stiffness, strength, LATTICE)
+    force = springs.uniform_slide(slides, stiffness, strength, LATTICE)
     gap = slides - force / stiffness
-    np.testing.assert_allclose(force, strength * reference.spring_sum(gap, LATTICE)[1], atol=1e-12)
+    np.testing.assert_allclose(force, strength * springs.spring_sum(gap, LATTICE)[1], atol=1e-12)
     assert np.all(np.diff(gap) > 0)
 
 
@@ -417,7 +417,7 @@ def test_slips_that_reattach_are_counted_one_by_one():
 def test_flats_that_stick_are_springs_in_series():
     data = friction.summarise_slides(simulate(flat(70.0, 0.2, [0.0, 8.0]), points=16, tolerance=1e-7))
     stiffness = 70.0 / (2 * (1 + RATIO)) / 500.0
-    slope = reference.sticking_stiffness(stiffness, 0.2, LATTICE)
+    slope = springs.sticking_stiffness(stiffness, 0.2, LATTICE)
     distance = np.linspace(0.0, 1e-3, 5)
     np.testing.assert_allclose(exact(70.0, 0.2, distance), slope * distance, rtol=1e-6, atol=1e-9)
     assert float(data.sticking_stiffness) / 100.0 == pytest.approx(slope, rel=0.1)
@@ -427,15 +427,15 @@ def test_flats_that_stick_are_springs_in_series():
 
 def test_a_sine_slides_by_the_model_of_prandtl_and_tomlinson():
     offsets = np.linspace(0.0, LATTICE, 401)
-    sine = reference.sine_sum(offsets, LATTICE)
-    assert sine.max() == pytest.approx(reference.spring_sum(offsets, LATTICE)[1].max(), rel=1e-4)
+    sine = springs.sine_sum(offsets, LATTICE)
+    assert sine.max() == pytest.approx(springs.spring_sum(offsets, LATTICE)[1].max(), rel=1e-4)
     np.testing.assert_allclose(sine[::-1], -sine, atol=1e-12)
     steepest = 2 * np.pi / LATTICE * sine.max()  # of a sine; stick-slip ends where the body is as stiff
     slides = np.linspace(0.0, 12.0, 12001)
     for beside, slips in ((0.9, True), (1.1, False)):
-        force = reference.uniform_slide(slides, beside * 0.1 * steepest, 0.1, LATTICE, sine=True)
+        force = springs.uniform_slide(slides, beside * 0.1 * steepest, 0.1, LATTICE, sine=True)
         gap = slides - force / (beside * 0.1 * steepest)
-        np.testing.assert_allclose(force, 0.1 * reference.sine_sum(gap, LATTICE), atol=1e-9)
+        np.testing.assert_allclose(force, 0.1 * springs.sine_sum(gap, LATTICE), atol=1e-9)
         assert (np.diff(gap).max() > 0.1 * LATTICE) == slips
 
 

@@ -15,6 +15,7 @@ from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.hard_wall import HardWall
+from contactsim.observables.conformity import conformities, first_short_mode
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.increments import Nested
 from contactsim.paths.state import PathState
@@ -90,6 +91,18 @@ def test_fields_kept_are_those_of_the_whole_grid_wherever_a_state_was_solved():
     assert data.transforms.sum() > 0 and (data.status == 0).all()
     datum = data.normal_gap + data.normal_displacement + data.heights  # what both leave is the approach
     assert abs(datum + data.snapshot + data.approach_first_touch).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["normal", "coupled"])
+def test_waves_are_followed_as_the_stored_gap_says(name):
+    scene = rough_scene(ROUGH_LAWS[name], end=0.0)
+    data = simulate(scene, points=4096, tolerance=1e-7, increments=Nested([0.0]), snapshots=[0.0])
+    before, after = (np.fft.rfft(values) for values in (-data.heights.values, data.normal_gap.values[0]))
+    first = first_short_mode(before)
+    assert 8 < first < 128  # of waves with 8 to 128 in a period
+    expected = conformities(before, after, first)
+    for number, value in expected.items():
+        assert float(data[number][-1]) == pytest.approx(value, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", LAWS)

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from scipy.optimize import nnls
 
 import contactsim
-from contactsim import reference
 from contactsim.contact import loading
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
@@ -15,6 +14,7 @@ from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.hard_wall import HardWall
+from contactsim.reference import hard_wall
 from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
 from contactsim.solvers.registry import make_solver
@@ -88,9 +88,9 @@ def dense(heights, pressure, matrix):
 def test_a_wave_along_either_axis_has_westergaards_area(ratio, axis):
     wave = np.cos(2 * np.pi * np.arange(256) / 256)
     heights = np.broadcast_to(wave if axis else wave[:, None], (256, 256))
-    result = press(heights, ratio * reference.full_contact_pressure(1.0, 256.0, 1.0))
+    result = press(heights, ratio * hard_wall.full_contact_pressure(1.0, 256.0, 1.0))
     assert result.status is Status.CONVERGED
-    assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / 256
+    assert abs(result.relative_contact_area - hard_wall.sinusoid_area(ratio)) <= 1.5 / 256
     assert np.ptp(result.pressure, axis=1 - axis).max() < 1e-4 * result.pressure.max()
 
 
@@ -106,7 +106,7 @@ def test_a_wave_on_a_surface_is_that_along_a_line():
 def test_waves_crossed_are_flattened_at_their_pressure_of_complete_contact():
     surface = Sinusoid(64.0, 1.0, dimensions=2)
     surface_points = 64
-    flat = np.sqrt(2) * reference.full_contact_pressure(1.0, 64.0, 1.0)  # |q| is √2 times that of one wave
+    flat = np.sqrt(2) * hard_wall.full_contact_pressure(1.0, 64.0, 1.0)  # |q| is √2 times that of one wave
     for factor, full in ((0.999, False), (1.001, True)):
         result = press(surface.heights(surface_points), factor * flat)
         assert result.status is Status.CONVERGED

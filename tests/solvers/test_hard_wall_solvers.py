@@ -9,7 +9,6 @@ import pytest
 from scipy.optimize import nnls
 
 import contactsim
-from contactsim import reference
 from contactsim.contact import loading
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
@@ -20,6 +19,7 @@ from contactsim.evaluation.robustness.cases import layer_response
 from contactsim.explanation import explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
+from contactsim.reference import hard_wall
 from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, GapExtension
@@ -68,10 +68,10 @@ def test_solvers_agree_on_a_rough_line(name, hurst_exponent):
 @pytest.mark.parametrize("ratio", [1e-4, 1e-2, 0.3, 0.5, 0.9, 0.9999, 1.0, 1.001, 10.0])
 def test_westergaard_area_is_right_to_one_and_a_half_points(name, ratio):
     points = 256
-    full = reference.full_contact_pressure(1.0, points, 1.0)
+    full = hard_wall.full_contact_pressure(1.0, points, 1.0)
     result = press(wave(points), ratio * full, name, tolerance=1e-5)
     assert_certified(result, 1e-5)
-    assert abs(result.relative_contact_area - reference.sinusoid_area(ratio)) <= 1.5 / points
+    assert abs(result.relative_contact_area - hard_wall.sinusoid_area(ratio)) <= 1.5 / points
 
 
 # ---- approach

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import contactsim as cs
-from contactsim import reference
 from contactsim.observables.contact import contact_edges, touching
 from contactsim.observables.edge_correction import EDGE_EXCESS, corrected_area, edge_points, gradient_within
+from contactsim.reference import hard_wall
 from contactsim.surfaces.statistics import squared_gradient
 
 
@@ -81,7 +81,7 @@ def test_the_mean_area_of_cylinders_is_exact_and_the_counted_one_is_not():
             cs.HalfSpace(contact_modulus=1.0), cs.Cylinder(length, 1e6), cs.HardWall(), cs.pressures([load / length])
         )
         data = cs.simulate(scene, points=512)
-        exact = 2 * reference.cylinder_array_half_width(load, 1e6, length, 1.0) / length
+        exact = 2 * hard_wall.cylinder_array_half_width(load, 1e6, length, 1.0) / length
         counted.append(data.relative_contact_area.item() / exact - 1)
         corrected.append(data.relative_contact_area_corrected.item() / exact - 1)
     error = np.std(corrected, ddof=1) / np.sqrt(len(corrected))

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from scipy.optimize import nnls
 
 import contactsim
-from contactsim import reference
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.cases import (
     Case,
@@ -26,6 +25,7 @@ from contactsim.evaluation.robustness.registry import HAZARDS
 from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.evaluation.robustness.sliding import SLIDING
 from contactsim.evaluation.robustness.surfaces import SURFACES
+from contactsim.reference import hard_wall
 from contactsim.solvers.registry import solver_class
 from contactsim.traits import Trait
 from support.cases import ALL, FAST, ON_SURFACES, assert_certified, compliance, press, rough, wave
@@ -141,7 +141,7 @@ def test_equal_summits_have_uniform_displacement_and_one_summit_the_pressure_of_
 
 def test_complete_contact_is_that_of_the_analytic_formula():
     heights = rough(64)
-    assert np.allclose(flat_pressure(heights, Case(heights).compliance), reference.complete_contact(heights, 64.0, 1.0))
+    assert np.allclose(flat_pressure(heights, Case(heights).compliance), hard_wall.complete_contact(heights, 64.0, 1.0))
 
 
 @pytest.mark.parametrize("name", FAST)
@@ -234,6 +234,6 @@ def test_any_pressure_and_gap_are_found_again_from_the_heights_that_they_make(na
 
 
 def test_a_wave_on_a_very_long_line_keeps_its_area():
-    result = press(wave(2**18), 0.3 * reference.full_contact_pressure(1.0, 2**18, 1.0))
+    result = press(wave(2**18), 0.3 * hard_wall.full_contact_pressure(1.0, 2**18, 1.0))
     assert_certified(result)
-    assert abs(result.relative_contact_area - reference.sinusoid_area(0.3)) <= 1.5 / 2**18
+    assert abs(result.relative_contact_area - hard_wall.sinusoid_area(0.3)) <= 1.5 / 2**18

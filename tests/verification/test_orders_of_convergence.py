@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 import contactsim
-from contactsim import reference
 from contactsim.observables.contact import relative_contact_area_subgrid
+from contactsim.reference import hard_wall
 from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
 from support.cases import ALL, FAST, ON_SURFACES, orders, press, wave
 
 
 def half_contact(points: int) -> float:
     """Return p_c/2, which puts the edges of a wave's contact halfway between points on grids of powers of two."""
-    return 0.5 * reference.full_contact_pressure(1.0, points, 1.0)
+    return 0.5 * hard_wall.full_contact_pressure(1.0, points, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -25,7 +25,7 @@ def test_mean_gap_of_a_wave_converges_at_second_order_on_lines_and_surfaces(name
     for points in (64, 128, 256):
         heights = wave(points) if rows is None else np.tile(wave(points), (rows, 1))
         result = press(heights, half_contact(points), name, tolerance=1e-8)
-        errors.append(abs(result.gap.mean() - reference.sinusoid_mean_gap(0.5, 1.0)))
+        errors.append(abs(result.gap.mean() - hard_wall.sinusoid_mean_gap(0.5, 1.0)))
     assert orders(errors) == pytest.approx([2, 2], abs=0.1)
 
 
@@ -34,7 +34,7 @@ def test_pressure_of_a_wave_converges_as_the_root_at_its_edges_lets_it(name):
     errors = []
     for points in (64, 128, 256):
         mean = half_contact(points)
-        exact = reference.sinusoid_pressure(np.pi * np.arange(points) / points, 0.5, mean)
+        exact = hard_wall.sinusoid_pressure(np.pi * np.arange(points) / points, 0.5, mean)
         error = np.abs(press(wave(points), mean, name, tolerance=1e-8).pressure - exact) / mean
         errors.append([error.mean(), np.sqrt(np.mean(error**2)), error.max()])
     assert np.mean(orders(errors), axis=0) == pytest.approx([1.5, 1, 0.5], abs=0.02)
@@ -65,7 +65,7 @@ def test_cylinder_area_converges_at_first_order():
         x = np.arange(points) * length / points - length / 2
         errors = []
         for half_width in np.linspace(0.5, 0.9, 13):
-            load = reference.cylinder_load(half_width, radius, 1.0)
+            load = hard_wall.cylinder_load(half_width, radius, 1.0)
             result = contactsim.press(
                 -(x**2) / (2 * radius), spacing=length / points, contact_modulus=1.0, mean_pressure=load / length
             )
@@ -81,9 +81,9 @@ def test_edges_of_a_wave_are_placed_to_a_hundredth_of_a_step(name):
         errors = []
         for ratio in np.linspace(0.2, 0.4, 7):
             heights = np.cos(2 * np.pi * (np.arange(points) + ratio) / points)
-            result = press(heights, ratio * reference.full_contact_pressure(1.0, points, 1.0), name, tolerance=1e-6)
+            result = press(heights, ratio * hard_wall.full_contact_pressure(1.0, points, 1.0), name, tolerance=1e-6)
             found = [relative_contact_area_subgrid(result.pressure, result.gap), result.relative_contact_area]
-            errors.append(points * np.abs(found - reference.sinusoid_area(ratio)))
+            errors.append(points * np.abs(found - hard_wall.sinusoid_area(ratio)))
         worst, counted = np.max(errors, axis=0)
         assert worst < 0.015 + 4 / points  # two edges; a coarse grid sees how the gap bends
         assert counted > 0.4
@@ -93,7 +93,7 @@ def test_cylinder_width_between_points_shows_the_neighbours_that_counting_hides(
     points, length = 2**12, 64.0
     x = np.arange(points) * length / points - length / 2
     for half_width in (0.5, 0.7, 0.9):
-        load = reference.cylinder_load(half_width, 1.0, 1.0) / length
+        load = hard_wall.cylinder_load(half_width, 1.0, 1.0) / length
         result = contactsim.press(
             -(x**2) / 2, spacing=length / points, contact_modulus=1.0, mean_pressure=load, tolerance=1e-5
         )
@@ -108,12 +108,12 @@ def test_gradient_in_the_contact_of_a_cylinder_converges_at_first_order():
         heights = -((np.arange(points) * length / points - length / 2) ** 2) / 2
         found = []
         for half_width in np.linspace(0.5, 0.9, 9):
-            load = reference.cylinder_load(half_width, 1.0, 1.0) / length
+            load = hard_wall.cylinder_load(half_width, 1.0, 1.0) / length
             body = {"spacing": length / points, "contact_modulus": 1.0}
             result = contactsim.press(heights, mean_pressure=load, **body)
             gradient = rms_gradient(heights, length / points, result.contact)
-            found.append(gradient / reference.cylinder_rms_gradient(half_width, 1.0) - 1)
-            peak = reference.cylinder_pressure(0.0, half_width, 1.0, 1.0)
+            found.append(gradient / hard_wall.cylinder_rms_gradient(half_width, 1.0) - 1)
+            peak = hard_wall.cylinder_pressure(0.0, half_width, 1.0, 1.0)
             assert result.pressure.max() == pytest.approx(peak, rel=10 / points + 2e-3)  # and the neighbours
         errors.append(np.sqrt(np.mean(np.square(found))))
     assert orders(errors) / 2 == pytest.approx([1, 1], abs=0.15)
@@ -130,12 +130,12 @@ def indented(
     """
     along = [(np.arange(points) - points // 2 - start) / points for start in centre]
     heights = -(along[0][:, None] ** 2 + along[1] ** 2) / 2
-    load = reference.sphere_load(contact_radius, 1.0, 1.0)
+    load = hard_wall.sphere_load(contact_radius, 1.0, 1.0)
     result = contactsim.press(heights, spacing=1 / points, contact_modulus=1.0, mean_pressure=load, tolerance=1e-5)
     neighbours = 9.0336 / (1.5 * np.pi) / 3 * contact_radius**3
     areas = relative_contact_area_subgrid(result.pressure, result.gap), result.relative_contact_area
     radii = [np.sqrt(area / np.pi) / (1 - neighbours) for area in areas]
-    exact = reference.sphere_pressure(0.0, contact_radius, 1.0, 1.0)
+    exact = hard_wall.sphere_pressure(0.0, contact_radius, 1.0, 1.0)
     return *radii, result.pressure.max() / exact / (1 + 2 * neighbours)
 
 
@@ -159,11 +159,11 @@ def test_gradient_in_the_contact_of_a_sphere_converges_at_first_order_or_faster(
         found = []
         for radius, centre in zip(np.linspace(0.09, 0.11, 8), centres, strict=True):
             y, x = ((np.arange(points) - points // 2 - start) / points for start in centre)
-            heights, load = -(y[:, None] ** 2 + x**2) / 2, reference.sphere_load(radius, 1.0, 1.0)
+            heights, load = -(y[:, None] ** 2 + x**2) / 2, hard_wall.sphere_load(radius, 1.0, 1.0)
             body = {"spacing": 1 / points, "contact_modulus": 1.0}
             result = contactsim.press(heights, mean_pressure=load, tolerance=1e-4, **body)
             measured = gradient(heights, (1 / points, 1 / points), result.contact)
-            found.append(measured / reference.sphere_rms_gradient(radius, 1.0) - 1)
+            found.append(measured / hard_wall.sphere_rms_gradient(radius, 1.0) - 1)
         errors.append(np.sqrt(np.mean(np.square(found))))
     assert np.mean(orders(errors)) == pytest.approx(order, abs=0.25)
 

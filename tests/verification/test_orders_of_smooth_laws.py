@@ -9,7 +9,6 @@ import pytest
 import xarray as xr
 from scipy.optimize import brentq
 
-from contactsim import reference
 from contactsim.contact.loading import LoadPath, approaches, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import Slide
@@ -21,6 +20,7 @@ from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import contact_length, pull_off, summarise_load_curves
 from contactsim.observables.load_curve import LoadCurve
 from contactsim.paths.increments import Requested
+from contactsim.reference import adhesion, springs
 from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
 from contactsim.traits import Trait
@@ -175,7 +175,7 @@ def test_the_static_friction_of_a_smooth_slide_converges_with_the_increment_at_s
         return max(state.fields()[1][1].mean() for state in walk(scene, 8, tolerance=1e-9).states)
 
     slides = np.linspace(0.0, 2.0, 20001)
-    exact = reference.uniform_slide(slides, modulus / (2 * (1 + ratio)) / 500.0, work, lattice).max()
+    exact = springs.uniform_slide(slides, modulus / (2 * (1 + ratio)) / 500.0, work, lattice).max()
     errors = [exact - min(friction(increment, part) for part in PARTS) for increment in (0.4, 0.2, 0.1)]
     assert errors[-1] > 0
     assert np.mean(orders(errors)) == pytest.approx(2, abs=0.3)
@@ -206,7 +206,7 @@ def test_the_gap_comes_closer_with_the_tolerance_at_first_order(law, solver):
     "law", [CohesiveZone(1.0, 0.5), UncoupledCohesiveZone(1.0, 0.5), NormalCohesiveZone(1.0)], ids=repr
 )
 def test_a_stiff_cylinder_pulls_off_like_a_rigid_one_at_first_order_in_its_compliance(law):
-    exact = reference.rigid_cylinder_pull_off(1.0, 500.0, 1.0)
+    exact = adhesion.rigid_cylinder_pull_off(1.0, 500.0, 1.0)
     errors = []
     for modulus in (2e4, 4e4, 8e4):
         scene = scene_of(law, approaches([-0.5]), HalfSpace(modulus, 0.3), surface=Cylinder(400.0, 500.0))

@@ -9,7 +9,6 @@ import mpmath
 import numpy as np
 import pytest
 
-from contactsim import reference
 from contactsim.elasticity.base import relative_compliance
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
@@ -17,6 +16,7 @@ from contactsim.elasticity.subsurface import SubsurfaceFields, subsurface_fields
 from contactsim.errors import InputError
 from contactsim.figures.parts import stress
 from contactsim.grid import Grid
+from contactsim.reference import hard_wall
 from support.cases import navier
 
 LINE = Grid((96,), (40.0,))
@@ -145,7 +145,7 @@ def test_the_mean_is_carried_uniformly_and_sinks_linearly():
 def hertz(ratio: float, points: int, period: float, depths: np.ndarray) -> SubsurfaceFields:
     """Under a cylinder's pressure with half-width and peak 1."""
     grid = Grid((points,), (period,))
-    pressure = reference.cylinder_pressure(grid.positions() - period / 2, 1.0, 0.5, 1.0)
+    pressure = hard_wall.cylinder_pressure(grid.positions() - period / 2, 1.0, 0.5, 1.0)
     return subsurface_fields(HalfSpace(1.0, ratio), grid, -pressure[None], depths)
 
 
@@ -159,7 +159,7 @@ def neighbours(depth: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.5])
 def test_the_stress_below_a_cylinder_is_hertzs(ratio):
     period, depths, errors = 64.0, np.linspace(0, 2, 11), []
-    along, normal = reference.cylinder_stress_on_axis(depths, 1.0, 1.0)
+    along, normal = hard_wall.cylinder_stress_on_axis(depths, 1.0, 1.0)
     beside = neighbours(depths, period)
     # no strain along x on average, while distant line loads would leave the mean pressure as stress along x
     confined = (1 - ratio / (1 - ratio)) * np.pi / 2 / period
@@ -180,7 +180,7 @@ def test_the_largest_shear_below_a_cylinder_is_where_it_should_be():
     assert shear.max() == pytest.approx(0.300, abs=5e-4)
     assert depths[shear.argmax()] == pytest.approx(0.786, abs=0.006)
     assert largest_shear.max() == shear.max()
-    along, normal = reference.cylinder_stress_on_axis(np.array([0.786]), 1.0, 1.0)
+    along, normal = hard_wall.cylinder_stress_on_axis(np.array([0.786]), 1.0, 1.0)
     assert (along - normal)[0] / 2 == pytest.approx(0.300, abs=5e-4)
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.analysis import grid_convergence
 from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import PARAMETERS, fit_line_areas
@@ -22,11 +22,12 @@ from contactsim.observables.contact_readings import summarise_readings
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.proportionality import proportionality
+from contactsim.reference import hard_wall
 from contactsim.variables import ERRORS, GRID_CHANGE, GRID_ERROR
 
 EXACT_CONTACTS = {
-    "line": ("half_width_exact", reference.cylinder_rms_gradient),
-    "surface": ("contact_radius_exact", reference.sphere_rms_gradient),
+    "line": ("half_width_exact", hard_wall.cylinder_rms_gradient),
+    "surface": ("contact_radius_exact", hard_wall.sphere_rms_gradient),
 }
 """Name of the exact contact size of a cylinder or a sphere, and the exact gradient in the contact."""
 
@@ -80,8 +81,8 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
 def _exact_array(data: xr.Dataset, radius: xr.DataArray | float) -> dict[str, xr.DataArray]:
     """Return the exact contact of parallel cylinders a period apart, each under the load of its dataset."""
     load = data.mean_pressure * data.length
-    half_width = xr.apply_ufunc(reference.cylinder_array_half_width, load, radius, data.length, data.contact_modulus)
-    gradient = xr.apply_ufunc(reference.cylinder_rms_gradient, half_width, radius)
+    half_width = xr.apply_ufunc(hard_wall.cylinder_array_half_width, load, radius, data.length, data.contact_modulus)
+    gradient = xr.apply_ufunc(hard_wall.cylinder_rms_gradient, half_width, radius)
     area = 2 * half_width / data.length
     kappa_r = xr.apply_ufunc(proportionality, area, data.mean_pressure, gradient, data.contact_modulus)
     return {"half_width_array": half_width, "rms_gradient_array": gradient, "kappa_r_array": kappa_r}

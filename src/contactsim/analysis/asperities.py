@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from contactsim import reference
 from contactsim.analysis import scales
 from contactsim.grid import Array
+from contactsim.reference import adhesion
 
 
 def centred_nodes(data: xr.Dataset) -> tuple[Array, Array]:
@@ -63,14 +63,14 @@ def pull_off_limits(data: xr.Dataset, poisson_ratio: float, work: Array) -> dict
     length = scales.LawScales.of(data).normal_length
     maugis = [
         float(
-            reference.maugis_cylinder_pull_off(own, radius, modulus, float(reference.normal_strength(own, length, 0.0)))
+            adhesion.maugis_cylinder_pull_off(own, radius, modulus, float(adhesion.normal_strength(own, length, 0.0)))
         )
         for own in work
     ]
     limits = {
-        "JKR": reference.cylinder_pull_off(work, radius, modulus),
+        "JKR": adhesion.cylinder_pull_off(work, radius, modulus),
         "Maugis": np.array(maugis),
-        "rigid": reference.rigid_cylinder_pull_off(work, radius, length),
+        "rigid": adhesion.rigid_cylinder_pull_off(work, radius, length),
     }
     return {name: scales.reduced_line_load(load, data) for name, load in limits.items()}
 

@@ -13,12 +13,13 @@ import pandas as pd
 import xarray as xr
 from scipy.interpolate import PchipInterpolator
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.rough_paths import with_indentation
 from contactsim.analysis.scales import body_settings
 from contactsim.grid import Array
 from contactsim.observables.contact_readings import CHAPTER_4_HEIGHT
+from contactsim.reference import hard_wall
 
 SAMPLES = 241
 """Approaches at which curves are compared."""
@@ -39,7 +40,7 @@ def curve_of_body(data: xr.Dataset, height: float) -> Curve:
     data, body = with_indentation(data), body_settings(data)
     pressure = converged(data.normalised_pressure, data).mean("member", skipna=False).values
     given = pressure * float(np.mean(data.contact_modulus))
-    added = reference.body_compression(given, height, body["youngs_modulus"], body["poisson_ratio"])
+    added = hard_wall.body_compression(given, height, body["youngs_modulus"], body["poisson_ratio"])
     approach = data.indentation.values + added
     known = np.isfinite(approach)
     approach, pressure = approach[known], pressure[known]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from contactsim import reference
 from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
+from contactsim.reference import hard_wall
 
 WEIGHTINGS = ("area", "logarithm")
 PARAMETERS = {"": ("fit_b1", "fit_b2"), "_corrected": ("fit_b1_corrected", "fit_b2_corrected")}
@@ -76,7 +76,7 @@ def fit_line_area(pressure: Array, area: Array, weighting: str) -> tuple[float, 
 
     def misfit(logarithms: Array) -> Array:
         """Return the misfit of the model with the parameters of these logarithms."""
-        model = np.broadcast_to(reference.line_area(pressure, *np.exp(logarithms)), area.shape)[usable]
+        model = np.broadcast_to(hard_wall.line_area(pressure, *np.exp(logarithms)), area.shape)[usable]
         return model - area[usable] if weighting == "area" else np.log(model) - np.log(area[usable])
 
     fit = least_squares(misfit, np.log([0.7, 1.0]), bounds=(np.log([1e-2, 1e-4]), np.log([1e1, 1e4])), x_scale="jac")

@@ -10,10 +10,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from contactsim import reference
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.grid import Array
 from contactsim.interface.cohesive_zone import CohesiveZone
+from contactsim.reference import adhesion
 
 POISSON_RATIOS = (0.1, 0.3, 0.45)
 """Poisson's ratios of Chapter 4."""
@@ -151,7 +151,7 @@ def restoring_work(sign: float) -> float:
 
 def xu_needleman_remainder(work_ratio: float) -> float:
     """Return the largest normal traction of Xu and Needleman's law at complete shear failure, over the strength."""
-    failed, whole = (reference.xu_needleman_normal(1.0, slip, work_ratio) for slip in (COMPLETE_SHEAR, 0.0))
+    failed, whole = (adhesion.xu_needleman_normal(1.0, slip, work_ratio) for slip in (COMPLETE_SHEAR, 0.0))
     return float(failed / whole)
 
 
@@ -165,13 +165,13 @@ def largest_normal_traction(slip: float) -> float:
 
 def bsg_strengths() -> Array:
     """Return the tangential strength of the BSG law at `OVERCLOSURES`, over that without overclosure."""
-    strengths = reference.bsg_factor(-OVERCLOSURES) * reference.tangential_strength(1.0, 1.0, -OVERCLOSURES)
+    strengths = adhesion.bsg_factor(-OVERCLOSURES) * adhesion.tangential_strength(1.0, 1.0, -OVERCLOSURES)
     return strengths / strengths[0]
 
 
 def traction_at_start() -> float:
     """Return the normal traction of Eq. 6.4 at δ0 over the strength."""
-    return float(INITIAL_GAP * np.exp(-INITIAL_GAP) / reference.normal_strength(1.0, 1.0, 0.0))
+    return float(INITIAL_GAP * np.exp(-INITIAL_GAP) / adhesion.normal_strength(1.0, 1.0, 0.0))
 
 
 FORMULAS: dict[str, Callable[[], float]] = {

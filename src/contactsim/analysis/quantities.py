@@ -11,11 +11,12 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.fits import fit_line_area
 from contactsim.observables.contact_readings import CRITERIA
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
+from contactsim.reference import adhesion, hard_wall
 from contactsim.status import is_solved
 
 FITTED: dict[str, tuple[str, bool]] = {
@@ -55,8 +56,6 @@ PULL_OFF = "pull_off_load_loading"
 """The pull-off load of the thesis."""
 RESOLVED_WAVELENGTH = 16
 """Points per shortest wavelength from which edges can be placed between points."""
-
-
 READ_BY_ALL = ("status", "points", "length", "length_y", "contact_modulus", "rms_gradient")
 """Variables from which quantities are computed, or by which they are known to be unknown."""
 
@@ -69,8 +68,8 @@ def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     sources = {computed_from(name) for name in names}
     sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
     starts = tuple(f"{source}_" for source in sources)
-    is_read = (*READ_BY_ALL, *sources)
-    return data[[name for name in data.data_vars if name in is_read or str(name).startswith(starts)]]
+    sources |= {*READ_BY_ALL}
+    return data[[name for name in data.data_vars if name in sources or str(name).startswith(starts)]]
 
 
 def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:
@@ -97,7 +96,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     if name == CRACK_DEPARTURE:
         radius = dataset.settings_of(data)["surface"]["radius"]
         modulus = mean_quantity(data, "contact_modulus")
-        crack = xr.apply_ufunc(reference.cylinder_pull_off, data.work_of_separation, radius, modulus)
+        crack = xr.apply_ufunc(adhesion.cylinder_pull_off, data.work_of_separation, radius, modulus)
         return mean_quantity(data, PULL_OFF, leave_out_absent) / crack - 1
     if name in GRADIENT_DEFICITS:
         return 1 - mean_quantity(data, GRADIENT_DEFICITS[name]) / data.rms_gradient.mean("member")
@@ -147,7 +146,7 @@ def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataAr
     samples = area.transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
     parts = [samples] * len(samples) if together else samples
-    kappa = [reference.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in parts]
+    kappa = [hard_wall.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in parts]
     return xr.DataArray(kappa, dims=("hurst_exponent", "reduced_pressure"))
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from contactsim import reference
+from contactsim.reference import hard_wall
 
-KAPPA_R = {"cylinder": reference.CYLINDER_KAPPA_R, "sphere": reference.SPHERE_KAPPA_R}
+KAPPA_R = {"cylinder": hard_wall.CYLINDER_KAPPA_R, "sphere": hard_wall.SPHERE_KAPPA_R}
 """Exact κ_r by the kind of body."""
 ARRAY = ("half_width_array", "rms_gradient_array", "kappa_r_array")
 """Exact answers for parallel cylinders a period apart; spheres have none."""

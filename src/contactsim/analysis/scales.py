@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.grid import Array
+from contactsim.reference import adhesion, springs
 
 THICKNESS, WORK_UNIT = 1000.0, 1.0
 """Thickness of the bodies (nm) and φ0 (N/m) that make the thesis's loads numbers."""
@@ -73,8 +74,8 @@ def critical_modulus_ratio(data: xr.Dataset) -> float:
     """
     law, body = LawScales.of(data), body_settings(data, "counter_body")
     work, length = law.tangential_work, law.tangential_length
-    strength = reference.tangential_strength(work, length, 0.0)
-    fall = reference.steepest_fall(lattice_constant(data), length) * work / length**2
+    strength = adhesion.tangential_strength(work, length, 0.0)
+    fall = springs.steepest_fall(lattice_constant(data), length) * work / length**2
     return float(2 * (1 + body["poisson_ratio"]) * body["thickness"] * fall / strength)
 
 

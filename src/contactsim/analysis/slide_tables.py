@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from contactsim import reference
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.scales import LawScales, body_settings, critical_modulus_ratio, lattice_constant, radius
 from contactsim.grid import Array
 from contactsim.observables.slide_peeling import SHRINKING
+from contactsim.reference import adhesion, springs
 
 MODULUS, FIRST_APPROACH = 70.0, 10.0
 """Young's modulus (GPa) that forces are given over, and δ0 (nm) that approaches are given over."""
@@ -67,7 +67,7 @@ def exact_flat_force(data: xr.Dataset, slides: Array, sine: bool = False) -> Arr
     stiffness = modulus / (2 * (1 + body["poisson_ratio"])) / body["thickness"]
     length = law.tangential_length
     strength = law.work_of_separation * float(data.work_ratio) / length
-    return reference.uniform_slide(slides, stiffness, strength, lattice_constant(data), length, sine) / MODULUS
+    return springs.uniform_slide(slides, stiffness, strength, lattice_constant(data), length, sine) / MODULUS
 
 
 def friction_against_modulus(data: xr.Dataset) -> pd.DataFrame:
@@ -84,7 +84,7 @@ def friction_against_modulus(data: xr.Dataset) -> pd.DataFrame:
         if "counter_body_youngs_modulus" in member.dims
         else body["youngs_modulus"]
     )
-    strength = reference.tangential_strength(law.work_of_separation * ratio, law.tangential_length, 0.0)
+    strength = adhesion.tangential_strength(law.work_of_separation * ratio, law.tangential_length, 0.0)
     table = {
         "modulus_over_strength": modulus / strength,
         "relative_friction": member.mean_friction.values / (float(member.length) * strength),
@@ -104,13 +104,13 @@ def friction_against_modulus(data: xr.Dataset) -> pd.DataFrame:
 def friction_by_prandtl_tomlinson(data: xr.Dataset, ratios: Array) -> Array:
     """Return Eq. 6.7 over period and strength at moduli over strength, of a sine as high as the sum of the springs."""
     law, body, lattice = LawScales.of(data), body_settings(data, "counter_body"), lattice_constant(data)
-    strength = reference.tangential_strength(1.0, law.tangential_length, 0.0)
+    strength = adhesion.tangential_strength(1.0, law.tangential_length, 0.0)
     means = []
     for ratio in ratios:
         stiffness = ratio * strength / (2 * (1 + body["poisson_ratio"])) / body["thickness"]
         onset = strength / stiffness + lattice
         slides = np.linspace(0.0, onset + 3 * lattice, 1501)
-        force = reference.uniform_slide(slides, stiffness, 1 / law.tangential_length, lattice, sine=True)
+        force = springs.uniform_slide(slides, stiffness, 1 / law.tangential_length, lattice, sine=True)
         end = force[slides >= onset]
         means.append((end.max() + end.min()) / 2 / strength)
     return np.array(means)
@@ -120,7 +120,7 @@ def contact_to_onset(data: xr.Dataset) -> pd.DataFrame:
     """Return force and contact of a slide up to the onset, and what two laws make of it.
 
     `fit`: the contact by Eq. 6.8, A0 - ζF²; `crack`: that of a crack of both modes on a half-space, at the load of each
-    state (`reference.sheared_half_width`).
+    state (`adhesion.sheared_half_width`).
     """
     period, body = float(data.length), body_settings(data, "counter_body")
     table = slide_table(data)
@@ -129,7 +129,7 @@ def contact_to_onset(data: xr.Dataset) -> pd.DataFrame:
     fit = (float(data.initial_contact_length) - float(data.quadratic_coefficient) * force**2) / period
     contact_modulus = body["youngs_modulus"] / (1 - body["poisson_ratio"] ** 2)
     work = LawScales.of(data).work_of_separation
-    half_width = reference.sheared_half_width(load, force, work, radius(data), contact_modulus)
+    half_width = adhesion.sheared_half_width(load, force, work, radius(data), contact_modulus)
     return table.drop(columns="load").assign(fit=fit, crack=2 * half_width / period)
 
 

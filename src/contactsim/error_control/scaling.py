@@ -11,9 +11,9 @@ import itertools
 
 import numpy as np
 
-from contactsim import reference
 from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.errors import InputError
+from contactsim.reference import hard_wall
 from contactsim.status import process_zone
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Sphere
@@ -175,8 +175,8 @@ def _hertz_scale(scene: Scene, pressure: float) -> float:
     radius = _radius(scene)
     load = pressure * float(np.prod(scene.lengths))
     if len(scene.lengths) == 1:
-        return float(np.sqrt(load / reference.cylinder_load(1.0, radius, scene.contact_modulus)))
-    return float(np.cbrt(load / reference.sphere_load(1.0, radius, scene.contact_modulus)))
+        return float(np.sqrt(load / hard_wall.cylinder_load(1.0, radius, scene.contact_modulus)))
+    return float(np.cbrt(load / hard_wall.sphere_load(1.0, radius, scene.contact_modulus)))
 
 
 def _indentation_scale(scene: Scene, pressure: float) -> float:

@@ -6,10 +6,10 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import reference
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import style
 from contactsim.figures.parts import law_curves
+from contactsim.reference import adhesion
 
 UNEQUAL_WORKS, COMPLETE_SHEAR = 0.5, 5.0
 """Ratio of works at which another law keeps a normal traction after complete shear failure, at that slip over δt."""
@@ -23,7 +23,7 @@ def fig_2_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     table = law_curves.plot_tractions(data, axes)
     law = LawScales.of(data)
     opening = data.opening.values / law.normal_length
-    remainder = reference.xu_needleman_normal(opening, COMPLETE_SHEAR, UNEQUAL_WORKS)
+    remainder = adhesion.xu_needleman_normal(opening, COMPLETE_SHEAR, UNEQUAL_WORKS)
     axes[0].plot(opening, remainder, color=style.GREY, lw=1.0, ls=":")
     style.add_letters(axes)
     traction = remainder * law.work_of_separation / law.normal_length

@@ -13,7 +13,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import reference
 from contactsim.analysis.mean_errors import grid_error
 from contactsim.analysis.ratios import ratio_curves
 from contactsim.analysis.resolution import grid_counts, grid_name, ratio_table
@@ -21,6 +20,7 @@ from contactsim.analysis.round_contact import KAPPA_R, beside_exact
 from contactsim.figures import style
 from contactsim.figures.maps import SurfaceFields, plot_fields
 from contactsim.figures.parts import line_fits, proportionality, ratios, resolution
+from contactsim.reference import hard_wall
 from contactsim.variables import find_variable
 
 FREE_OF_NEIGHBOURS = 0.25
@@ -215,7 +215,7 @@ def fig_3_5(
         ratios.plot_curves(panel, own[own.quantity == f"{name}_corrected"], colour)
         panel.set(xscale="log", xlabel=r"reduced pressure $p^*$", ylabel=rf"${symbol}^{{1D}}/{symbol}^{{2D}}$")
     axes[0].legend(handles=style.hurst_handles(surface.hurst_exponent.values), loc="upper right")
-    smooth = reference.CYLINDER_KAPPA_R / reference.SPHERE_KAPPA_R
+    smooth = hard_wall.CYLINDER_KAPPA_R / hard_wall.SPHERE_KAPPA_R
     lines = {f"thesis, {ratio:g}": (ratio, style.THESIS), f"cylinder over sphere, exact, {smooth:.3f}": (smooth, "-")}
     for value, look in lines.values():
         axes[1].axhline(value, color=style.EXACT, lw=0.8, ls=look)

@@ -11,7 +11,6 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import reference
 from contactsim.analysis import slide_tables
 from contactsim.analysis.scales import LawScales, lattice_constant
 from contactsim.analysis.slide_tables import slide_table
@@ -20,6 +19,7 @@ from contactsim.figures.parts import flats, law_curves
 from contactsim.figures.parts import slide_curves as curves
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import EVENT
+from contactsim.reference import springs
 
 LATTICES = (1.0, 1.5, 2.0, 2.44, 4.88)
 """Lattice constants over δt of Fig. 6.3c."""
@@ -35,7 +35,7 @@ def fig_6_3(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     tables = [law_curves.plot_tractions(data, axes[:2])]
     places = np.linspace(0.0, 1.0, 401)
     for lattice, colour in style.shades(LATTICES).items():
-        _, tangential = reference.spring_sum(places * lattice, lattice)
+        _, tangential = springs.spring_sum(places * lattice, lattice)
         axes[2].plot(places, tangential, color=colour, lw=1.2, label=rf"$l/\delta_t={lattice:g}$")
         curve = pd.DataFrame({"component": "tangential", "fixed_gap": 0.0, "gap": places * lattice})
         tables.append(curve.assign(traction=tangential, lattice_constant=lattice))

@@ -7,13 +7,17 @@ is cut into loading and unloading where the approach turns first, and second.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import xarray as xr
 
-from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 from contactsim.observables.load_curve import LoadCurve, curve_inputs
 from contactsim.status import is_solved
+
+if TYPE_CHECKING:
+    from contactsim.contact.cohesive import CohesiveProblem
 
 INTERACTING = {
     "interacting_length_0_1": 1e-1,

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactsim import reference
 from contactsim.grid import Array
 from contactsim.observables.adhesion import TURN_TOLERANCE, legs
 from contactsim.observables.linearity import (
@@ -23,6 +22,7 @@ from contactsim.observables.linearity import (
     value_at_level,
     values_at_loads,
 )
+from contactsim.reference import hard_wall
 from contactsim.status import is_solved
 
 CRITERIA = {
@@ -110,7 +110,7 @@ def numbers_by_height(data: xr.Dataset, body: Mapping[str, Any]) -> dict[str, xr
     """
     area = data["relative_interacting_area" if "relative_interacting_area" in data else "relative_contact_area"]
     pressure = data.normalised_pressure.where(is_solved(data.status))
-    strain = pressure * data.contact_modulus / reference.uniaxial_modulus(body["youngs_modulus"], body["poisson_ratio"])
+    strain = pressure * data.contact_modulus / hard_wall.uniaxial_modulus(body["youngs_modulus"], body["poisson_ratio"])
     heights = (CHAPTER_4_HEIGHT, data.length, 2 * data.length)
     numbers: dict[str, xr.DataArray] = {}
     for name, height in zip(HEIGHTS, heights, strict=True):

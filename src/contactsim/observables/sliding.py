@@ -9,12 +9,15 @@ no length.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
+
+if TYPE_CHECKING:
+    from contactsim.contact.cohesive import CohesiveProblem
 
 EVENT = (
     "event_step",

@@ -81,27 +81,19 @@ def simulate_path(
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_cohesive(scene, heights, tolerance, threads)
     snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
-    slopes: dict[int, Array] = {}
-    first_short = first_short_mode(heights)
+    profile = Profile(problem)
     fields: dict[int, dict[str, Array]] = {}
     rows, folds, slips, begin, total, marks = [], [], [], time.process_time(), 0.0, [0.0]
     for count, state in enumerate(increments.follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        rows.append(_state_numbers(scene, state, slopes, first_short))
+        rows.append(_state_numbers(scene, state, profile))
         folds += [fold_numbers(problem, jump, count) for jump in state.jumps if not jump.step.held]
         slips += [slip_numbers(problem, jump, count) for jump in state.jumps if jump.step.held]
         if count in snapshot_steps:
             fields[count] = _state_fields(problem.at(state.step), state, keep_fields)
         if count % max(len(steps) // LOG_LINES, 1) == 0 or state.jump or count == len(steps) - 1:
-            spent = time.process_time() - begin
-            logger.info(
-                "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s%s",
-                *(count + 1, len(steps), state.step.text, state.residual, total, spent),
-                spent / (count + 1) * (len(steps) - count - 1),
-                state.status.sentence,
-                f"; jumped {state.jump:.3g} nm" if state.jump else "",
-            )
+            _log_progress(state, count, len(steps), total, marks[-1])
         if until_complete and state.status.solved and rows[-1]["contact_length"] >= scene.length:
             break
     data = _join_states(scene, problem, rows, fields).merge(join_folds(folds))
@@ -111,29 +103,45 @@ def simulate_path(
     return data.assign(seconds=("step", np.diff(marks)))
 
 
-def _state_numbers(scene: Scene, state: PathState, slopes: dict[int, Array], first_short: int) -> dict[str, float]:
-    """Return the numbers of a state.
+class Profile:
+    """What numbers of states need of the profile; it does not change along a path, and is found once for each grid.
 
     Parameters
     ----------
-    scene
-        The scene.
-    state
-        The state.
-    slopes
-        Local squares of the profile's slopes by number of points, which are kept for later steps.
-    first_short
-        Number of the longest of the profile's short waves.
+    problem
+        The problem on the full grid.
     """
+
+    def __init__(self, problem: CohesiveProblem) -> None:
+        self._squares: dict[int, Array] = {}
+        self._coefficients: dict[int, Array] = {}
+        self.first_short = first_short_mode(self.coefficients(problem))
+
+    def squares(self, problem: CohesiveProblem) -> Array:
+        """Return the local squares of the slopes on the grid of a problem, (n,)."""
+        points = problem.grid.size
+        if points not in self._squares:
+            self._squares[points] = local_squares(problem.shape[0], problem.grid.spacing[0])
+        return self._squares[points]
+
+    def coefficients(self, problem: CohesiveProblem) -> Array:
+        """Return the Fourier coefficients of the undeformed gap on the grid of a problem, (m,), nm."""
+        points = problem.grid.size
+        if points not in self._coefficients:
+            self._coefficients[points] = problem.grid.forward(problem.shape[0])
+        return self._coefficients[points]
+
+
+def _state_numbers(scene: Scene, state: PathState, profile: Profile) -> dict[str, float]:
+    """Return the numbers of a state."""
     problem, (gap, traction) = state.problem, state.fields()
     zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
-    if state.points not in slopes:
-        slopes[state.points] = local_squares(problem.shape[0], problem.grid.spacing[0])
+    before = profile.coefficients(problem)
     numbers: dict[str, float] = {
         "approach": approach_of(problem, state.displacement),
         **state_observables(problem, gap, traction),
-        **gradients(slopes[state.points], problem, gap, traction),
-        **conformities(problem.shape[0], gap[0], first_short),
+        **gradients(profile.squares(problem), problem, gap, traction),
+        **conformities(before, before + state.displacement[0], profile.first_short),
         "process_zone_step": problem.grid.spacing[0] / zone,
     }
     if scene.sliding:
@@ -163,6 +171,17 @@ def _state_fields(problem: CohesiveProblem, state: PathState, keep_fields: bool)
         parts = ((GAPS, gap), (DISPLACEMENTS, -displacement), (TRACTIONS, traction))
         fields |= {name: row for names, rows in parts for name, row in zip(names, rows, strict=False)}
     return fields if state.status.solved else {name: np.full_like(row, np.nan) for name, row in fields.items()}
+
+
+def _log_progress(state: PathState, count: int, steps: int, transforms: float, seconds: float) -> None:
+    """Log how far a path of some steps is, and how long it is expected to take."""
+    logger.info(
+        "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s%s",
+        *(count + 1, steps, state.step.text, state.residual, transforms, seconds),
+        seconds / (count + 1) * (steps - count - 1),
+        state.status.sentence,
+        f"; jumped {state.jump:.3g} nm" if state.jump else "",
+    )
 
 
 def _join_states(

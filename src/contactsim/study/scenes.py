@@ -8,7 +8,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from contactsim import reference
 from contactsim.contact.loading import LoadPath, pressures, sweep
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.simplification import simplify
@@ -22,6 +21,7 @@ from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.provenance import canonical
+from contactsim.reference import hard_wall
 from contactsim.solvers.registry import configure_solver
 from contactsim.study.keys import RIGID
 from contactsim.study.kinds import study_kind
@@ -143,7 +143,7 @@ def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elastic
             raise InputError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
         if any(Trait.HALF_SPACE not in body.traits for body in elasticities):
             raise InputError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
-        load = {1: reference.cylinder_load, 2: reference.sphere_load}[len(surface.lengths)]
+        load = {1: hard_wall.cylinder_load, 2: hard_wall.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)
     return pressures([float(value) for value in values], labels=labels)
 

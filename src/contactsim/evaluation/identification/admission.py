@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from contactsim import reference
 from contactsim.analysis.candidate_shares import DRAWN, SETS
 from contactsim.analysis.scales import LawScales, radius
 from contactsim.grid import Array
+from contactsim.reference import adhesion
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class AdmissionNumbers:
         strong, doubled = (data.isel(member=0) for data in (strong, doubled))
         length, load = strong.initial_contact_length.values, strong.initial_load.values
         law = LawScales.of(strong)
-        strength = float(reference.tangential_strength(law.tangential_work, law.tangential_length, 0.0))
+        strength = float(adhesion.tangential_strength(law.tangential_work, law.tangential_length, 0.0))
         changes = [
             _relative_change(strong[name].values, doubled[name].values)
             for name in ("initial_load", "initial_contact_length")

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.evaluation.identification.sampling import Candidate
@@ -23,6 +23,7 @@ from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments, Requested
 from contactsim.paths.jumps import Jump
 from contactsim.paths.state import PathState
+from contactsim.reference import adhesion
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.study.reading import overlaid
 from contactsim.study.run import Run
@@ -180,7 +181,7 @@ def slide_reach(cell: Candidate, section: Mapping[str, Any], runs: RunSettings) 
     """
     law, body = section["cohesive_zone"], section["counter_body"]
     work = law["work_of_separation"] * law["work_ratio"]
-    strength = float(reference.tangential_strength(work, law["tangential_length"], 0.0))
+    strength = float(adhesion.tangential_strength(work, law["tangential_length"], 0.0))
     contact = REFERENCE_CONTACT * math.sqrt(RADIUS_PER_WIDTH * cell.width / REFERENCE_RADIUS)
     modulus = body["youngs_modulus"] / (1 - body["poisson_ratio"] ** 2)
     depth = max(math.log(8 * cell.thickness / contact), 1.0)

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from contactsim import reference
 from contactsim.evaluation.robustness.cases import (
     Case,
     make_case,
@@ -16,6 +15,7 @@ from contactsim.evaluation.robustness.cases import (
     shift_field,
 )
 from contactsim.grid import Array
+from contactsim.reference import hard_wall
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 
 POINTS = 1024
@@ -28,9 +28,9 @@ def _rough(points: int = POINTS) -> Array:
 
 def _wave(points: int, ratio: float) -> Case:
     """A wave at p/p_c; the tolerance resolves the gap, which shrinks faster than the open part."""
-    load = ratio * reference.full_contact_pressure(1.0, points, 1.0)
+    load = ratio * hard_wall.full_contact_pressure(1.0, points, 1.0)
     heights = np.cos(2 * np.pi * np.arange(points) / points)
-    return Case(heights, load, tolerance=1e-6, area=float(reference.sinusoid_area(ratio)), mirror=0)
+    return Case(heights, load, tolerance=1e-6, area=float(hard_wall.sinusoid_area(ratio)), mirror=0)
 
 
 def few_points(severity: float) -> Case:
@@ -51,14 +51,14 @@ def nearly_full_wave(severity: float) -> Case:
 
 def nearly_full_rough(severity: float) -> Case:
     """A rough line just short of complete contact, by a tenth of the load down to one part in a million."""
-    flat = reference.complete_contact(_rough(), POINTS, 1.0)
+    flat = hard_wall.complete_contact(_rough(), POINTS, 1.0)
     return make_case(flat - flat.min() * (1 - 10 ** (-1 - severity / 20)))
 
 
 def full_contact(severity: float) -> Case:
     """A rough line in complete contact, beyond the load that it takes by a factor of 1e6 down to 1 + 1e-6."""
     heights = _rough()
-    flat = reference.complete_contact(heights, POINTS, 1.0)
+    flat = hard_wall.complete_contact(heights, POINTS, 1.0)
     load = -flat.min() * (1 + 10 ** (6 - 12 * severity / 100))
     return Case(heights, load, exact=load + flat)
 
@@ -107,7 +107,7 @@ def flat(severity: float) -> Case:
     """Ripples on a plane vanish, from a tenth of what the load flattens down to none: complete contact."""
     ripple = 0.0 if severity >= 100 else 0.1 * 10 ** (-severity / 5)
     heights = 7.0 + ripple * np.random.default_rng(0).uniform(-1, 1, 256)
-    return Case(heights, 1.0, exact=1.0 + reference.complete_contact(heights - 7.0, 256.0, 1.0))
+    return Case(heights, 1.0, exact=1.0 + hard_wall.complete_contact(heights - 7.0, 256.0, 1.0))
 
 
 def white_noise(severity: float) -> Case:

@@ -9,18 +9,18 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import reference
 from contactsim.analysis import slide_tables
 from contactsim.analysis.scales import LawScales, lattice_constant
 from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
+from contactsim.reference import springs
 
 
 def prandtl_tomlinson_label(data: xr.Dataset) -> str:
     """Return the label of the model of Prandtl and Tomlinson, with the distance of the springs' sum to its sine."""
     lattice, length = lattice_constant(data), LawScales.of(data).tangential_length
     places = np.linspace(0.0, lattice, 1001)
-    sums, sine = reference.spring_sum(places, lattice, length)[1], reference.sine_sum(places, lattice, length)
+    sums, sine = springs.spring_sum(places, lattice, length)[1], springs.sine_sum(places, lattice, length)
     return f"Prandtl–Tomlinson: a sine as high\n(springs' sum apart by {np.abs(sums - sine).max() / sums.max():.0e})"
 
 

@@ -6,9 +6,10 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim import dataset, reference
+from contactsim import dataset
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import style
+from contactsim.reference import adhesion
 
 NORMAL_PEAK, TANGENTIAL_PEAK = 1.0, 2**-0.5
 """Gaps of the strengths, over the characteristic lengths (Eq. 2.18)."""
@@ -30,7 +31,7 @@ def _plot_normal(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.DataFr
         traction = data.normal_traction.sel(tangential_gap=gap)
         label = rf"$\Delta_t/\delta_t={ratio:g}$"
         axes.plot(data.opening / length, traction / unit, color=colour, lw=1.2, label=label)
-        strength = reference.normal_strength(law.work_of_separation, length, ratio) / unit
+        strength = adhesion.normal_strength(law.work_of_separation, length, ratio) / unit
         axes.plot([NORMAL_PEAK], [strength], **style.marker_look(colour))
         tables.append(_table("normal", gap, data.opening, traction, strength * unit))
     _label(axes, "n", data.opening / length)
@@ -45,8 +46,8 @@ def _plot_tangential(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.Da
         traction = data.tangential_traction.sel(normal_gap=gap)
         label = rf"$\Delta_n/\delta_n={ratio:g}$"
         axes.plot(data.slip_gap / length, traction / unit, color=colour, lw=1.2, label=label)
-        strength = reference.tangential_strength(law.tangential_work, length, ratio) / unit
-        bsg = reference.bsg_factor(ratio) * traction
+        strength = adhesion.tangential_strength(law.tangential_work, length, ratio) / unit
+        bsg = adhesion.bsg_factor(ratio) * traction
         axes.plot(data.slip_gap / length, bsg / unit, color=colour, lw=1.0, ls=":")
         for sign in (1, -1):
             axes.plot([sign * TANGENTIAL_PEAK], [sign * strength], **style.marker_look(colour))

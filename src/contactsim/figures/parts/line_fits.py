@@ -9,11 +9,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim import reference
 from contactsim.analysis.wording import rounded_texts
 from contactsim.figures import style
 from contactsim.figures.parts.proportionality import AS_IN_THESIS, CORRECTED, ESTIMATORS, persson_curve
 from contactsim.grid import Array
+from contactsim.reference import hard_wall
 
 WEIGHTINGS = {"area": "the area", "logarithm": "its logarithm"}
 """What a fit minimises: its name in a dataset, and in words."""
@@ -82,4 +82,4 @@ def fit_table(data: xr.Dataset) -> pd.DataFrame:
 
 def fitted_kappa(pressure: Array, b1: float, b2: float) -> Array:
     """Return κ = a_rel/p* of Eq. 3.11; arrays of constants broadcast."""
-    return reference.line_area(pressure, b1, b2) / pressure
+    return hard_wall.line_area(pressure, b1, b2) / pressure
