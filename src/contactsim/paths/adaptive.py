@@ -123,7 +123,7 @@ class Adaptive:
             jumps: tuple[Jump, ...] = ()
             state = path.continue_to(replace(first, value=goal))
             leg.iterations += state.iterations
-            order = path.history.order
+            order = path.history.order_at(goal)
             error = state.largest_change if state.is_stable and path.history.parameters else np.inf
             if parameter is not None and controller.rejects(error):
                 controller.shrink()
