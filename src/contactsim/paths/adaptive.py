@@ -78,7 +78,8 @@ class Adaptive:
     ) -> Iterator[PathState]:
         """Yield the states at all steps, in order, interpolated between solved states."""
         self.check(problem.grid.size, steps, solver)
-        path, begin = Continuation(problem, solver, self.fold_width), 0
+        # increments that follow the error of the predictions need no other bound of it
+        path, begin = Continuation(problem, solver, self.fold_width, max_amplification=np.inf), 0
         while begin < len(steps):
             end = leg_end(steps, begin, path.parameter(steps[begin]))
             transforms = problem.counter.transforms
@@ -123,7 +124,7 @@ class Adaptive:
             jumps: tuple[Jump, ...] = ()
             state = path.continue_to(replace(first, value=goal))
             leg.iterations += state.iterations
-            order = path.history.order_at(goal)
+            order = path.history.order
             error = state.largest_change if state.is_stable and path.history.parameters else np.inf
             if parameter is not None and controller.rejects(error):
                 controller.shrink()

@@ -13,7 +13,7 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
-from contactsim.paths.extrapolation import History
+from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
 from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
@@ -41,14 +41,21 @@ class Continuation:
         Largest distance (nm) that the load moves the surface between both sides of a jump.
     divides
         If True, steps that continuation fails to take are divided.
+    max_amplification
+        Largest ratio of a prediction's error to those of the states that it follows from.
     """
 
     def __init__(
-        self, problem: CohesiveProblem, solver: CohesiveSolver, fold_width: float = FOLD_WIDTH, divides: bool = True
+        self,
+        problem: CohesiveProblem,
+        solver: CohesiveSolver,
+        fold_width: float = FOLD_WIDTH,
+        divides: bool = True,
+        max_amplification: float = MAX_AMPLIFICATION,
     ) -> None:
         self.problem, self.solver = problem, solver
         self._divides = divides and solver.uses_guess
-        self.history = History()
+        self.history = History(max_amplification)
         self.displacement = np.zeros(problem.unknowns, complex)
         self._failures = 0
         self._memory = solver.new_memory()
@@ -84,7 +91,7 @@ class Continuation:
         self.displacement = displacement
         self.jumps.forget_pace()
         self.current = current, replace(state, displacement=displacement)
-        self.history = History()
+        self.history = History(self.history.max_amplification)
         self.history.add(current.value, displacement)
 
     def at(self, step: LoadStep) -> CohesiveProblem:

@@ -12,7 +12,7 @@ from contactsim.grid import Array
 POINTS = 4
 """Largest number of states that a polynomial goes through."""
 MAX_AMPLIFICATION = 16.0
-"""Largest ratio of a prediction's error to those of its states; 15 with a cubic and equal increments."""
+"""Largest ratio of a prediction's error to those of the states; a cubic and equal increments have 15."""
 
 
 def lagrange_weights(parameters: Sequence[float], parameter: float) -> list[float]:
@@ -39,9 +39,16 @@ def interpolate(parameters: Sequence[float], states: Sequence[Array], parameter:
 
 
 class History:
-    """The last few states of one smooth segment of a path, with their load parameters."""
+    """The last few states of one smooth segment of a path, with their load parameters.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    max_amplification
+        Largest ratio of a prediction's error to those of the states.
+    """
+
+    def __init__(self, max_amplification: float = MAX_AMPLIFICATION) -> None:
+        self.max_amplification = max_amplification
         self.parameters: list[float] = []
         self.states: list[Array] = []
 
@@ -79,7 +86,7 @@ class History:
         badly: a cubic through four states 1 apart amplifies their errors 13 000-fold at a distance of 20.
         """
         for count in range(len(self.parameters), 2, -1):
-            if sum(map(abs, lagrange_weights(self.parameters[-count:], parameter))) <= MAX_AMPLIFICATION:
+            if sum(map(abs, lagrange_weights(self.parameters[-count:], parameter))) <= self.max_amplification:
                 return count - 1
         return min(self.order, 1)
 
