@@ -80,6 +80,15 @@ def test_what_remains_of_xu_and_needlemans_normal_traction_follows_from_their_po
     assert remainder == pytest.approx(formulas.xu_needleman_remainder(ratio), abs=1e-5)
 
 
+def test_xu_and_needlemans_law_leaves_nothing_for_one_ratio_of_works():
+    ratio = formulas.xu_needleman_work_ratio()
+    assert ratio == pytest.approx(1.0, abs=1e-9)
+    assert formulas.xu_needleman_remainder(ratio) == pytest.approx(0.0, abs=1e-9)
+    opening = np.linspace(0.1, 5.0, 50)
+    below, above = (adhesion.xu_needleman_normal(opening, formulas.COMPLETE_SHEAR, c) for c in (0.9, 1.1))
+    assert below.min() > 0 > above.max()
+
+
 @pytest.mark.parametrize("name", formulas.FORMULAS)
 def test_each_formula_gives_a_number(name):
     assert np.isfinite(formulas.FORMULAS[name]())

@@ -18,6 +18,10 @@ def array(values, **places):
 
 BOTH = array([[2.0, 4.0, 3.0], [1.0, 1.0, 1.0]], hurst_exponent=[0.2, 0.8], reduced_pressure=LOADS)
 GRID = array([[10.0, 12.0, 11.0], [20.0, 21.0, 30.0]], work_of_separation=WORKS, work_ratio=RATIOS)
+CUBE = array(
+    [[[10.0, 11.0], [20.0, 30.0]], [[10.0, 12.0], [20.0, 26.0]]],
+    poisson_ratio=[0.1, 0.3], work_of_separation=WORKS, work_ratio=[0.0, 1.0],
+)  # fmt: skip
 LOAD = array([1.0, 10.0, 100.0], reduced_pressure=LOADS)
 ALONG_LOAD, ALONG_RATIO = {"along": "reduced_pressure"}, {"along": "work_ratio"}
 CASES = [
@@ -34,12 +38,15 @@ CASES = [
     ("slope", LOAD**0.5, {"against": LOAD} | ALONG_LOAD, 0.5),
     ("slope", GRID, {"against": GRID.work_of_separation, "along": "work_of_separation"},
      np.log2([2, 21 / 12, 30 / 11]).mean()),
+    ("largest_slope", GRID, {"against": GRID.work_of_separation, "along": "work_of_separation"}, np.log2(30 / 11)),
     ("origin_slope", BOTH, {"against": LOAD} | ALONG_LOAD, ((2 + 40 + 300) / 10101 + 111 / 10101) / 2),
     ("fall", BOTH, ALONG_LOAD, (-0.5 + 0) / 2),
     ("rise", GRID, ALONG_RATIO, (0.1 + 0.5) / 2),
     ("least_rise", GRID, ALONG_RATIO, 0.1),
     ("largest_rise", GRID, ALONG_RATIO, 0.5),
     ("rise_gain", GRID, {"across": "work_of_separation"} | ALONG_RATIO, 0.4),
+    ("least_rise_gain", CUBE, {"across": "work_of_separation"} | ALONG_RATIO, 0.1),
+    ("largest_rise_gain", CUBE, {"across": "work_of_separation"} | ALONG_RATIO, 0.4),
     ("shortfall", GRID, ALONG_RATIO, (1 / 11 + 1 / 3) / 2),
     ("departure", BOTH, {"against": array([2.0, 2.0, 2.0], reduced_pressure=LOADS)}, 1.0),
     ("departure", -BOTH, {"against": -4 + 0 * BOTH}, 0.75),

@@ -7,19 +7,21 @@ import pytest
 
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.layer import Layer
-from contactsim.interface.cohesive_zone import NormalCohesiveZone
-from contactsim.observables.deformation import displacement_numbers, gaps_about_pull_off
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.observables.deformation import displacement_numbers, gaps_about_pull_off, slip_at_largest_pull
 from contactsim.observables.derived import summarise_paths
 from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat
 from support.smooth import along
 
+LAW = NormalCohesiveZone(0.5)
 
-def pressed(modulus, ratio=0.3, work=0.5, snapshots=(-1.0,)):
+
+def pressed(modulus, ratio=0.3, law=LAW, snapshots=(-1.0,)):
     """The summaries of a cylinder that is pressed on a layer."""
     surface = Cylinder(length=1000.0, radius=2500.0)
     layer = Layer(modulus, ratio, 500.0)
-    scene = Scene(Body(Flat.facing(surface), layer), Body(surface), (NormalCohesiveZone(work),), along(-6.0, 2.0, 0.05))
+    scene = Scene(Body(Flat.facing(surface), layer), Body(surface), (law,), along(-6.0, 2.0, 0.05))
     data = simulate(scene, points=128, tolerance=1e-7, snapshots=snapshots)
     return summarise_paths(data)
 
@@ -53,6 +55,28 @@ def test_displacements_are_read_from_the_peak_wherever_it_is():
         assert (largest, far) == pytest.approx((1.0, displacement[4:12].mean()))
 
 
+def test_the_displacement_at_pull_off_is_that_of_the_fields_there():
+    place = float(pressed(70.0).pull_off_approach_loading)
+    found = pressed(70.0, snapshots=(round(place, 2),))
+    assert np.argmax(found.heights.values) == 64
+    assert float(found.pull_off_displacement) == pytest.approx(float(found.normal_displacement[0, 64]), rel=1e-9)
+    assert abs(float(pressed(1e6).pull_off_displacement)) < 1e-3
+
+
+def test_slip_is_read_where_the_pull_is_largest():
+    traction, slip = np.array([-3.0, 0.5, 1.0, 0.2]), np.array([5.0, 0.1, -0.7, 0.3])
+    assert slip_at_largest_pull(traction, slip) == 0.7
+    assert np.isnan(slip_at_largest_pull(np.full(4, np.nan), slip))
+    free, sticking = (pressed(70.0, law=CohesiveZone(0.5, ratio), snapshots=(2.0,)) for ratio in (0.0, 1.0))
+    assert float(free.slip_at_largest_pull) > float(sticking.slip_at_largest_pull) > 0
+
+
+def test_the_share_of_the_period_in_contact_is_a_length_over_the_period():
+    found = pressed(70.0)
+    assert float(found.final_contact_share) == pytest.approx(float(found.final_contact_length) / 1000.0)
+    assert 0 < float(found.final_contact_share) < 1
+
+
 def test_without_fields_there_is_no_displacement():
     found = pressed(70.0, snapshots=())
-    assert np.isnan([found.peak_displacement, found.far_displacement]).all()
+    assert np.isnan([found.peak_displacement, found.far_displacement, found.slip_at_largest_pull]).all()

@@ -24,22 +24,16 @@ def centred_nodes(data: xr.Dataset) -> tuple[Array, Array]:
     return (np.arange(count) - count // 2) * float(data.length) / count, nodes
 
 
-def contact_sizes(parts: Sequence[xr.Dataset]) -> pd.DataFrame:
-    """Return the contact length over the radius at each ratio of works, with its grid error, in ascending order.
-
-    parts: datasets by work_ratio; columns: work_ratio, size_ratio, error (NaN if not measured)
-    """
-    tables = []
-    for data in parts:
-        radius = scales.radius(data)
-        error = data.get("final_contact_length_grid_error")
-        table = {
-            "work_ratio": data.work_ratio.values,
-            "size_ratio": data.final_contact_length.isel(member=0).values / radius,
-            "error": np.full(data.work_ratio.size, np.nan) if error is None else error.values / radius,
-        }
-        tables.append(pd.DataFrame(table))
-    return pd.concat(tables).sort_values("work_ratio", ignore_index=True)
+def contact_sizes(data: xr.Dataset) -> pd.DataFrame:
+    """Return the contact length over the radius at each ratio of works, with its grid error (NaN if not measured)."""
+    radius = scales.radius(data)
+    error = data.get("final_contact_length_grid_error")
+    table = {
+        "work_ratio": data.work_ratio.values,
+        "size_ratio": data.final_contact_length.isel(member=0).values / radius,
+        "error": np.full(data.work_ratio.size, np.nan) if error is None else error.values / radius,
+    }
+    return pd.DataFrame(table)
 
 
 def pull_off_table(data: xr.Dataset, legs: Sequence[str]) -> pd.DataFrame:

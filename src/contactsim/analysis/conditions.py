@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.reductions import REDUCTIONS
 from contactsim.analysis.uncertainty import Estimate, estimate
 
 MIN_SHARE = 0.5
@@ -71,11 +72,14 @@ def find_condition(
 def narrower_blocks(comparison: Comparison) -> Iterator[tuple[Block, float]]:
     """Yield the contiguous blocks of a selection that are smaller than it, with their shares; the largest first.
 
-    A dimension along which a claim compares values keeps at least two.
+    A dimension along which a claim compares values keeps at least two. It keeps all if the ends are compared.
     """
     choices = []
+    claim = comparison.claim
+    compares_ends = claim["reduce"] in REDUCTIONS and REDUCTIONS[claim["reduce"]].compares_ends
     for dim, values in comparison.varied_dimensions().items():
-        least = 2 if dim in (comparison.claim["along"], comparison.claim["across"]) else 1
+        is_compared = dim in (claim["along"], claim["across"])
+        least = (len(values) if compares_ends else 2) if is_compared else 1
         ranges = [
             (dim, [float(values[first]), float(values[last])], (last - first + 1) / len(values))
             for first, last in itertools.combinations_with_replacement(range(len(values)), 2)

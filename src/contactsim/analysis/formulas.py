@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from scipy.optimize import brentq
 
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.grid import Array
@@ -155,6 +156,19 @@ def xu_needleman_remainder(work_ratio: float) -> float:
     return float(failed / whole)
 
 
+def xu_needleman_work_ratio() -> float:
+    """Return the ratio of works up to 2 at which Xu and Needleman's law leaves nothing at complete shear failure.
+
+    The remainder has one sign on either side of it, so there is only one.
+    """
+    opening = np.linspace(0.0, 5.0, 501)[1:]
+
+    def remainder(work_ratio: float) -> float:
+        return float(adhesion.xu_needleman_normal(opening, COMPLETE_SHEAR, work_ratio).sum())
+
+    return brentq(remainder, 0.0, 2.0, xtol=1e-12)
+
+
 def largest_normal_traction(slip: float) -> float:
     """Return the largest normal traction of Eq. 2.17 at a tangential gap over its length, over that without; any c."""
     law = CohesiveZone(work_of_separation=1.0, work_ratio=0.5)
@@ -186,8 +200,8 @@ FORMULAS: dict[str, Callable[[], float]] = {
     "stiffness_departure": lambda: stiffness_departure(is_printed=True),
     "stiffness_departure_meant": lambda: stiffness_departure(is_printed=False),
     "element_departure": element_departure,
-    "xu_needleman_remainder": lambda: xu_needleman_remainder(1.0),
-    "xu_needleman_remainder_unequal": lambda: min(xu_needleman_remainder(ratio) for ratio in WORK_RATIOS),
+    "xu_needleman_work_ratio": xu_needleman_work_ratio,
+    "xu_needleman_remainder": lambda: min(xu_needleman_remainder(ratio) for ratio in WORK_RATIOS),
     "law_remainder": lambda: largest_normal_traction(COMPLETE_SHEAR),
     "slipped_strength": lambda: largest_normal_traction(1.0) / np.exp(-1.0),
     "bsg_change": lambda: float(np.diff(bsg_strengths()).max()),

@@ -33,6 +33,8 @@ REDUCTION_PHRASES = {
     "kappa_fit_all": "κ of the fit to all H",
     "spread_ratio": "ratio of spreads",
     "rise_gain": "gain of the rise",
+    "least_rise_gain": "least gain of the rise",
+    "largest_rise_gain": "largest gain of the rise",
 }
 """Quantities and reductions of claims that no dataset holds."""
 INDEX_LETTERS = {"κ_r": "κᵣ", "p_r*": "pᵣ*"}

@@ -40,41 +40,35 @@ def fig_4_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     return pd.concat(tables)
 
 
-def fig_4_3(pulled: xr.Dataset, more: xr.Dataset, close: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+def fig_4_3(soft: xr.Dataset, close: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the same for a nearly incompressible layer, and for asperities close to each other (thesis Fig. 4.3)."""
-    soft = pulled.sel(poisson_ratio=0.45, work_of_separation=WORK)
-    cases = {
-        r"$\nu=0.45$, $w/R=0.4$": [soft.sel(work_ratio=0.0), more.sel(work_ratio=1.0)],
-        r"$\nu=0.3$, $w/R=0.08$": [close.sel(work_ratio=ratio) for ratio in (0.0, 1.0)],
-    }
+    cases = {r"$\nu=0.45$, $w/R=0.4$": soft, r"$\nu=0.3$, $w/R=0.08$": close}
     tables = []
-    for panel, (case, parts) in zip(axes, cases.items(), strict=True):
+    for panel, (case, data) in zip(axes, cases.items(), strict=True):
+        parts = [data.sel(work_ratio=ratio) for ratio in (0.0, 1.0)]
         tables.append(asperities.plot_profiles(panel, parts, WORK).assign(case=case.replace("$", "")))
         panel.set_title(case, fontsize=9)
     style.add_letters(axes)
     return pd.concat(tables)
 
 
-def fig_4_4(
-    data: xr.Dataset, pulled: xr.Dataset, more: xr.Dataset, close: xr.Dataset, thick: xr.Dataset, axes: list[Axes]
-) -> pd.DataFrame:
+def fig_4_4(data: xr.Dataset, soft: xr.Dataset, close: xr.Dataset, thick: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the contact size against the ratio of works, for several works and bodies (thesis Fig. 4.4)."""
     works, bodies, change = axes
     tables = []
     colours = style.shades(data.work_of_separation)
     for work, colour in colours.items():
         look = {"color": colour, "ls": "-"}
-        label, parts = rf"$\varphi_n={work:g}$ N/m", [data.sel(work_of_separation=work)]
-        tables.append(_plot_case(works, parts, label, "a", change, **look))
-    parts = [data.sel(work_of_separation=WORK)]
-    tables.append(_plot_case(bodies, parts, "reference", "b", None, color=colours[WORK], ls="-"))
-    soft = [pulled.sel(poisson_ratio=0.45, work_of_separation=WORK), more]
-    for label, parts, colour, line in (
+        label, body = rf"$\varphi_n={work:g}$ N/m", data.sel(work_of_separation=work)
+        tables.append(_plot_case(works, body, label, "a", change, **look))
+    reference = data.sel(work_of_separation=WORK)
+    tables.append(_plot_case(bodies, reference, "reference", "b", None, color=colours[WORK], ls="-"))
+    for label, body, colour, line in (
         (r"$\nu=0.45$", soft, style.WHOLE, "--"),
-        (r"$w/R=0.08$", [close], style.PAIRS, ":"),
-        (r"$h/R=0.8$", [thick], style.EXACT, "-."),
+        (r"$w/R=0.08$", close, style.PAIRS, ":"),
+        (r"$h/R=0.8$", thick, style.EXACT, "-."),
     ):
-        tables.append(_plot_case(bodies, parts, label, "b", change, color=colour, ls=line))
+        tables.append(_plot_case(bodies, body, label, "b", change, color=colour, ls=line))
     works.set(ylabel=r"contact size $l_{\mathrm{rep}}/R$")
     bodies.set(ylabel=r"$l_{\mathrm{rep}}/R$")
     change.set(ylabel=r"change from $\varphi_t=0$ (%)")
@@ -88,11 +82,9 @@ def fig_4_4(
     return pd.concat(tables)
 
 
-def _plot_case(
-    axes: Axes, parts: list[xr.Dataset], label: str, panel: str, change: Axes | None, **look: Any
-) -> pd.DataFrame:
+def _plot_case(axes: Axes, data: xr.Dataset, label: str, panel: str, change: Axes | None, **look: Any) -> pd.DataFrame:
     """Plot the contact sizes of one case."""
-    table = asperities.plot_sizes(axes, parts, label, change, **look)
+    table = asperities.plot_sizes(axes, data, label, change, **look)
     return table.assign(case=label.replace("$", ""), panel=panel)
 
 

@@ -1,7 +1,8 @@
 """Numbers of a path that say how the surface deforms while two smooth bodies adhere.
 
-The gap about the largest pull on loading says if the pull drops because points come closer than the law's length. The
-normal displacement at the first snapshot says how far the surface is pulled up, and what the rest of it does meanwhile.
+The gap about the largest pull on loading says if the pull drops because points come closer than the law's length, and
+how far the surface is pulled up there. The normal displacement at the first snapshot says what the rest of the surface
+does meanwhile. The slip at the last snapshot is read where the pull is largest, at the edge of the contact.
 """
 
 from __future__ import annotations
@@ -16,8 +17,11 @@ from contactsim.status import is_solved
 DEFORMATION = (
     "gap_at_pull_off_loading",
     "gap_after_pull_off_loading",
+    "pull_off_displacement",
     "peak_displacement",
     "far_displacement",
+    "slip_at_largest_pull",
+    "final_contact_share",
 )
 """Numbers of the deformation along a path."""
 
@@ -56,12 +60,26 @@ def displacement_numbers(displacement: Array, heights: Array) -> tuple[float, fl
     return float(displacement.max()), float(far.mean())
 
 
+def slip_at_largest_pull(traction: Array, slip: Array) -> float:
+    """Return the size of the tangential gap (nm) at the node with the largest pull; NaN where fields are unknown.
+
+    Parameters
+    ----------
+    traction
+        Normal traction, GPa, (x,); pull is positive.
+    slip
+        Tangential gap, nm, (x,).
+    """
+    return float(abs(slip[int(np.argmax(traction))])) if np.isfinite(traction).all() else np.nan
+
+
 def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
     """Return paths with the numbers `DEFORMATION`; NaN where a state did not converge or its fields were not kept.
 
     data: with the summaries of load curves
     """
-    at = after = peak = far = xr.full_like(data.pull_off_approach_loading, np.nan)
+    unknown = xr.full_like(data.pull_off_approach_loading, np.nan)
+    at = after = peak = far = slip = unknown
     if "min_gap" in data:
         at, after = xr.apply_ufunc(
             gaps_about_pull_off,
@@ -81,4 +99,15 @@ def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
             output_core_dims=[[], []],
             vectorize=True,
         )
-    return data.assign(dict(zip(DEFORMATION, (at, after, peak, far), strict=True)))
+    if {"tangential_gap", "normal_traction"} <= set(data):
+        last = data[["normal_traction", "tangential_gap"]].isel(snapshot=-1, drop=True)
+        slip = xr.apply_ufunc(
+            slip_at_largest_pull,
+            last.normal_traction,
+            last.tangential_gap,
+            input_core_dims=[["x"], ["x"]],
+            vectorize=True,
+        )
+    pulled_up = -data.pull_off_approach_loading - at  # undeformed bodies are -δ apart at the peak
+    share = data.final_contact_length / data.length
+    return data.assign(dict(zip(DEFORMATION, (at, after, pulled_up, peak, far, slip, share), strict=True)))

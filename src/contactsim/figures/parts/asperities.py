@@ -70,9 +70,9 @@ def _plot_profile(axes: Axes, data: xr.Dataset) -> tuple[pd.DataFrame, float]:
     return table.assign(work_ratio=ratio, contact_length=contact), width
 
 
-def plot_sizes(axes: Axes, parts: list[xr.Dataset], label: str, change: Axes | None, **look: Any) -> pd.DataFrame:
+def plot_sizes(axes: Axes, data: xr.Dataset, label: str, change: Axes | None, **look: Any) -> pd.DataFrame:
     """Plot the contact size against the ratio of works, and on another axes its change from no friction in per cent."""
-    sizes = contact_sizes(parts)
+    sizes = contact_sizes(data)
     curve = {"marker": "o", "ms": 3, "mfc": "white", "lw": 1.0} | look
     axes.errorbar(sizes.work_ratio, sizes.size_ratio, sizes.error, label=label, elinewidth=0.8, **curve)
     if change is not None:
