@@ -244,8 +244,8 @@ LACKING = {
     "ch2": [],
     "ch3": ["surface_area_linear"],
     "ch4": [
-        *("compressible_curves_weak", "friction_size_4", "incompressible_slope_strong", "incompressible_slope_weak"),
-        *("gap_at_pull_off", "crack_departure_strong"),
+        *("compressible_slope", "compressible_curves_weak", "friction_size_4", "incompressible_slope_strong"),
+        *("incompressible_slope_weak", "gap_at_pull_off", "crack_departure_strong", "compressible_slope_weak"),
     ],
     "ch5": [
         *("error_bars", "area_larger", "linearity_breaks", "error_bars_larger", "heights_ordered", "hurst_ordered"),
