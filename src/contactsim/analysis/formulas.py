@@ -157,16 +157,11 @@ def xu_needleman_remainder(work_ratio: float) -> float:
 
 
 def xu_needleman_work_ratio() -> float:
-    """Return the ratio of works up to 2 at which Xu and Needleman's law leaves nothing at complete shear failure.
+    """Return the ratio of works at which Xu and Needleman's law leaves nothing at complete shear failure.
 
-    The remainder has one sign on either side of it, so there is only one.
+    The remainder falls with the ratio, so there is only one.
     """
-    opening = np.linspace(0.0, 5.0, 501)[1:]
-
-    def remainder(work_ratio: float) -> float:
-        return float(adhesion.xu_needleman_normal(opening, COMPLETE_SHEAR, work_ratio).sum())
-
-    return brentq(remainder, 0.0, 2.0, xtol=1e-12)
+    return float(brentq(xu_needleman_remainder, 0.0, 2.0, xtol=1e-12))
 
 
 def largest_normal_traction(slip: float) -> float:

@@ -51,16 +51,6 @@ def rise_gain(values: xr.DataArray, along: str, across: str) -> float:
     return mean(rise_gains(values, along, across))
 
 
-def least_rise_gain(values: xr.DataArray, places: Places, along: str, across: str) -> float:
-    """Return the same difference, the smallest over the other dimensions."""
-    return float(rise_gains(values, along, across).isel(places))
-
-
-def largest_rise_gain(values: xr.DataArray, places: Places, along: str, across: str) -> float:
-    """Return the same difference, the largest over the other dimensions."""
-    return float(rise_gains(values, along, across).isel(places))
-
-
 def shortfall(values: xr.DataArray, along: str) -> float:
     """Return the part by which the first value of a dimension is below the last, averaged over the others."""
     return mean(1 - values.isel({along: 0}) / values.isel({along: -1}))
@@ -69,11 +59,6 @@ def shortfall(values: xr.DataArray, along: str) -> float:
 def slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
     """Return the slope of the line through the logarithms along a dimension, averaged over the others."""
     return mean(slopes(values, against, along))
-
-
-def largest_slope(values: xr.DataArray, places: Places, against: xr.DataArray, along: str) -> float:
-    """Return the slope of the line through the logarithms along a dimension, the largest over the others."""
-    return float(slopes(values, against, along).isel(places))
 
 
 def origin_slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
@@ -97,35 +82,10 @@ def spread_ratio(values: xr.DataArray, places: Places, against: xr.DataArray, al
     return spread(values, places[0], along) / spread(against, places[1], along)
 
 
-def least(values: xr.DataArray, places: Places) -> float:
-    """Return the smallest of all points."""
-    return float(values.isel(places))
-
-
-def largest(values: xr.DataArray, places: Places) -> float:
-    """Return the largest of all points."""
-    return float(values.isel(places))
-
-
-def least_rise(values: xr.DataArray, places: Places, along: str) -> float:
-    """Return the relative rise from the first to the last value of a dimension, the smallest over the others."""
-    return float(rises(values, along).isel(places))
-
-
-def largest_rise(values: xr.DataArray, places: Places, along: str) -> float:
-    """Return the relative rise from the first to the last value of a dimension, the largest over the others."""
-    return float(rises(values, along).isel(places))
-
-
 def departure(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
     """Return the largest relative departure from another quantity."""
     place, sign = places
     return sign * float((values / against - 1).isel(place))
-
-
-def ratio(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
-    """Return the largest ratio to another quantity."""
-    return float((values / against).isel(places))
 
 
 def furthest_from_one(values: xr.DataArray, places: Places) -> float:
@@ -133,20 +93,20 @@ def furthest_from_one(values: xr.DataArray, places: Places) -> float:
     return float(values.isel(places))
 
 
+def identity(values: xr.DataArray) -> xr.DataArray:
+    """Return the values themselves."""
+    return values
+
+
+def sizes(values: xr.DataArray) -> xr.DataArray:
+    """Return the sizes of the values, whatever their sign."""
+    return abs(values)
+
+
 def correlation(values: xr.DataArray, against: xr.DataArray) -> float:
     """Return the correlation with another quantity over all points."""
     first, second = xr.broadcast(values, against)
     return float(np.corrcoef(first.values.ravel(), second.values.ravel())[0, 1])
-
-
-def largest_size(values: xr.DataArray, places: Places) -> float:
-    """Return the largest size of all points, whatever their sign."""
-    return float(abs(values).isel(places))
-
-
-def ratio_size(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
-    """Return the largest size of the ratio to another quantity, whatever its sign."""
-    return float(abs(values / against).isel(places))
 
 
 def rising_steps(values: xr.DataArray, along: str) -> xr.DataArray:
@@ -172,6 +132,16 @@ def steps_to_one(values: xr.DataArray, along: str) -> xr.DataArray:
 def _logarithm(values: xr.DataArray) -> xr.DataArray:
     """Return the natural logarithms."""
     return xr.apply_ufunc(np.log, values)
+
+
+def ratios(values: xr.DataArray, against: xr.DataArray) -> xr.DataArray:
+    """Return the ratios to another quantity."""
+    return values / against
+
+
+def ratio_sizes(values: xr.DataArray, against: xr.DataArray) -> xr.DataArray:
+    """Return the sizes of the ratios to another quantity, whatever their sign."""
+    return abs(values / against)
 
 
 def rises(values: xr.DataArray, along: str) -> xr.DataArray:

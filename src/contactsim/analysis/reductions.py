@@ -7,6 +7,7 @@ locates it, so that its place and its value can come from different members (`co
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -61,6 +62,31 @@ class Reduction:
         return self.measure(values, **inputs) if self.locate is None else self.measure(values, places, **inputs)
 
 
+def largest_of(values_of: Callable[..., xr.DataArray], sign: float = 1.0, **attributes: Any) -> Reduction:
+    """Return the reduction to the largest of the values that a function gives; with sign -1 to the smallest.
+
+    Parameters
+    ----------
+    values_of
+        Function of the quantity and of `against`, `along` and `across` as far as it needs them.
+    sign
+        1 or -1.
+    attributes
+        Further attributes of the reduction.
+    """
+
+    @functools.wraps(values_of)  # with its signature, which says what the reduction needs
+    def measure(values: xr.DataArray, places: Places, **inputs: Any) -> float:
+        """Return the value at a place."""
+        return float(values_of(values, **inputs).isel(places))
+
+    def locate(values: xr.DataArray, **inputs: Any) -> Places:
+        """Return the place of the extreme."""
+        return measures.place_of_largest(sign * values_of(values, **inputs))
+
+    return Reduction(measure, locate, **attributes)
+
+
 REDUCTIONS: dict[str, Reduction] = {
     "mean": Reduction(measures.mean),
     "trend": Reduction(measures.trend, neutral=0.0),
@@ -72,55 +98,26 @@ REDUCTIONS: dict[str, Reduction] = {
         neutral=0.0,
     ),
     "slope": Reduction(measures.slope),
-    "largest_slope": Reduction(
-        measures.largest_slope,
-        lambda values, against, along: measures.place_of_largest(measures.slopes(values, against, along)),
-    ),
+    "largest_slope": largest_of(measures.slopes),
     "origin_slope": Reduction(measures.origin_slope),
     "fall": Reduction(measures.fall, neutral=0.0, compares_ends=True),
     "rise": Reduction(measures.rise, neutral=0.0, compares_ends=True),
-    "least_rise": Reduction(
-        measures.least_rise,
-        lambda values, along: measures.place_of_largest(-measures.rises(values, along)),
-        neutral=0.0,
-        compares_ends=True,
-    ),
-    "largest_rise": Reduction(
-        measures.largest_rise,
-        lambda values, along: measures.place_of_largest(measures.rises(values, along)),
-        neutral=0.0,
-        compares_ends=True,
-    ),
+    "least_rise": largest_of(measures.rises, -1, neutral=0.0, compares_ends=True),
+    "largest_rise": largest_of(measures.rises, neutral=0.0, compares_ends=True),
     "rise_gain": Reduction(measures.rise_gain, neutral=0.0, compares_ends=True),
-    "least_rise_gain": Reduction(
-        measures.least_rise_gain,
-        lambda values, along, across: measures.place_of_largest(-measures.rise_gains(values, along, across)),
-        neutral=0.0,
-        compares_ends=True,
-    ),
-    "largest_rise_gain": Reduction(
-        measures.largest_rise_gain,
-        lambda values, along, across: measures.place_of_largest(measures.rise_gains(values, along, across)),
-        neutral=0.0,
-        compares_ends=True,
-    ),
+    "least_rise_gain": largest_of(measures.rise_gains, -1, neutral=0.0, compares_ends=True),
+    "largest_rise_gain": largest_of(measures.rise_gains, neutral=0.0, compares_ends=True),
     "shortfall": Reduction(measures.shortfall, neutral=0.0, compares_ends=True),
     "departure": Reduction(measures.departure, measures.place_of_departure, neutral=0.0),
-    "ratio": Reduction(
-        measures.ratio, lambda values, against: measures.place_of_largest(values / against), neutral=0.0
-    ),
-    "ratio_size": Reduction(
-        measures.ratio_size, lambda values, against: measures.place_of_largest(abs(values / against)), neutral=0.0
-    ),
-    "least": Reduction(measures.least, lambda values: measures.place_of_largest(-values)),
-    "largest": Reduction(measures.largest, measures.place_of_largest),
+    "ratio": largest_of(measures.ratios, neutral=0.0),
+    "ratio_size": largest_of(measures.ratio_sizes, neutral=0.0),
+    "least": largest_of(measures.identity, -1),
+    "largest": largest_of(measures.identity),
     "furthest_from_one": Reduction(
         measures.furthest_from_one, lambda values: measures.place_of_largest(abs(values - 1)), neutral=1.0
     ),
     "correlation": Reduction(measures.correlation, neutral=1.0, against_first=True),
-    "largest_size": Reduction(
-        measures.largest_size, lambda values: measures.place_of_largest(abs(values)), neutral=0.0
-    ),
+    "largest_size": largest_of(measures.sizes, neutral=0.0),
 }
 """Reductions to one number, by the name that claims give them."""
 ORDERS: dict[str, Callable[[xr.DataArray, str], xr.DataArray]] = {

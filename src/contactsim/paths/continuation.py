@@ -91,8 +91,7 @@ class Continuation:
         self.displacement = displacement
         self.jumps.forget_pace()
         self.current = current, replace(state, displacement=displacement)
-        self.history = History(self.history.max_amplification)
-        self.history.add(current.value, displacement)
+        self.history.restart(current.value, displacement)
 
     def at(self, step: LoadStep) -> CohesiveProblem:
         """Return the problem at a load step."""
