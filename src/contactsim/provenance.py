@@ -12,9 +12,12 @@ import json
 from functools import cache
 from importlib import metadata
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from contactsim.code_digest.normal_form import SourceCode, read_source
 from contactsim.errors import InputError
+
+if TYPE_CHECKING:
+    from contactsim.code_digest.normal_form import SourceCode
 
 PACKAGE = "contactsim"
 LIBRARIES = ("numpy", "scipy", "ducc0", "numba", "xarray", "netCDF4")
@@ -39,6 +42,8 @@ def module_path(name: str) -> Path | None:
 @cache
 def source_of(name: str) -> SourceCode:
     """Return the source of a module of this package in its normal form."""
+    from contactsim.code_digest.normal_form import read_source  # only the workflow reads sources
+
     path = module_path(name)
     if path is None:
         raise InputError("module", name, f"a module of {PACKAGE}")
