@@ -69,7 +69,7 @@ def test_states_on_the_full_grid_are_those_of_a_path_on_the_full_grid(name):
     wrong = np.abs(nested.load - whole.load) / np.abs(whole.load).max()
     assert wrong[places].max() <= 1e-6
     # a jump may come an increment sooner on the coarse grid; the other states are solved to 1e-4 on 1024 points
-    assert (wrong > 1e-5).sum() <= 1
+    assert (wrong > 3e-4).sum() <= 1
 
 
 def test_a_state_on_the_full_grid_is_certified_from_its_displacement_alone():

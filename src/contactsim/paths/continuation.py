@@ -1,7 +1,8 @@
 """Follow one branch of equilibria along a load path: each state starts from the one before.
 
 The branch is that of a slow experiment: the equilibrium that the overdamped flow reaches from the last stable state.
-Where continuation fails, a step is divided until it follows the branch or shows a jump.
+Where continuation fails, the flow leads on, and the step is divided until it follows the branch or shows a jump. The
+jump of one contact among many is not located.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class Continuation:
     fold_width
         Largest distance (nm) that the load moves the surface between both sides of a jump.
     divides
-        If True, steps that continuation fails to take are divided.
+        If True, steps that continuation fails to take are divided, unless many contacts jump.
     max_amplification
         Largest ratio of a prediction's error to those of the states that it follows from.
     """
@@ -154,7 +155,7 @@ class Continuation:
             jump = Jump(*self.current, step, state, state.largest_change)
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < increment < np.inf:
             self.jumps.learn_pace(largest_change(self.problem, state.displacement - self.displacement) / increment)
-        if jump:
+        if jump or (flowed and not self._divides):  # the branch may have ended
             self.history.restart(step.value, state.displacement)
         else:
             self.history.add(step.value, state.displacement)
@@ -176,8 +177,12 @@ class Continuation:
         return PathState(step, here, state.displacement, *numbers, state, jumps)
 
     def advance_to(self, step: LoadStep) -> tuple[Equilibrium, tuple[Jump, ...], int]:
-        """Advance to a step, divided if need be; return the state, the jumps on the way, and the iterations."""
-        goals, divides, jumps, iterations = [step.value], self._divides, [], 0
+        """Advance to a step; return the state, the jumps on the way, and the iterations.
+
+        Where continuation fails, the flow from the current state leads on. The step is divided, to find where the jump
+        begins, unless it is that of one contact among many.
+        """
+        goals, divides, locates, jumps, iterations = [step.value], self._divides, False, [], 0
         while True:
             goal = replace(step, value=goals[-1])
             flowed = True
@@ -186,18 +191,34 @@ class Continuation:
                 iterations += state.iterations
                 flowed = not self.is_on_branch(state)
             if flowed:
-                parameter = self.parameter(step)
-                divisible = divides and len(goals) <= MAX_HALVINGS
-                if parameter is not None and divisible and self.jumps.may_hide_in(goal, abs(goals[-1] - parameter)):
-                    goals.append((parameter + goals[-1]) / 2)
+                increment = self._divisible_increment(goal) if divides and len(goals) <= MAX_HALVINGS else 0.0
+                if not (increment and locates):
+                    state = self.flow_to(goal)
+                    iterations += state.iterations
+                    locates = not self._is_minor(goal, increment, state)
+                if increment and locates:
+                    goals.append(goals[-1] - increment / 2)
                     continue
-                state = self.flow_to(goal)
-                iterations += state.iterations
             if state.is_stable:
                 jumps += [jump for jump in [self.accept(goal, state, flowed)] if jump]
+                locates = locates and not flowed
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False
                 continue
             goals.pop()
             if not goals:
                 return state, tuple(jumps), iterations
+
+    def _divisible_increment(self, step: LoadStep) -> float:
+        """Return the change of the load to a step, with its sign, where a jump may hide in it; else zero."""
+        parameter = self.parameter(step)
+        if parameter is None:
+            return 0.0
+        increment = step.value - parameter
+        return increment if self.jumps.may_hide_in(step, abs(increment)) else 0.0
+
+    def _is_minor(self, step: LoadStep, increment: float, state: Equilibrium) -> bool:
+        """Return True if the flow to a state passed no jump worth locating."""
+        if self.current is None or not state.is_stable:
+            return False
+        return self.jumps.is_minor(step, abs(increment), self.current[1], state)

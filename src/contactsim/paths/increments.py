@@ -42,7 +42,8 @@ class Requested:
     Parameters
     ----------
     fold_width
-        Largest distance (nm) that the load moves the surface between both sides of a jump: the step is divided.
+        Largest distance (nm) that the load moves the surface between both sides of a jump: the step is divided. On
+        approach the jump of one contact among many stays between two steps, no longer than the laws' length.
 
     Raises
     ------

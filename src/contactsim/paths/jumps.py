@@ -20,8 +20,15 @@ from contactsim.traits import Trait
 JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
 """A flow is a jump if it moves the surface by more than this part of the laws' length and by more than this many steps.
 A step under load counts as the length that a step of that size moved the surface before."""
+MANY_PATCHES, LOADED = 20, 0.5
+"""Loaded patches above which the jump of one contact is not located. A contact has up to three: middle and edges.
+Least traction of a loaded patch, over the laws' strength."""
+CALM_RATIO = 0.25
+"""Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate."""
 SLIP_RATIO = 250.0
 """Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
+ROUNDING = 1e-9
+"""Relative rounding of a step's length."""
 FOLD_WIDTH = 0.002
 """Largest width of a jump by default, nm."""
 
@@ -93,6 +100,30 @@ class JumpCriterion:
         if step.held is not None:  # a slip of half a cell is a jump, however long the step
             smooth = min(smooth, self.problem.lattice_constant / 2)
         return distance > smooth
+
+    def is_minor(self, step: LoadStep, increment: float, before: Equilibrium, after: Equilibrium) -> bool:
+        """Return True if there is no jump worth locating on a step: none at all, or that of one contact among many.
+
+        On approach alone, and for steps no longer than the laws' length.
+
+        Parameters
+        ----------
+        step
+            Load step at which the motion ends.
+        increment
+            Change of the load since the last state, nm or GPa.
+        before, after
+            The last state, and the one that the flow reaches from it.
+        """
+        if step.control is not Trait.APPROACH or increment > self.problem.interaction_range * (1 + ROUNDING):
+            return False
+        is_calm = after.largest_change <= CALM_RATIO * increment
+        return is_calm or max(self._count_patches(before), self._count_patches(after)) > MANY_PATCHES
+
+    def _count_patches(self, state: Equilibrium) -> int:
+        """Return the number of loaded patches of a state."""
+        loaded = np.abs(state.traction[0]) > LOADED * self.problem.strength
+        return int(np.count_nonzero(loaded & ~np.roll(loaded, 1)))
 
     def may_hide_in(self, step: LoadStep, increment: float) -> bool:
         """Return True if a step is divided: it might take smooth motion for a jump, or is wider than a jump may be."""

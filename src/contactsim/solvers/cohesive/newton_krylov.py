@@ -3,7 +3,8 @@
 From a guess near the solution, Newton's method on the Fourier coefficients needs one or two linear solves, each of a
 few Krylov iterations with the preconditioner of `zone_preconditioner`. At the end of a branch (a jump into or out of
 contact) Newton's method could end anywhere. A slow experiment follows the overdamped flow du/dt = -(K u + T) from the
-last stable state. It is integrated by linearly implicit steps
+last stable state. For laws with a potential it goes downhill in energy, and `descent` finds its end in a few short
+steps. For other laws it is integrated by linearly implicit steps
 
     (K + T' + s) du = -r,
 
@@ -28,6 +29,7 @@ from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
+from contactsim.solvers.cohesive.descent import descend
 from contactsim.solvers.cohesive.gmres import LinearMap, gmres
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
@@ -43,6 +45,9 @@ INITIAL_SHIFT, MIN_REFUSED_SHIFT, NEGLIGIBLE_SHIFT = 0.03, 0.02, 1e-3
 """Shift over the laws' largest tangent: at first, at least after a refused step, and below which it is set to zero."""
 MAX_CHANGE_RATIO = 3.0
 """Newton's method ends once it has moved this many times as far as is of use."""
+MAX_RESIDUAL = 0.1
+"""Newton's method does not begin, or ends, where the residual is more than this part of the strength: the state is far
+from the guess, and the end of its branch is sooner found by a flow."""
 MAX_SHARED_ITERATIONS = 5
 """A preconditioner is made anew after a linear solve with more iterations than this."""
 STEP_DIVISIONS = 1, 3
@@ -138,6 +143,7 @@ class NewtonKrylov:
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
         """Return the state that Newton's method reaches from a guess."""
         displacement, far, distance = guess, MAX_CHANGE_RATIO * within, 0.0
+        worst_near = MAX_RESIDUAL if np.isfinite(within) else np.inf
         for count in range(self.newton_budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
@@ -148,12 +154,13 @@ class NewtonKrylov:
             if (
                 worst <= problem.tolerance
                 or count == self.newton_budget
-                or not (np.isfinite(worst) and distance <= far)
+                or not (np.isfinite(worst) and worst <= worst_near and distance <= far)
             ):
                 break
-            forcing = np.clip(SAFETY * problem.tolerance / worst, MIN_FORCING, MAX_FORCING)
             precondition = memory.preconditioner(problem, tangent)
-            change, iterations = self._solve(problem, tangent, precondition, residual, 0.0, forcing)
+            change, iterations = self._solve(
+                problem, tangent, precondition, residual, 0.0, self._forcing(problem, worst)
+            )
             memory.record(iterations)
             displacement = displacement + change
         status = status_of(worst, problem)
@@ -164,14 +171,37 @@ class NewtonKrylov:
         return Equilibrium(displacement, gap, traction, status, worst, distance, count, unstable)
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """Return the end of the overdamped flow from a state, in smaller steps where it does not come to rest."""
+        """Return the end of a slow motion from a state: downhill in energy, or by the overdamped flow.
+
+        The flow takes smaller steps where it does not come to rest.
+        """
         iterations = 0
+        if Trait.NON_CONSERVATIVE not in problem.law.traits:
+            state = self._descend(problem, start)
+            if state.status is not Status.MAX_ITERATIONS:
+                return state
+            iterations = state.iterations
         for parts in STEP_DIVISIONS:
             state = self._flow(problem, start, self.flow_step / parts, self.flow_budget * parts)
             iterations += state.iterations
             if state.status is not Status.MAX_ITERATIONS:
                 break
         return replace(state, iterations=iterations)
+
+    def _descend(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+        """Return the stable minimum of the energy below a state; one that is not stable is left."""
+        state, iterations = descend(problem, start, self.flow_budget), 0
+        for _ in range(MAX_NUDGES):
+            iterations += state.iterations
+            if state.status is not Status.CONVERGED:
+                break
+            tangent = problem.tangent(state.gap)[1]
+            growing = self._growing(problem, tangent, ZonePreconditioner(problem, tangent))
+            if growing is None:
+                break
+            nudged = state.displacement + NUDGE * problem.interaction_range * growing.wave
+            state = descend(problem, nudged, self.flow_budget)
+        return replace(state, largest_change=largest_change(problem, state.displacement - start), iterations=iterations)
 
     def _flow(self, problem: CohesiveProblem, start: Array, largest_step: float, budget: int) -> Equilibrium:
         """Return the end of the overdamped flow from a state.
@@ -217,7 +247,7 @@ class NewtonKrylov:
                 shift = max(INITIAL_SHIFT * problem.law_stiffness, least_shift)
                 left, displacement = displacement, displacement + nudge * growing.wave
                 continue
-            forcing = np.clip(SAFETY * problem.tolerance / worst, MIN_FORCING, MAX_FLOW_FORCING)
+            forcing = MAX_FLOW_FORCING if shift else self._forcing(problem, worst)
             change, _ = self._solve(problem, tangent, precondition, residual, shift, forcing)
             accepted, shift = self._judge_step(problem, change, residual, shift, largest_step)
             growth_steps -= accepted
@@ -225,6 +255,10 @@ class NewtonKrylov:
             displacement = displacement + change if accepted else displacement
         distance = largest_change(problem, displacement - start)
         return Equilibrium(displacement, gap, traction, status, worst, distance, count)
+
+    def _forcing(self, problem: CohesiveProblem, worst: float) -> float:
+        """Return the relative residual to which a step of Newton's method is solved."""
+        return float(np.clip(SAFETY * problem.tolerance / worst, MIN_FORCING, MAX_FORCING))
 
     def _judge_step(
         self, problem: CohesiveProblem, change: Array, residual: Array, shift: float, largest_step: float

@@ -32,6 +32,8 @@ INVERSE_ITERATIONS, OUTSIDE_AMPLITUDE = 2, 0.1
 """Steps of inverse iteration for each state; initial amplitude of a wave outside the zone, over its rms in the zone."""
 MAX_EIGENVALUES = 160
 """Largest number of unknowns of a zone whose growing displacements are computed."""
+ROUNDING = 1e-9
+"""Part of its diagonal that is added to the compliance of a zone, so that rounding does not make it indefinite."""
 MAX_UNKNOWNS = 400
 """Unknowns of the zone above which its factorisation costs more than it saves: the coarse grid gets coarser."""
 
@@ -167,13 +169,31 @@ class ZonePreconditioner:
         """
         if not 0 < len(self._zone) * len(self._values) <= MAX_EIGENVALUES:
             return None
-        values, vectors = np.linalg.eig(self._matrix)
-        lowest = int(np.argmin(values.real))
-        if values[lowest].real >= 0:
+        value, vector = self._lowest()
+        if value >= 0:
             return None
         wave = np.zeros(self._problem.unknowns, complex)
-        wave[:, : self._low] = self._spread(vectors[:, lowest].real.reshape(self._values.shape[1], -1))
+        wave[:, : self._low] = self._spread(vector.reshape(self._values.shape[1], -1))
         return wave
+
+    def _lowest(self) -> tuple[float, Array]:
+        """Return the lowest eigenvalue of 1 + C D, its real part, and the real part of its eigenvector.
+
+        With one component, C = L Lᵀ and 1 + Lᵀ D L is symmetric; it has the same eigenvalues, and eigenvectors L⁻¹ w.
+        """
+        from scipy.linalg import cholesky, eigh
+
+        if self._values.shape[:2] == (1, 1):
+            compliance = self._responses[0][0][(self._zone[:, None] - self._zone) % self._nodes]
+            compliance[np.diag_indices(len(compliance))] *= 1 + ROUNDING  # C is singular where the zone is everywhere
+            lower = cholesky(compliance, lower=True)
+            symmetric = lower.T @ (self._values[0, 0, :, None] * lower)
+            symmetric[np.diag_indices(len(symmetric))] += 1
+            values, vectors = eigh(symmetric, subset_by_index=[0, 0])
+            return float(values[0]), lower @ vectors[:, 0]
+        values, vectors = np.linalg.eig(self._matrix)
+        lowest = int(np.argmin(values.real))
+        return float(values[lowest].real), vectors[:, lowest].real
 
     def _spread(self, held: Array) -> Array:
         """Return the displacement (exerted, low) under the tractions of a displacement in the zone (read, zone)."""
