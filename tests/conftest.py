@@ -12,7 +12,6 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.analysis import aggregate, costs
@@ -26,6 +25,7 @@ from contactsim.study.plan import Plan
 from contactsim.study.run import Run
 from contactsim.study.select_effects import select_effects
 from contactsim.study.stages import STAGES
+from contactsim.threads import limit_threads
 from support.places import ROOT
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # of processes that tests start; of this one, see below
@@ -34,7 +34,7 @@ FILES = (("datasets", ".nc"), ("costs", ".csv"))
 
 def pytest_configure() -> None:
     """One BLAS thread, as `simulate` has: on small dense systems more would only wait for each other."""
-    threadpool_limits(1, "blas")
+    limit_threads(1)
 
 
 def compute_run(job: tuple[Run, RunFiles, Path | None, Path | None]) -> None:

@@ -15,6 +15,7 @@ FLOORS = (
         "errors",
         "grid",
         "traits",
+        "threads",
         "files",
         "status",
         "variables",

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import xarray as xr
-from threadpoolctl import threadpool_limits
 
 from contactsim.contact.scene import ProblemKind
 from contactsim.errors import InputError
@@ -18,6 +17,7 @@ from contactsim.paths.pressures import Point, simulate_loads
 from contactsim.paths.record import simulate_path
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import default_solver
+from contactsim.threads import limit_threads
 
 
 @dataclass(frozen=True)
@@ -129,6 +129,5 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
             raise InputError(name, value, f"none with {driver.words}, only {used}")
     solver = default_solver(scene) if options.solver is None else options.solver
     check_solver(solver, scene)
-    # more threads of dense algebra would only wait for each other, and change the last digits of a result
-    with threadpool_limits(options.threads, "blas"):
+    with limit_threads(options.threads):
         return driver.follow(setup, solver, reuse or Reuse())

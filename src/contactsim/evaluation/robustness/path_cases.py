@@ -14,7 +14,6 @@ from functools import cached_property
 from typing import cast
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.loading import LoadPath
@@ -31,6 +30,7 @@ from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
+from contactsim.threads import limit_threads
 from contactsim.traits import Trait
 
 FAR = 12.0
@@ -156,7 +156,7 @@ class PathCase:
     def follow(self, method: CohesiveSolver) -> tuple[CohesiveProblem, list[PathState]]:
         """The problem, which has counted the work, and the states that a solver finds."""
         problem = pose_cohesive(self.scene, -self.shape[0], self.tolerance)
-        with threadpool_limits(1, "blas"):  # on small dense systems more would only wait for each other
+        with limit_threads(1):
             return problem, list(Requested().follow(problem, method, self.steps))
 
     @cached_property
