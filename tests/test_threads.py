@@ -25,7 +25,8 @@ def count_threads(self, values):
 
 seen = set()
 zone_preconditioner.ZonePreconditioner._factor = count_threads
-scene = Scene(HalfSpace(77.0), Cylinder(length=10000.0, radius=25000.0), NormalCohesiveZone(2.0), approaches([-1.0, 0.0]))
+surface, path = Cylinder(length=10000.0, radius=25000.0), approaches([-1.0, 0.0])
+scene = Scene(HalfSpace(77.0), surface, NormalCohesiveZone(2.0), path)
 simulate(scene, points=256)
 print(sorted(seen))
 """

@@ -1,0 +1,101 @@
+"""Overdamped flow of smooth laws from a state to the next stable one, by linearly implicit steps.
+
+The flow du/dt = -(K u + T) is what a slow experiment follows from the end of a branch. Each step solves
+
+    (K + T' + s) du = -r,
+
+with a shift s, the inverse of the time step, that adapts to the change of the displacement in a step. Steps that go
+uphill or too far are refused. Once s is small against the laws' tangent it is set to zero, and the last steps are
+Newton's. An unstable state is left along a growing displacement. Laws without a potential have tangents that are not
+symmetric, and there such a displacement may yet decay. A state to which the flow returns, in steps in which growth
+would double, is stable.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.grid import Array
+from contactsim.solvers.cohesive.base import Equilibrium, are_pulled_apart, largest_change
+from contactsim.solvers.cohesive.linearised import find_growth, newton_forcing, solve_linearised
+from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
+from contactsim.status import Status
+
+FLOW_FORCING = 3e-2
+"""Relative residual of the linear solve in a step of the flow: its direction need not be exact."""
+INITIAL_SHIFT, MIN_REFUSED_SHIFT, NEGLIGIBLE_SHIFT = 0.03, 0.02, 1e-3
+"""Shift over the laws' largest tangent: at first, at least after a refused step, and below which it is set to zero."""
+GROWTH_SHIFT, GROWTH_STEPS = 2.0, 12
+"""Least shift over the rate of growth, and for how many steps, after an unstable state: growth doubles in each step."""
+NUDGE, MAX_NUDGES = 0.03, 5
+"""Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
+
+
+def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: int, krylov_budget: int) -> Equilibrium:
+    """Return the end of the overdamped flow from a state.
+
+    Parameters
+    ----------
+    problem
+        The problem at the load step.
+    start
+        Coefficients of a displacement (exerted, m), nm.
+    largest_step
+        Largest change of the displacement in a step, over the interaction range.
+    budget
+        Largest number of steps.
+    krylov_budget
+        Largest number of Krylov iterations in a step.
+    """
+    displacement, shift = start, INITIAL_SHIFT * problem.law_stiffness
+    status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
+    least_shift, growth_steps = 0.0, 0  # of a flow that leaves an unstable state
+    left: Array | None = None  # the state that the flow was made to leave, since it seemed to be unstable
+    while count < budget:
+        count += 1
+        gap = problem.gap(displacement)
+        traction, tangent = problem.tangent(gap)
+        residual = problem.residual(displacement, traction)
+        worst = problem.norm(residual)
+        if not np.isfinite(worst):
+            status = Status.NON_FINITE
+            break
+        if are_pulled_apart(problem, gap):
+            status = Status.NO_EQUILIBRIUM
+            break
+        precondition = ZonePreconditioner(problem, tangent, shift)
+        if shift == 0 and worst <= problem.tolerance:
+            growing = find_growth(tangent, precondition)
+            nudge = NUDGE * problem.interaction_range
+            returned = left is not None and largest_change(problem, displacement - left) < nudge / 2
+            if growing is None or returned:
+                status = Status.CONVERGED
+                break
+            if nudges == MAX_NUDGES:
+                break
+            nudges, least_shift, growth_steps = nudges + 1, GROWTH_SHIFT * growing.rate, GROWTH_STEPS
+            shift = max(INITIAL_SHIFT * problem.law_stiffness, least_shift)
+            left, displacement = displacement, displacement + nudge * growing.wave
+            continue
+        forcing = FLOW_FORCING if shift else newton_forcing(problem, worst)
+        change, _ = solve_linearised(tangent, precondition, residual, forcing, krylov_budget, shift)
+        accepted, shift = _judge_step(problem, change, residual, shift, largest_step)
+        growth_steps -= accepted
+        shift = max(shift, least_shift) if growth_steps > 0 else shift
+        displacement = displacement + change if accepted else displacement
+    distance = largest_change(problem, displacement - start)
+    return Equilibrium(displacement, gap, traction, status, worst, distance, count)
+
+
+def _judge_step(
+    problem: CohesiveProblem, change: Array, residual: Array, shift: float, largest_step: float
+) -> tuple[bool, float]:
+    """Return whether a step of the flow is accepted, and the shift of the next step."""
+    size = float(np.abs(problem.field(change)[: len(change)]).max())
+    largest, stiffness = largest_step * problem.interaction_range, problem.law_stiffness
+    downhill = float(np.vdot(change, residual).real) < 0
+    if not (downhill and size <= 2 * largest):
+        return False, max(3 * shift, MIN_REFUSED_SHIFT * stiffness)
+    shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1
+    return True, shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0
