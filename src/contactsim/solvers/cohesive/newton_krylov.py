@@ -31,8 +31,8 @@ from contactsim.traits import Trait
 MAX_CHANGE_RATIO = 3.0
 """Newton's method ends once it has moved this many times as far as is of use."""
 MAX_RESIDUAL = 0.1
-"""Newton's method does not begin, or ends, where the residual is more than this part of the strength: the state is far
-from the guess, and the end of its branch is sooner found by a flow."""
+"""Newton's method ends where the residual is more than this part of the strength, if a state is sought within the trust
+radius: it is farther away, and the end of its branch is sooner found by a flow."""
 MAX_SHARED_ITERATIONS = 5
 """A preconditioner is made anew after a linear solve with more iterations than this."""
 STEP_DIVISIONS = 1, 3
@@ -116,7 +116,7 @@ class NewtonKrylov:
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
         """Return the state that Newton's method reaches from a guess."""
         displacement, far, distance = guess, MAX_CHANGE_RATIO * within, 0.0
-        worst_near = MAX_RESIDUAL if np.isfinite(within) else np.inf
+        worst_near = MAX_RESIDUAL if within <= self.trust_radius * problem.interaction_range else np.inf
         for count in range(self.newton_budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
