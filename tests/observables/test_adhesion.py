@@ -14,6 +14,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import (
     FINAL,
     SUMMARY,
+    find_peaks,
     gradients,
     histograms,
     largest_jumps,
@@ -178,9 +179,10 @@ def test_slip_counts_where_there_is_traction_and_by_how_much():
 
 
 def test_a_peak_is_where_surfaces_would_meet_first_and_counts_in_contact():
-    shape = np.array([1.0, 3.0, 2.0, 4.0, 0.0, 5.0])  # peaks at 0, 2 and 4
-    assert touching_peaks(shape, np.ones(6)) == 3.0
-    assert touching_peaks(shape, np.array([1.0, 1.0, 0.0, 1.0, 1.0, 1.0])) == 2.0
+    peaks = find_peaks(np.array([1.0, 3.0, 2.0, 4.0, 0.0, 5.0]))
+    assert np.flatnonzero(peaks).tolist() == [0, 2, 4]
+    assert touching_peaks(peaks, np.ones(6)) == 3.0
+    assert touching_peaks(peaks, np.array([1.0, 1.0, 0.0, 1.0, 1.0, 1.0])) == 2.0
 
 
 def test_a_path_ends_at_complete_contact_if_it_is_asked_to():

@@ -71,7 +71,7 @@ def _read_loads(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array
 
 def _read_path(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
     """Return quantities of a whole path of cohesive laws."""
-    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
+    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
     return {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}, np.empty(0)
 
 

@@ -91,8 +91,8 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
     -------
     dict
         line_load, its parts repulsive_load - adhesive_load, and friction_force, N/m; mean_pressure, max_pressure and
-        max_tensile_traction, GPa; contact_length, lengths for `INTERACTING`, mean_gap and min_gap, nm; the number of
-        touching_peaks. Over the laws' lengths: max_interpenetration, the deepest overlap, and slip, the largest
+        max_tensile_traction, GPa; contact_length, lengths for `INTERACTING`, mean_gap and min_gap, nm. Over the laws'
+        lengths: max_interpenetration, the deepest overlap, and slip, the largest
         tangential gap under repulsion (of springs, that to the nearest site). Over the contact by `CRITERION`:
         rms_slip, weighted by the normal traction, and slipped_share, the share of its nodes with a slip above
         `SLIPPED`.
@@ -115,7 +115,6 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
         "max_interpenetration": max(-smallest, 0.0) / problem.interaction_range,
     }
     numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
-    numbers["touching_peaks"] = touching_peaks(problem.shape[0], size)
     if len(gap) > 1:
         slip = np.abs(problem.offset(gap)) / problem.law.tangential_length
         numbers["slip"] = float(slip.max(where=repulsive, initial=0.0))
@@ -125,18 +124,25 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
     return numbers
 
 
-def touching_peaks(shape: Array, size: Array) -> float:
+def find_peaks(shape: Array) -> Array:
+    """Return the peaks of a profile, bool (n,): the nodes where the undeformed gap is smaller than at both neighbours.
+
+    shape: gap of the undeformed surfaces, (n,), nm
+    """
+    return (shape < np.roll(shape, 1)) & (shape < np.roll(shape, -1))
+
+
+def touching_peaks(peaks: Array, size: Array) -> float:
     """Return the number of peaks in contact by `CRITERION`.
 
     Parameters
     ----------
-    shape
-        Gap of the undeformed surfaces, (n,); a peak is a node where it is smaller than at both neighbours.
+    peaks
+        True at the peaks of the profile, of `find_peaks`, (n,).
     size
         Size of the normal traction over the strength, (n,).
     """
-    is_peak = (shape < np.roll(shape, 1)) & (shape < np.roll(shape, -1))
-    return float(np.count_nonzero(is_peak & (size > INTERACTING[CRITERION])))
+    return float(np.count_nonzero(peaks & (size > INTERACTING[CRITERION])))
 
 
 def slips(slip: Array, size: Array) -> dict[str, float]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Container, Sequence
 from typing import cast
 
 import numpy as np
 import xarray as xr
 
-from contactsim.observables.adhesion import AREAS, summarise_load_curves
-from contactsim.observables.deformation import summarise_deformation
-from contactsim.observables.friction import SLIDE_INPUTS, summarise_slides
-from contactsim.observables.hysteresis import summarise_cycles
-from contactsim.observables.linearity import summarise_area_load
+from contactsim.observables.adhesion import AREAS, SUMMARY, summarise_load_curves
+from contactsim.observables.deformation import DEFORMATION, summarise_deformation
+from contactsim.observables.friction import ONSET, SLIDE_INPUTS, summarise_slides
+from contactsim.observables.hysteresis import CYCLE, summarise_cycles
+from contactsim.observables.linearity import AREA_LOAD, summarise_area_load
+from contactsim.observables.threshold import THRESHOLD
 
 GRADIENT_RATIOS = {
     "gradient_ratio_repulsive": "rms_gradient_repulsive",
@@ -24,6 +25,8 @@ GRADIENT_RATIOS = {
 """Rms gradients over parts of a surface, whose ratios to that over all of it are derived."""
 RUN_ONLY_VARIABLES = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
 """Variables that stay with the single runs."""
+EVERYTHING: frozenset[str] = frozenset((*SUMMARY, *CYCLE, *DEFORMATION, *ONSET, *THRESHOLD, *AREA_LOAD))
+"""All summaries of a path."""
 SHARED_SCALARS = ("points", "length", "contact_modulus", "seed", "points_y", "length_y")
 """Variables that become scalars where all runs have the same value."""
 
@@ -66,11 +69,40 @@ def summarise_approaches(data: xr.Dataset) -> xr.Dataset:
     return summarise_area_load(data, "relative_contact_area", "rms_gradient_contact")
 
 
-def summarise_paths(data: xr.Dataset) -> xr.Dataset:
-    """Return cohesive paths with relative areas, normalised pressures and the summaries of their curves."""
-    data = summarise_deformation(summarise_cycles(summarise_load_curves(data)))
-    data = summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
+def summarise_paths(data: xr.Dataset, names: Container[str] = EVERYTHING) -> xr.Dataset:
+    """Return cohesive paths with relative areas, normalised pressures and the summaries of their curves.
+
+    Parameters
+    ----------
+    data
+        Combined paths.
+    names
+        Summaries that are asked for; what none of them needs is not computed.
+    """
     ratios = {name: data[length] / data.length for name, length in AREAS.items()}
     ratios |= {ratio: data[name] / data.rms_gradient for ratio, name in GRADIENT_RATIOS.items()}
     data = data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus})
+    for numbers, summarise in SUMMARIES:
+        if any(name in names for name in numbers):
+            data = summarise(data)
+    return data
+
+
+def _summarise_slides(data: xr.Dataset) -> xr.Dataset:
+    """Return slides with their summaries, and paths that do not slide as they are."""
+    return summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
+
+
+def _summarise_interaction(data: xr.Dataset) -> xr.Dataset:
+    """Return paths with the summaries of interacting area against load."""
     return summarise_area_load(data, "relative_interacting_area", "rms_gradient_interacting")
+
+
+SUMMARIES: tuple[tuple[tuple[str, ...], Callable[[xr.Dataset], xr.Dataset]], ...] = (
+    ((*SUMMARY, *DEFORMATION), summarise_load_curves),
+    (CYCLE, summarise_cycles),
+    (DEFORMATION, summarise_deformation),
+    ((*ONSET, *THRESHOLD), _summarise_slides),
+    (AREA_LOAD, _summarise_interaction),
+)
+"""Names of summaries of a path, and the function that computes them from the states and from those before."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from contactsim.grid import Array
 
 POINTS = 4
@@ -32,8 +30,13 @@ def lagrange_weights(parameters: Sequence[float], parameter: float) -> list[floa
 
 def interpolate(parameters: Sequence[float], states: Sequence[Array], parameter: float) -> Array:
     """Return the polynomial through the states at a parameter; arguments as of `lagrange_weights`."""
-    values = np.zeros_like(states[0])
-    for weight, state in zip(lagrange_weights(parameters, parameter), states, strict=True):
+    return combine(lagrange_weights(parameters, parameter), states)
+
+
+def combine(weights: Sequence[float], states: Sequence[Array]) -> Array:
+    """Return the sum of the states, each with its weight."""
+    values = weights[0] * states[0]
+    for weight, state in zip(weights[1:], states[1:], strict=True):
         values += weight * state
     return values
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -30,6 +32,11 @@ class Leg:
         start = parameters[0] if parameters else self.steps[0].value
         return 1 if self.steps[-1].value >= start else -1
 
+    @cached_property
+    def _places(self) -> list[float]:
+        """Values of the requested steps in the direction of the leg, in rising order."""
+        return sorted(self.direction * step.value for step in self.steps)
+
     def add(self, parameter: float, state: Equilibrium, jumps: tuple[Jump, ...]) -> None:
         """Append a solved state; jumps on the way to it begin a new segment."""
         if jumps:
@@ -47,8 +54,8 @@ class Leg:
     def jumps_before(self, value: float) -> tuple[Jump, ...]:
         """Return the jumps between the requested state at a parameter and the one requested before it."""
         direction = self.direction
-        earlier = [direction * step.value for step in self.steps if direction * (value - step.value) > 0]
-        previous = max(earlier, default=-np.inf)
+        earlier = bisect_left(self._places, direction * value)
+        previous = self._places[earlier - 1] if earlier else -np.inf
         new = [item for item in self.passed_segments(value) if direction * item.parameters[0] > previous]
         return tuple(jump for segment in new for jump in segment.jumps)
 

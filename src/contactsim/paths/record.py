@@ -16,7 +16,15 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
-from contactsim.observables.adhesion import OPENINGS, PULLS, gradients, histograms, state_observables
+from contactsim.observables.adhesion import (
+    OPENINGS,
+    PULLS,
+    find_peaks,
+    gradients,
+    histograms,
+    state_observables,
+    touching_peaks,
+)
 from contactsim.observables.conformity import conformities, first_short_mode
 from contactsim.observables.load_curve import join_folds
 from contactsim.observables.sliding import join_slips, slide_observables
@@ -115,6 +123,7 @@ class Profile:
     def __init__(self, problem: CohesiveProblem) -> None:
         self._squares: dict[int, Array] = {}
         self._coefficients: dict[int, Array] = {}
+        self._peaks: dict[int, Array] = {}
         self.first_short = first_short_mode(self.coefficients(problem))
 
     def squares(self, problem: CohesiveProblem) -> Array:
@@ -123,6 +132,13 @@ class Profile:
         if points not in self._squares:
             self._squares[points] = local_squares(problem.shape[0], problem.grid.spacing[0])
         return self._squares[points]
+
+    def peaks(self, problem: CohesiveProblem) -> Array:
+        """Return the peaks of the profile on the grid of a problem, bool (n,)."""
+        points = problem.grid.size
+        if points not in self._peaks:
+            self._peaks[points] = find_peaks(problem.shape[0])
+        return self._peaks[points]
 
     def coefficients(self, problem: CohesiveProblem) -> Array:
         """Return the Fourier coefficients of the undeformed gap on the grid of a problem, (m,), nm."""
@@ -140,6 +156,7 @@ def _state_numbers(scene: Scene, state: PathState, profile: Profile) -> dict[str
     numbers: dict[str, float] = {
         "approach": approach_of(problem, state.displacement),
         **state_observables(problem, gap, traction),
+        "touching_peaks": touching_peaks(profile.peaks(problem), np.abs(traction[0]) / problem.strength),
         **gradients(profile.squares(problem), problem, gap, traction),
         **conformities(before, before + state.displacement[0], profile.first_short),
         "process_zone_step": problem.grid.spacing[0] / zone,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.paths.extrapolation import POINTS, interpolate, lagrange_weights
+from contactsim.paths.extrapolation import POINTS, combine, lagrange_weights
 from contactsim.paths.jumps import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.status import Status
@@ -38,19 +39,20 @@ class Segment:
         parameters, states = self.parameters[window], self.states[window]
         if parameter in parameters:
             return states[parameters.index(parameter)]
-        gap = interpolate(parameters, [state.gap for state in states], parameter)
-        traction = problem.traction(gap)
-        error = traction - interpolate(parameters, [state.traction for state in states], parameter)
-        error[problem.fixed_modes] -= error[problem.fixed_modes].mean(axis=1, keepdims=True)
         weights = lagrange_weights(parameters, parameter)
+        gap = combine(weights, [state.gap for state in states])
+        traction = problem.traction(gap)
+        error = traction - combine(weights, [state.traction for state in states])
+        error[problem.fixed_modes] -= error[problem.fixed_modes].mean(axis=1, keepdims=True)
         inherited = sum(abs(weight) * state.residual for weight, state in zip(weights, states, strict=True))
         residual = float(np.abs(error).max() / problem.strength) + inherited
         status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
-        displacement = interpolate(parameters, [state.displacement for state in states], parameter)
+        displacement = combine(weights, [state.displacement for state in states])
         return Equilibrium(displacement, gap, traction, status, residual, 0.0, 0)
 
     def _nearest(self, parameter: float) -> slice:
         """Return the window of the states nearest to a parameter."""
-        before = sum((other - parameter) * (self.parameters[0] - parameter) > 0 for other in self.parameters)
+        side = self.parameters[0] - parameter  # parameters are in order, so those before this one are the first
+        before = bisect_left(self.parameters, True, key=lambda other: (other - parameter) * side <= 0)
         first = min(max(before - POINTS // 2, 0), max(len(self.parameters) - POINTS, 0))
         return slice(first, first + POINTS)
