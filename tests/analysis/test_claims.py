@@ -129,7 +129,7 @@ def test_an_order_holds_if_no_step_has_the_wrong_sign_by_two_errors(values, verd
 
 
 def test_steps_without_any_error_are_decided_by_their_sign():
-    data = paths([1.0, 2.0, 2.0], work_ratio=[0.0, 0.5, 1.0])
+    data = paths([1.0, 2.0, 2.0], increment=0.0, work_ratio=[0.0, 0.5, 1.0])
     assert judge(path_claim(reduce="rising_steps", along="work_ratio", **BANDLESS), [data])["verdict"] == REPRODUCED
 
 

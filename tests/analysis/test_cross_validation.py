@@ -43,6 +43,17 @@ def test_a_range_that_is_there_stays(level):
     assert np.mean([split_range(sample) for sample in ensembles(level)]) == pytest.approx(0.05, rel=0.1)
 
 
+@pytest.mark.parametrize("errors", [1, 2, 4, 8])
+def test_the_split_range_of_a_slope_lies_between_zero_and_the_range_and_is_short_by_at_most_1_3_errors_of_a_mean(
+    errors,
+):
+    level = 1.75 + errors * SCATTER / np.sqrt(10) * SCALED
+    ranges = np.array([split_range(sample) for sample in ensembles(level)]) * np.sqrt(10) / SCATTER
+    noise = 3 * ranges.std() / np.sqrt(len(ranges))
+    assert errors - 1.3 - noise < ranges.mean() < errors + noise
+    assert ranges.mean() > -noise
+
+
 @pytest.mark.parametrize("members", [2, 3, 5, 10, 41])
 def test_halves_are_disjoint_and_leave_no_member_out(members):
     splits = half_splits(members)

@@ -10,7 +10,13 @@ import pytest
 from contactsim import dataset
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.quantities import mean_quantity
-from contactsim.analysis.uncertainty import estimate, estimate_on_thesis_grid, estimate_steps
+from contactsim.analysis.uncertainty import (
+    MIN_MARGIN,
+    estimate,
+    estimate_on_thesis_grid,
+    estimate_steps,
+    student_factor,
+)
 from contactsim.reference import hard_wall
 from support.claims import BANDLESS, claim, made_up, path_claim, paths, with_corrected
 
@@ -68,12 +74,22 @@ def test_the_ensembles_of_a_ratio_are_independent():
     assert np.isnan(number(claim(**RATIO), one, made_up(2.0, members=1)).ensemble_error)
 
 
-def test_members_of_a_large_ensemble_are_left_out_in_ten_blocks():
+def test_members_of_a_large_ensemble_are_left_out_in_twenty_blocks():
     data = noisy(members=40, seed=5)
     blocks = data.kappa.mean("reduced_pressure").mean(set(data.kappa.dims) - {"member", "reduced_pressure"})
-    means = blocks.values.reshape(10, 4).mean(axis=1)
-    expected = means.std(ddof=1) / np.sqrt(10)
+    means = blocks.values.reshape(20, 2).mean(axis=1)
+    expected = student_factor(20) * means.std(ddof=1) / np.sqrt(20)
     assert number(claim(**BANDLESS, at_most=2.0), data).ensemble_error == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("members", [3, 5, 10])
+def test_two_errors_of_a_mean_hold_the_true_value_in_95_percent_of_small_ensembles(members):
+    samples = np.random.default_rng(members).normal(size=(20_000, members))
+    errors = student_factor(members) * samples.std(axis=1, ddof=1) / np.sqrt(members)
+    beyond = np.abs(samples.mean(axis=1)) > MIN_MARGIN * errors
+    assert beyond.mean() == pytest.approx(0.05, abs=0.005)
+    unscaled = np.abs(samples.mean(axis=1)) > MIN_MARGIN * errors / student_factor(members)
+    assert unscaled.mean() > 0.07
 
 
 # --- unknown and absent -------------------------------------------------------------------------------------------
@@ -222,9 +238,26 @@ def test_a_ratio_of_two_studies_is_taken_at_each_value_that_one_of_them_varies()
 def test_each_step_of_an_order_has_its_own_error():
     data = paths([1.0, 3.0, 3.0], increment=0.1, work_ratio=[0.0, 0.5, 1.0])
     settings = path_claim(reduce="rising_steps", along="work_ratio", **BANDLESS)
-    steps, errors = estimate_steps(selected(settings, data))
+    comparison = selected(settings, data)
+    steps, errors = estimate_steps(comparison.steps, comparison)
     assert steps.tolist() == [2.0, 0.0]
     assert errors == pytest.approx(np.full(2, 0.1 * np.sqrt(2)))
+
+
+def test_the_change_from_end_to_end_has_its_own_error():
+    data = paths([1.0, 3.0, 3.0], increment=0.1, work_ratio=[0.0, 0.5, 1.0])
+    comparison = selected(path_claim(reduce="rising_steps", along="work_ratio", **BANDLESS), data)
+    change, error = estimate_steps(comparison.end_to_end, comparison)
+    assert change.tolist() == [2.0]
+    assert error == pytest.approx(0.1 * np.sqrt(2))
+
+
+def test_a_summary_of_a_path_without_an_error_of_its_increments_has_no_known_error():
+    claimed = path_claim()
+    known = paths([1.0, 3.0], increment=0.1, work_ratio=[0.0, 1.0])
+    unmeasured = known.drop_vars(f"{claimed['quantity']}_increment_error")
+    assert np.isfinite(number(claimed, known).grid_error)
+    assert np.isnan(number(claimed, unmeasured).grid_error)
 
 
 # --- against what is stored ---------------------------------------------------------------------------------------
@@ -235,7 +268,8 @@ def test_the_ensemble_error_of_a_mean_is_the_stored_standard_error_and_so_is_the
     settings = claim(select={"hurst_exponent": [0.5, 0.5], "reduced_pressure": [0.1, 0.1]})
     result, stored = number(settings, data), data.sel(hurst_exponent=0.5, reduced_pressure=0.1)
     assert result.value == pytest.approx(float(stored.kappa_mean))
-    assert result.ensemble_error == pytest.approx(float(stored.kappa_standard_error))
+    expected = student_factor(data.member.size) * float(stored.kappa_standard_error)
+    assert result.ensemble_error == pytest.approx(expected)
     assert result.grid_error == pytest.approx(float(stored.kappa_grid_error))
 
 

@@ -18,6 +18,7 @@ from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import PARAMETERS, fit_line_areas
 from contactsim.analysis.height_distribution import height_distances
 from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
+from contactsim.analysis.quantities import unknown
 from contactsim.observables.contact_readings import summarise_readings
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
@@ -97,7 +98,7 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict], sett
         other = summarise_readings(form.derive(combined), settings)
         same = data.sel(member=other.member)
         names = [name for name in PATH_SUMMARIES if name in other and name in same]
-        changes = {name: same[name] - other[name] for name in names}
+        changes = {name: _known_changes(same, other, name) for name in names}
         data = data.assign({f"{name}{suffix}": abs(change).max("member") for name, change in changes.items()})
         if suffix == GRID_ERROR:
             data = data.assign({f"{name}{GRID_CHANGE}": change.mean("member") for name, change in changes.items()})
@@ -139,13 +140,22 @@ def _mean_changes(fine: xr.Dataset, other: xr.Dataset, suffix: str, names: Seque
     """Return the changes of the means between two datasets, over the members that both have."""
     same = fine.sel(member=other.member)
     changes = {
-        name: (converged(same[name], same) - converged(other[name], other)).mean("member")
+        name: (converged(same[name], same) - converged(other[name], other)).mean("member", skipna=False)
         for name in names
         if name in fine
     }
     errors = {f"{name}{suffix}": abs(change) for name, change in changes.items()}
     signed = {f"{name}{GRID_CHANGE}": change for name, change in changes.items() if suffix == GRID_ERROR}
     return xr.Dataset(errors | signed)
+
+
+def _known_changes(fine: xr.Dataset, other: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the changes of a summary between two datasets of the same members.
+
+    All are unknown where one is, because a state of its path was not solved; a member without such a number has none.
+    """
+    is_unknown = unknown(fine, name) | unknown(other, name)
+    return (fine[name] - other[name]).where(~is_unknown.any("member"))
 
 
 def finer_grid_limits(data: xr.Dataset) -> xr.Dataset:

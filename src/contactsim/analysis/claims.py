@@ -21,7 +21,7 @@ from contactsim.analysis.conditions import find_condition
 from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
-from contactsim.analysis.uncertainty import NAN, Estimate, estimate, estimate_steps, is_on_thesis_grid
+from contactsim.analysis.uncertainty import NAN, Estimate, estimate, is_on_thesis_grid
 from contactsim.analysis.verdict import (
     CONDITION,
     FINDING,
@@ -31,7 +31,7 @@ from contactsim.analysis.verdict import (
     band,
     band_text,
     judge_number,
-    judge_steps,
+    judge_order,
 )
 from contactsim.analysis.wording import range_text
 
@@ -123,7 +123,7 @@ def _judge_formula(claim: Mapping) -> dict[str, object]:
 
 def _judge_order(comparison: Comparison) -> tuple[Verdict, Estimate]:
     """Return the verdict on an order, and its worst step in errors in place of a number."""
-    result, worst = judge_steps(*estimate_steps(comparison))
+    result, worst = judge_order(comparison)
     return result, Estimate(worst)
 
 

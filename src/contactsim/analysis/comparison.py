@@ -29,7 +29,7 @@ SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
     "minus": ("minus", operator.sub),
 }
 """Keys of a claim that name a second study: the word for what is done with it, and the operation."""
-MAX_BLOCKS = 10
+MAX_BLOCKS = 20
 """Largest number of blocks into which an ensemble is divided to leave out one after the other."""
 PATH_DIMENSIONS = ("step", "snapshot", "x", "fold", "event")
 """Dimensions along a path: two studies need not share them, as summaries of paths do not have them."""
@@ -92,9 +92,15 @@ class Comparison:
 
     def steps(self, data: Datasets) -> Array:
         """Return the steps of an ordered quantity, positive in the claimed sense, flat."""
-        return ORDERS[self.claim["reduce"]](
-            self._values(data, self.claim["quantity"]), self.claim["along"]
-        ).values.ravel()
+        return self._steps(data).values.ravel()
+
+    def end_to_end(self, data: Datasets) -> Array:
+        """Return the changes of an ordered quantity from the first to the last value, flat."""
+        return self._steps(data).sum(self.claim["along"], skipna=False).values.ravel()
+
+    def _steps(self, data: Datasets) -> xr.DataArray:
+        """Return the steps of an ordered quantity, positive in the claimed sense."""
+        return ORDERS[self.claim["reduce"]](self._values(data, self.claim["quantity"]), self.claim["along"])
 
     def varied_dimensions(self) -> dict[str, Array]:
         """Return the loads and variants that the quantity depends on, by dimension."""

@@ -60,13 +60,18 @@ def find_condition(
     promising = (
         (block, share, part)
         for block, share in narrower_blocks(comparison)
-        if not (part := comparison.select(block)).is_empty and low < part.number(part.data) < high
+        if not (part := comparison.select(block)).is_empty and _is_within(part, low, high)
     )
     for block, share, part in itertools.islice(promising, MAX_BLOCKS):
         number = estimate(part)
         if holds(number):
             return Condition(block, share, number)
     return None
+
+
+def _is_within(part: Comparison, low: float, high: float) -> bool:
+    """Return True if the number of a block lies in a band, with or without the bias of extremes."""
+    return low < part.number(part.data) < high or low < part.unbiased_number(part.data) < high
 
 
 def narrower_blocks(comparison: Comparison) -> Iterator[tuple[Block, float]]:

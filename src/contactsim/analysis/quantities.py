@@ -45,6 +45,8 @@ ERROR_BARS = {
 """Lengths of error bars: the standard errors of these numbers."""
 BAR_SHARES = {"relative_contact_area_bar_share": "relative_contact_area"}
 """Error bars over the range of the axis, which goes from zero to the largest mean."""
+SCATTERS = (*ERROR_BARS, *BAR_SHARES)
+"""Quantities that measure how much members differ."""
 SECOND_ESTIMATORS = {
     f"{name}_corrected": f"{name}_subgrid"
     for name in ("relative_contact_area", "rms_gradient_contact", "kappa", "kappa_r")

@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.special import stdtrit
 
 from contactsim import dataset
 from contactsim.analysis.comparison import Comparison, Datasets, members_left_out
 from contactsim.analysis.quantities import (
+    SCATTERS,
     SECOND_ESTIMATORS,
     grid_change_name,
     resolves_edges,
@@ -20,8 +22,11 @@ from contactsim.analysis.quantities import (
     source_quantity,
 )
 from contactsim.grid import Array
+from contactsim.observables.dataset_forms import EXACT_SUMMARIES, PATH_SUMMARIES
 
 NAN = float("nan")
+MIN_MARGIN = 2.0
+"""Least distance from the edge of a band, in errors, at which a claim is decided."""
 PATH_ERRORS = ("increment", "approach")
 """Errors of a path, and of what is fitted to several; those of two paths are independent."""
 Number = Callable[[Datasets], Any]
@@ -63,12 +68,15 @@ def is_on_thesis_grid(data: xr.Dataset) -> bool:
     return bool((data.points == dataset.settings_of(data)["thesis_points"]).all())
 
 
-def estimate_steps(comparison: Comparison) -> tuple[Array, Array]:
-    """Return the steps of an ordered quantity, positive in the claimed sense, and the error of each; flat arrays."""
+def estimate_steps(number: Number, comparison: Comparison) -> tuple[Array, Array]:
+    """Return the changes of an ordered quantity, positive in the claimed sense, and the error of each; flat arrays.
+
+    number: `Comparison.steps`, or `Comparison.end_to_end` for the changes from one end to the other
+    """
     if comparison.is_empty:
         return np.full(1, NAN), np.full(1, NAN)
-    errors = [_ensemble_error(comparison.steps, comparison), _grid_error(comparison.steps, comparison)]
-    return comparison.steps(comparison.data), _in_quadrature(errors)
+    errors = [_ensemble_error(number, comparison), _grid_error(number, comparison)]
+    return number(comparison.data), _in_quadrature(errors)
 
 
 def _estimate(comparison: Comparison, grid_error: float) -> Estimate:
@@ -93,7 +101,7 @@ def _ensemble_error(number: Number, comparison: Comparison) -> Any:
 
 
 def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> Any:
-    """Return the standard error from leaving out members of a group of datasets; of a mean it is the usual one.
+    """Return the error from leaving out members of a group of datasets: a standard error, widened for a small ensemble.
 
     One member has no error if the surface is not random, else an unknown one.
     """
@@ -101,7 +109,12 @@ def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> An
     if count == 1:
         return NAN if dataset.settings_of(data[group[0]])["surface"]["kind"] == "self_affine" else 0.0
     numbers = [number(parts) for parts in members_left_out(data, group)]
-    return np.sqrt((len(numbers) - 1) * np.var(numbers, axis=0))
+    return student_factor(len(numbers)) * np.sqrt((len(numbers) - 1) * np.var(numbers, axis=0))
+
+
+def student_factor(parts: int) -> float:
+    """Return the factor by which a standard error from some parts grows, so that two errors hold 95 % (Student)."""
+    return float(stdtrit(parts - 1, 0.975)) / MIN_MARGIN
 
 
 def _grid_error(number: Number, comparison: Comparison) -> Any:
@@ -116,8 +129,11 @@ def _grid_error(number: Number, comparison: Comparison) -> Any:
     changes = {str(source_quantity(name)): str(grid_change_name(name)) for name in names}
     if any(change not in study for study in data for change in changes.values()):
         return NAN
+    if any(_lacks_path_error(study, name) for study in data for name in changes):
+        return NAN
     fine = number(data)
-    coarse = [study.assign({name: study[name] - study[change] for name, change in changes.items()}) for study in data]
+    is_scatter = claim["quantity"] in SCATTERS
+    coarse = [study.assign({name: _on_coarser_grid(study, name, is_scatter) for name in changes}) for study in data]
     change = abs(number(coarse) - fine)
     corrected = [name for name in changes if name in SECOND_ESTIMATORS]
     if corrected and all(resolves_edges(study) for study in data):
@@ -125,6 +141,22 @@ def _grid_error(number: Number, comparison: Comparison) -> Any:
         change = np.maximum(change, abs(number(second) - fine))
     moved = [parts for name in changes for parts in _moved_by_path_errors(data, name)]
     return _in_quadrature([change, *(number(parts) - fine for parts in moved)])
+
+
+def _on_coarser_grid(data: xr.Dataset, name: str, is_scatter: bool) -> xr.DataArray:
+    """Return a quantity of all members on the coarser grid, where the change of its mean is known.
+
+    All members change alike; for the scatter of the members, in proportion.
+    """
+    values, change = data[name], data[str(grid_change_name(name))]
+    return values * (1 - change / values.mean("member")) if is_scatter else values - change
+
+
+def _lacks_path_error(data: xr.Dataset, name: str) -> bool:
+    """Return True for a summary of a path in which the increments leave an error that was not measured."""
+    if name not in PATH_SUMMARIES or name in EXACT_SUMMARIES:
+        return False
+    return not any(f"{name}_{kind}_error" in data for kind in PATH_ERRORS)
 
 
 def _moved_by_path_errors(data: Datasets, name: str) -> Iterator[list[xr.Dataset]]:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
-from contactsim.analysis.uncertainty import NAN, Estimate
+from contactsim.analysis.uncertainty import MIN_MARGIN, NAN, Estimate, estimate_steps
 
 REPRODUCED, CONDITION = "reproduced", "reproduced with a condition"
 NOT_REPRODUCED, NOT_DECIDABLE = "not reproduced", "not decidable"
@@ -16,8 +17,6 @@ DEPENDS = "depends on what the text leaves open"
 """The statement holds with one admissible reading and fails with another; see `contactsim.analysis.admissible`."""
 FINDING = "finding"
 """In place of a verdict: a number that no sentence of the thesis states."""
-MIN_MARGIN = 2.0
-"""Least distance from the edge of a band, in errors, at which a claim is decided."""
 
 
 @dataclass(frozen=True)
@@ -100,16 +99,35 @@ def judge_number(claim: Mapping, number: Estimate, scale: float = 1.0) -> Verdic
     return Verdict(REPRODUCED if low < number.value < high else NOT_REPRODUCED, margin, place)
 
 
-def judge_steps(steps: np.ndarray, errors: np.ndarray) -> tuple[Verdict, float]:
-    """Return the verdict on the steps of an order, positive in the claimed sense, and the worst step in its errors.
+def judge_order(comparison: Comparison) -> tuple[Verdict, float]:
+    """Return the verdict on an order, and its worst step in errors."""
+    return judge_steps(*(estimate_steps(number, comparison) for number in (comparison.steps, comparison.end_to_end)))
 
-    A step of the wrong sign counts beyond `MIN_MARGIN` errors. Without a step of a sign the order is not decidable.
+
+def judge_steps(
+    steps: tuple[np.ndarray, np.ndarray], end_to_end: tuple[np.ndarray, np.ndarray]
+) -> tuple[Verdict, float]:
+    """Return the verdict on an order, and its worst step in errors.
+
+    An order holds if the quantity changes from end to end in the claimed sense, by `MIN_MARGIN` errors, and no step has
+    the other sign by as many. The margin is that of the change from end to end, or of the step of the wrong sign.
+
+    Parameters
+    ----------
+    steps, end_to_end
+        Changes, positive in the claimed sense, and their errors.
     """
-    if not np.isfinite([steps, errors]).all():
+    if not all(np.isfinite(part).all() for part in (*steps, *end_to_end)):
         return Verdict(), NAN
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratios = np.where(steps == 0, 0.0, steps / errors)
-    worst, best = float(ratios.min()), float(ratios.max())
+    worst, whole = float(_in_errors(*steps).min()), float(_in_errors(*end_to_end).min())
     if worst <= -MIN_MARGIN:
         return Verdict(NOT_REPRODUCED, -worst), worst
-    return Verdict(REPRODUCED if best >= MIN_MARGIN else NOT_DECIDABLE, best), worst
+    if abs(whole) < MIN_MARGIN:
+        return Verdict(NOT_DECIDABLE, abs(whole)), worst
+    return Verdict(REPRODUCED if whole > 0 else NOT_REPRODUCED, abs(whole)), worst
+
+
+def _in_errors(changes: np.ndarray, errors: np.ndarray) -> np.ndarray:
+    """Return changes over their errors; zero where nothing changes."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(changes == 0, 0.0, changes / errors)

@@ -13,7 +13,7 @@ from typing import Protocol
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.observables.adhesion import SUMMARY
+from contactsim.observables.adhesion import FINAL, SUMMARY
 from contactsim.observables.contact_readings import READINGS
 from contactsim.observables.deformation import DEFORMATION
 from contactsim.observables.derived import summarise_approaches, summarise_paths
@@ -58,6 +58,8 @@ AVERAGED_STATES = (
 """Numbers of a state of a cohesive path that are averaged over members."""
 PATH_SUMMARIES = (*SUMMARY, *CYCLE, *DEFORMATION, *AREA_LOAD, *READINGS, *ONSET, *THRESHOLD)
 """Numbers that summarise a path."""
+EXACT_SUMMARIES = (*FINAL, "final_contact_share", "max_jump_loading", "max_jump_unloading")
+"""Those of a single state, or of a jump that is known by both its sides: the increments leave no error in them."""
 
 
 class DatasetForm(Protocol):

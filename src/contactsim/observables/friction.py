@@ -13,7 +13,7 @@ import xarray as xr
 
 from contactsim.grid import Array
 from contactsim.observables.peeling import PEELING
-from contactsim.observables.polyline import Polyline, average_force, loop_energy
+from contactsim.observables.polyline import Polyline, average_force, every_second, loop_energy
 from contactsim.observables.slide_peeling import peeling_numbers, regained_lengths
 from contactsim.observables.sliding import EVENT, TOUCHING
 from contactsim.observables.threshold import fit_thresholds
@@ -42,15 +42,6 @@ ONSET = (
     "loop_energy",
 )
 """Numbers that summarise a slide."""
-ERRORS = (
-    "static_friction",
-    "mean_friction",
-    "average_friction",
-    "onset_sliding_distance",
-    "first_force_drop",
-    "loop_energy",
-)
-"""Numbers of a slide whose increment error is known."""
 STATE_NUMBERS = (
     *("sliding_distance", "friction_force", "line_load", "contact_length", "mean_gap"),
     *("contact_trailing_edge", "contact_leading_edge", "elastic_energy"),
@@ -67,7 +58,10 @@ STORING_SLIDE = 1.0
 def summarise_slide(
     columns: Mapping[str, Array], events: Mapping[str, Array], period: float
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the summary of one slide (`ONSET`), and what its increments leave open (`ERRORS`).
+    """Return the summary of one slide (`ONSET`), and what its increments leave open in each number.
+
+    The error of a force, or of its place, follows from the states beside it. That of any other number is its change
+    without every second state.
 
     Parameters
     ----------
@@ -82,14 +76,25 @@ def summarise_slide(
     -------
     Numbers and errors; NaN where a state is unknown, and after the onset if the force still rises at the end.
     """
-    numbers, errors = dict.fromkeys(ONSET, np.nan), dict.fromkeys(ERRORS, np.nan)
     on_slide = np.isfinite(columns["sliding_distance"])
     states = {name: values[on_slide] for name, values in columns.items()}
     if on_slide.sum() < MIN_STATES or np.isnan(states["friction_force"]).any():
-        return numbers, errors
+        return dict.fromkeys(ONSET, np.nan), dict.fromkeys(ONSET, np.nan)
     touches_all_over = np.abs(states["mean_gap"]) <= TOUCHING
     states["contact_length"] = np.where(touches_all_over, np.nan, states["contact_length"])
-    line = Polyline.from_states(states, events, int(np.flatnonzero(on_slide)[0]))
+    events = {**events, "event_step": events["event_step"] - np.flatnonzero(on_slide)[0]}
+    numbers, errors = _slide_numbers(states, events, period)
+    fewer, _ = _slide_numbers(*every_second(states, events), period)
+    return numbers, {name: abs(numbers[name] - fewer[name]) for name in ONSET} | errors
+
+
+def _slide_numbers(
+    states: Mapping[str, Array], events: Mapping[str, Array], period: float
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the summary of a slide, and errors that follow from neighbouring states; arguments as of `Polyline`."""
+    numbers: dict[str, float] = dict.fromkeys(ONSET, np.nan)
+    errors: dict[str, float] = {}
+    line = Polyline.from_states(states, events)
     numbers["initial_contact_length"], numbers["initial_load"] = states["contact_length"][0], states["line_load"][0]
     numbers["slip_count"], numbers["stored_energy"] = float(line.slips.size), _stored_energy(line, states)
     gains = regained_lengths(line)
@@ -154,7 +159,7 @@ def _stored_energy(line: Polyline, states: Mapping[str, Array]) -> float:
 def _slip_numbers(
     line: Polyline, events: Mapping[str, Array], period: float
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the force drop, distance and energy of the first slip, and the error of the drop; nothing without one."""
+    """Return the force drop, distance and energy of the first slip, and their errors; nothing without a slip."""
     if not line.slips.size:
         return {}, {}
     first = line.slips[0]
@@ -164,7 +169,11 @@ def _slip_numbers(
         "first_slip_periods": events["event_slip"][0] / period,
         "first_slip_released_energy": events["event_released_energy"][0],
     }
-    return numbers, {"first_force_drop": line.slip_error(first - 1) + line.slip_error(first)}
+    errors = {
+        "first_force_drop": line.slip_error(first - 1) + line.slip_error(first),
+        "first_slip_released_energy": float(abs(line.force[first - 1]) * line.width[first]),
+    }
+    return numbers, errors
 
 
 def _released_share(line: Polyline, states: Mapping[str, Array], events: Mapping[str, Array]) -> float:
@@ -198,10 +207,9 @@ def summarise_slides(data: xr.Dataset) -> xr.Dataset:
         *rows, period = values
         columns = dict(zip(STATE_NUMBERS, rows, strict=False))
         events = dict(zip(EVENT, rows[len(STATE_NUMBERS) :], strict=True))
-        numbers, errors = summarise_slide(columns, events, float(period))
-        return (*(numbers[name] for name in ONSET), *(errors[name] for name in ERRORS))
+        return tuple(part[name] for part in summarise_slide(columns, events, float(period)) for name in ONSET)
 
-    names = [*ONSET, *(f"{name}_increment_error" for name in ERRORS)]
+    names = [*ONSET, *(f"{name}_increment_error" for name in ONSET)]
     values = xr.apply_ufunc(
         summary,
         *(data[name].where(converged) for name in STATE_NUMBERS),

@@ -34,12 +34,14 @@ class Polyline:
     state: Array
 
     @classmethod
-    def from_states(cls, states: Mapping[str, Array], events: Mapping[str, Array], first_step: int) -> Polyline:
-        """Return the line through the states (state,) and slips (event,) of a slide that begins at a step."""
+    def from_states(cls, states: Mapping[str, Array], events: Mapping[str, Array]) -> Polyline:
+        """Return the line through the states (state,) and slips (event,) of a slide.
+
+        `event_step` is the number of the state after a slip; NaN where there are no more slips.
+        """
         distance = states["sliding_distance"]
-        count = distance.size
+        count, of_state = distance.size, events["event_step"]
         with np.errstate(invalid="ignore"):
-            of_state = events["event_step"] - first_step  # number of the state after a slip
             slips = np.flatnonzero(np.isin(of_state, np.arange(count)))
         following = of_state[slips].astype(int)
         width, after = events["event_width"][slips], events["event_sliding_distance"][slips]
@@ -135,6 +137,18 @@ class Polyline:
         start = Polyline(*(np.array([value]) for value in (sliding_distance, force, np.nan, False, 0.0, 0)))
         parts = ((getattr(start, entry.name), getattr(rest, entry.name)) for entry in fields(self))
         return Polyline(*(np.concatenate(pair) for pair in parts))
+
+
+def every_second(states: Mapping[str, Array], events: Mapping[str, Array]) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Return the states and slips of a slide without every second state; the first and the last state stay.
+
+    Slips stay, as they are known apart from the states. Arguments as of `Polyline.from_states`.
+    """
+    count = states["sliding_distance"].size
+    kept = np.unique([*range(0, count, 2), count - 1])
+    numbers = events["event_step"]
+    after = np.where(np.isnan(numbers) | (numbers < 0), numbers, np.searchsorted(kept, numbers))
+    return {name: values[kept] for name, values in states.items()}, {**events, "event_step": after}
 
 
 def average_force(line: Polyline, period: float) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
 from contactsim.observables.adhesion import FINAL, SUMMARY
 from contactsim.observables.deformation import DEFORMATION
-from contactsim.observables.friction import ERRORS, ONSET
+from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.threshold import ALONG, THRESHOLD
@@ -117,7 +117,7 @@ class CohesiveStudy:
         slips = "t" in scene.components
         names = {name for name in (*SUMMARY, *CYCLE, *DEFORMATION) if slips or FINAL.get(name) != "slip"}
         if scene.sliding:
-            names |= {*ONSET, *(f"{name}_increment_error" for name in ERRORS)}
+            names |= {*ONSET, *(f"{name}_increment_error" for name in ONSET)}
             names |= {*(THRESHOLD if set(ALONG) & set(dimensions) else ())}
         return names | set(AREA_LOAD)
 

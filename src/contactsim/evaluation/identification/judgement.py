@@ -14,8 +14,8 @@ from contactsim import dataset
 from contactsim.analysis.cases import DEFAULT, join_cases
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.reductions import ORDERS
-from contactsim.analysis.uncertainty import estimate, estimate_steps
-from contactsim.analysis.verdict import judge_number, judge_steps
+from contactsim.analysis.uncertainty import estimate
+from contactsim.analysis.verdict import judge_number, judge_order
 from contactsim.evaluation.identification.admission import AdmissionNumbers, Limits, admit, has_signs_of_text
 from contactsim.evaluation.identification.sampling import Candidate
 from contactsim.evaluation.identification.simulation import DOUBLED
@@ -41,7 +41,7 @@ def _judge_case(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, obj
     studies = [data[claim[key]] for key in ("study", *SECOND_STUDY) if claim[key]]
     comparison = Comparison(claim, studies).select(claim["select"])
     if claim["reduce"] in ORDERS:
-        result, worst = judge_steps(*estimate_steps(comparison))
+        result, worst = judge_order(comparison)
         return {"value": worst, "margin": result.margin, **dict.fromkeys(BAND_SCALES, result.verdict)}
     number = estimate(comparison)
     verdicts = {name: judge_number(claim, number, scale).verdict for name, scale in BAND_SCALES.items()}

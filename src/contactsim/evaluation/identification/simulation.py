@@ -17,7 +17,7 @@ from contactsim.evaluation.identification.sampling import Candidate
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.dataset_forms import form_of
 from contactsim.observables.derived import combine_runs
-from contactsim.observables.friction import ERRORS, ONSET
+from contactsim.observables.friction import ONSET
 from contactsim.observables.threshold import APPROACH_ERROR, THRESHOLD, fit_thresholds
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments, Requested
@@ -40,7 +40,7 @@ DOUBLED = "doubled"
 """Name of the dataset of the strong interface in twice the period."""
 STORED = (
     *ONSET,
-    *(f"{name}_increment_error" for name in ERRORS),
+    *(f"{name}_increment_error" for name in ONSET),
     *THRESHOLD,
     *(f"{name}{APPROACH_ERROR}" for name in THRESHOLD),
     *("points", "length", "lattice_constant", "status", "line_load", "sliding_distance"),
