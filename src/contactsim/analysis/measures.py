@@ -56,6 +56,11 @@ def shortfall(values: xr.DataArray, along: str) -> float:
     return mean(1 - values.isel({along: 0}) / values.isel({along: -1}))
 
 
+def excess(values: xr.DataArray, along: str) -> float:
+    """Return the part of the last value of a dimension by which the first exceeds it, averaged over the others."""
+    return -shortfall(values, along)
+
+
 def slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
     """Return the slope of the line through the logarithms along a dimension, averaged over the others."""
     return mean(slopes(values, against, along))

@@ -75,7 +75,12 @@ CAUSE_KEYS = {
     "kind": Key(choice(KINDS), f"one of {', '.join(KINDS)}"),
     "text": Key(text, "a short text with the number that shows it"),
 }
-REPLACED = ("study", "relative_to", "minus", "quantity", "reduce", "along", "against", "select")
+EDGES = ("at_least", "at_most")
+"""Keys of a band with one edge; a band with two is `expect` with `tolerance`."""
+REPLACED = (
+    *("study", "relative_to", "minus", "quantity", "reduce", "along", "against", "select"),
+    *("expect", "tolerance", *EDGES),
+)
 CASE_KEYS = {key: CLAIM_KEYS[key] for key in REPLACED}
 """Keys that a further case of a statement may replace."""
 CHOICE_KEYS = {key: CLAIM_KEYS[key] for key in (*REPLACED, "cases")}
@@ -195,6 +200,7 @@ def _changed_claim(
     changes = {key: value for key, value in read(replaced, allowed, file, place).items() if value is not None}
     if not changes:
         raise InputError(place, replaced, f"at least one of {', '.join(allowed)}", file)
-    dropped = {"is_finding", "cause"} | ({"beside"} if "quantity" in changes else set())
+    dropped = {"is_finding", "cause"} | ({"beside"} if {"quantity", "against"} & set(changes) else set())
+    dropped |= {*EDGES} if "expect" in changes else {"expect", "tolerance", *EDGES} if {*EDGES} & set(changes) else set()
     given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
     return read_claim(place.removeprefix("claims."), given | changes, file, studies).settings
