@@ -6,9 +6,10 @@ them. A further table for each case holds the solutions of all settings, one row
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,8 +66,8 @@ class Baseline:
         settings = dataset.settings_of(solutions)
         measured = datetime.date.fromtimestamp(Path(costs).stat().st_mtime).isoformat()
         cost = json.loads(Path(costs).read_text(encoding="utf-8"))
-        names = settings["case"], settings["job"], digest(settings)
-        return cls(*names, measured, cost["transform_seconds"], cost["seconds"], solutions.drop_attrs())
+        job = settings["case"], settings["job"], digest(settings)
+        return cls(*job, measured, cost["transform_seconds"], cost["seconds"], solutions.drop_attrs())
 
     def scaled_seconds(self, transform_seconds: float) -> list[float]:
         """Return the seconds of each setting on a machine with another time of a transform."""
@@ -91,10 +92,12 @@ def measured_dates(case: Case, jobs: Path = FILE) -> dict[str, str]:
 def load_baseline(case: str, solver: str, jobs: Path = FILE) -> Baseline:
     """Return the kept results of a solver; KeyError where there are none."""
     rows = {(row["case"], row["solver"]): row for row in _read_jobs(jobs)}
-    *names, seconds_text = rows[case, solver].values()
-    table = pd.read_csv(table_file(case, jobs), float_precision="round_trip")
+    row = rows[case, solver]
+    table = pd.read_csv(table_file(case, jobs), dtype=str, keep_default_na=False)
     data = _dataset_of(table[table.solver == solver].drop(columns="solver"))
-    return Baseline(*names, float(seconds_text), data.seconds.values.tolist(), data.drop_vars("seconds"))
+    seconds, transform_seconds = data.seconds.values.tolist(), float(row["transform_seconds"])
+    solutions = data.drop_vars("seconds")
+    return Baseline(case, solver, row["settings"], row["measured"], transform_seconds, seconds, solutions)
 
 
 def write_baselines(baselines: Sequence[Baseline], jobs: Path) -> None:
@@ -102,7 +105,7 @@ def write_baselines(baselines: Sequence[Baseline], jobs: Path) -> None:
     rows = [[getattr(baseline, name) for name in JOB_COLUMNS] for baseline in baselines]
     for case in dict.fromkeys(baseline.case for baseline in baselines):
         tables = [_table_of(baseline) for baseline in baselines if baseline.case == case]
-        write_text(pd.concat(tables).to_csv(index=False, lineterminator="\n"), table_file(case, jobs))
+        write_text(pd.concat(tables).to_csv(index=False, na_rep="nan", lineterminator="\n"), table_file(case, jobs))
     write_text(pd.DataFrame(rows, columns=JOB_COLUMNS).to_csv(index=False, lineterminator="\n"), jobs)
 
 
@@ -122,14 +125,22 @@ def _table_of(baseline: Baseline) -> pd.DataFrame:
 
 
 def _dataset_of(table: pd.DataFrame) -> xr.Dataset:
-    """Return the dataset of the rows of one solver."""
+    """Return the dataset of the rows of one solver, read as text."""
     dims = list(table)[: list(table).index("knob")]
     shape = [table[dim].nunique() for dim in dims]
     variables: dict[str, tuple[object, np.ndarray]] = {}
     for name in list(table)[len(dims) :]:
-        values = table[name].to_numpy().reshape(shape)
+        values = _values(table[name]).reshape(shape)
         per_setting = values.reshape(shape[0], -1)[:, 0]
         variables[name] = ("setting", per_setting) if name in SETTING_COLUMNS else (dims, values)
-    variables["knob"] = ("setting", variables["knob"][1].astype(str))
     variables["status"] = (dims, variables["status"][1].astype(np.int8))
-    return xr.Dataset(variables, {dim: table[dim].unique() for dim in dims[1:]})
+    return xr.Dataset(variables, {dim: _values(table[dim].unique()) for dim in dims[1:]})
+
+
+def _values(texts: Iterable[str]) -> np.ndarray:
+    """Return whole numbers, other numbers or words, whichever the texts are; numbers to the last digit."""
+    words = list(texts)
+    for kind in (int, float):
+        with contextlib.suppress(ValueError):
+            return np.array([kind(word) for word in words])
+    return np.array(words)
