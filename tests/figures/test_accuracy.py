@@ -10,6 +10,7 @@ import pytest
 
 from contactsim import dataset
 from contactsim.evaluation.work_precision import error_cost
+from contactsim.evaluation.work_precision.baselines import Baseline, write_baselines
 from contactsim.figures import style
 from contactsim.figures.diagnostics import accuracy
 from contactsim.figures.diagnostics.accuracy_footer import footer_text
@@ -47,7 +48,9 @@ SECONDS = {
 TRANSFORM_SECONDS = 2e-5
 PLAN = {
     "settings": SETTINGS,
+    "case": "wave",
     "jobs": [*JOBS],
+    "kept": {},
     "marks": MARKS,
     "tier": "quick",
     "default": "active_set",
@@ -85,7 +88,7 @@ PATH_PLAN = PLAN | {
 }
 
 
-def render(folder, plan=PLAN, jobs=JOBS, members=3):
+def render(folder, plan=PLAN, jobs=JOBS, members=3, baselines=()):
     """The figure's tables, from small made files."""
     for name, data in jobs.items():
         dataset.write(data, folder / f"{name}.nc")
@@ -97,10 +100,9 @@ def render(folder, plan=PLAN, jobs=JOBS, members=3):
     coarse = alone | {"measures_error": True, "seconds": 1e4}
     rows = pd.concat(map(pd.DataFrame, (alone, elsewhere, coarse)))
     rows.to_csv(folder / "costs.csv", index=False)
-    files = {
-        kind: [folder / f"{name}.{end}" for name in plan["jobs"]] for kind, end in (("data", "nc"), ("costs", "json"))
-    }
-    files |= {"study": folder / "study.nc", "study_costs": folder / "costs.csv"}
+    measured = [name for name in plan["jobs"] if name not in plan["kept"]]
+    files = {kind: [folder / f"{name}.{end}" for name in measured] for kind, end in (("data", "nc"), ("costs", "json"))}
+    files |= {"study": folder / "study.nc", "study_costs": folder / "costs.csv", "baselines": list(baselines)}
     targets = {kind: folder / f"shown.{kind}" for kind in ("png", "pdf", "csv")}
     accuracy.write_accuracy(plan, files, targets | {"equal_error": folder / "equal.csv"})
     return pd.read_csv(folder / "shown.csv"), pd.read_csv(folder / "equal.csv")
@@ -300,3 +302,26 @@ def test_the_forecast_counts_in_the_unit_of_time_of_the_machine_that_measured(tm
     assert own.predicted_work.tolist()[:5] == [5e3] * 5
     assert own.predicted_seconds[:5].to_numpy() == pytest.approx([1e2 * TRANSFORM_SECONDS] * 5)
     assert table.predicted_work.isna().sum() == len(table) - 5
+
+
+@pytest.mark.parametrize("slower", [1.0, 4.0])
+def test_kept_baselines_are_shown_as_if_measured_with_their_seconds_scaled(tmp_path, slower):
+    kept = Baseline(
+        *("wave", "polonsky_keer", "digest", "2000-12-31", TRANSFORM_SECONDS * slower),
+        [seconds * slower for seconds in SECONDS["polonsky_keer"]],
+        JOBS["polonsky_keer"],
+    )
+    write_baselines([kept], tmp_path / "package/baselines.csv")
+    jobs = {name: data for name, data in JOBS.items() if name != "polonsky_keer"}
+    plan = PLAN | {"kept": {"polonsky_keer": kept.measured}}
+    tables = render(tmp_path, plan, jobs, baselines=[tmp_path / "package/baselines.csv"])
+    for shown, measured in zip(tables, render(tmp_path), strict=True):
+        pd.testing.assert_frame_equal(shown.drop(columns="seconds"), measured.drop(columns="seconds"), check_exact=True)
+        assert shown.seconds.to_numpy() == pytest.approx(measured.seconds.to_numpy(), nan_ok=True)
+
+
+def test_the_footer_says_which_baselines_are_kept_and_that_their_seconds_are_scaled(usual):
+    text = footer_text(usual[1], PLAN | {"kept": {"polonsky_keer": "2000-12-31"}})
+    assert "baselines (Polonsky–Keer) are kept in the package, measured on 2000-12-31" in text
+    assert "their seconds are scaled by the time of a transform" in text
+    assert "kept" not in footer_text(usual[1], PLAN)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+import shutil
 import zlib
 from collections import Counter
 from collections.abc import Callable
@@ -399,6 +400,38 @@ def test_work_precision_studies_are_made_case_by_case_and_leave_their_study_alon
     case["solvers"]["active_set"]["tolerance"] = [0.01]
     project.configure("accuracy", {tier: {"wave": case} for tier in tiers})
     assert project.planned("accuracy_wave") == [jobs[0], picture]
+
+
+def test_baselines_are_measured_once_and_then_taken_from_the_package(project: Project) -> None:
+    case = figure("smooth") | {
+        "load": [0.1, 0.3],
+        "quantities": ["relative_contact_area"],
+        "settled": {"points": 512, "tolerance": 1.0e-3},
+        "reference": {"points": 4096, "tolerance": 1.0e-6},
+        "levels": {"points": [0.05]},
+        "solvers": {"active_set": {"points": [256, 512]}, "polonsky_keer": {"points": [256]}},
+    }
+    content = {"standard": {"wave": case}, "quick": {"wave": case}, "baselines_from_package": ["standard"]}
+    project.configure("accuracy", content)
+    own = ["accuracy of wave: active_set", "accuracy of wave: reference"]
+    baseline, picture = "accuracy of wave: polonsky_keer", "accuracy_wave: results/standard/figures/accuracy_wave.png"
+    assert project.make("accuracy_wave") == [own[0], baseline, own[1], picture]  # the package has no such case
+    table = project.folder / "results/standard/figures/accuracy_wave.csv"
+    measured = pd.read_csv(table)
+    assert len(project.make("export_baselines")) == 1
+    package = project.folder / "src/contactsim/evaluation/work_precision"
+    shutil.copytree(project.folder / "results/standard/accuracy/package", package, dirs_exist_ok=True)
+    assert project.make("accuracy_wave") == [picture]
+    pd.testing.assert_frame_equal(pd.read_csv(table).drop(columns="seconds"), measured.drop(columns="seconds"))
+    shutil.rmtree(project.folder / "results/standard/accuracy")
+    table.unlink()
+    assert project.planned("accuracy_wave") == [*own, picture]
+    case["solvers"]["polonsky_keer"]["points"] = [512]
+    project.configure("accuracy", content)
+    assert project.planned("accuracy_wave") == [own[0], baseline, own[1], picture]
+    refused = project.snakemake("-n", "--config", "tier=quick", "--", "export_baselines")
+    assert refused.returncode != 0
+    assert "got quick; allowed: one that accuracy.yaml lists in baselines_from_package" in refused.stderr
 
 
 def test_a_wrong_setting_is_refused_with_file_key_value_and_what_is_allowed(fresh: Project) -> None:

@@ -146,7 +146,7 @@ class EvaluationJobs:
         return canonical(cases.case_job(self.products.cases[wildcards.case], wildcards.job))
 
     def case_files(self, folder: str, ending: str) -> ByWildcards:
-        """Return a function for the files of all jobs of a case, in a folder and with an ending."""
+        """Return a function for the files of the measured jobs of a case, in a folder and with an ending."""
 
         def files(wildcards: Wildcards) -> list[Path]:
             jobs = self.products.cases[wildcards.case].jobs()

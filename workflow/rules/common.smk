@@ -7,6 +7,7 @@ ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT / "workflow/lib"))
 
 from contactsim.errors import InputError
+from baseline_jobs import BaselineJobs
 from identification_jobs import CandidateJobs
 from jobs import EvaluationJobs, ResultJobs, RunJobs, code_digest, group_on_cluster, timed_threads
 from library import share_library
@@ -22,7 +23,7 @@ except InputError as error:
     sys.exit(f"Error: {error}")
 PLAN, RESULTS = PRODUCTS.plan, PRODUCTS.results
 RUN_JOBS, RESULT_JOBS, EVALUATION_JOBS, PAGES = RunJobs(PLAN), ResultJobs(PLAN), EvaluationJobs(PRODUCTS), Pages(PRODUCTS)
-CANDIDATE_JOBS = CandidateJobs(PRODUCTS)
+CANDIDATE_JOBS, BASELINE_JOBS = CandidateJobs(PRODUCTS), BaselineJobs(PRODUCTS)
 
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     LOCK = lock_folder(Path(".snakemake"))

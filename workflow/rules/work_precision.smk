@@ -18,6 +18,7 @@ rule draw_work_precision:
         costs=EVALUATION_JOBS.case_files("costs/accuracy", "json"),
         study=EVALUATION_JOBS.case_study,
         study_costs=EVALUATION_JOBS.case_study_costs,
+        baselines=BASELINE_JOBS.package_tables,
     output:
         png=RESULTS / "figures/accuracy_{case}.png",
         pdf=RESULTS / "figures/accuracy_{case}.pdf",
@@ -28,6 +29,17 @@ rule draw_work_precision:
     group: group_on_cluster(workflow, "figures")
     message: "accuracy_{wildcards.case}: {output.png}"
     script: "../scripts/draw_work_precision.py"
+
+
+if PRODUCTS.cases:
+
+    rule export_baselines:
+        input: data=BASELINE_JOBS.all_data, costs=BASELINE_JOBS.all_costs, tier=BASELINE_JOBS.kept_tier
+        output: jobs=BASELINE_JOBS.table, cases=BASELINE_JOBS.case_tables()
+        log: RESULTS / "logs/accuracy/export_baselines.log"
+        params: plan=BASELINE_JOBS.export_params, source=code_digest("export_baselines")
+        message: "baselines, to replace src/contactsim/evaluation/work_precision/baselines.csv and baseline_tables: {output.jobs}"
+        script: "../scripts/export_baselines.py"
 
 
 if PRODUCTS.overview:

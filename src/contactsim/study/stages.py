@@ -22,6 +22,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "figure": ("contactsim.figures.layout", "contactsim.study.law_table"),
     "claims": ("contactsim.analysis.claims", "contactsim.figures.diagnostics.claims"),
     "work_precision": ("contactsim.evaluation.work_precision.cases",),
+    "export_baselines": ("contactsim.evaluation.work_precision.baselines",),
     "work_precision_figure": ("contactsim.figures.diagnostics.accuracy",),
     "overview_figure": ("contactsim.figures.diagnostics.overview",),
     "measure_scaling": ("contactsim.evaluation.calibration.measurement",),

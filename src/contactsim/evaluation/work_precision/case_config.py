@@ -11,6 +11,7 @@ from typing import Any
 from contactsim.error_control.forecast import forecast_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
+from contactsim.evaluation.work_precision.baselines import measured_dates
 from contactsim.evaluation.work_precision.cases import REFERENCE, Case, CaseSettings, case_job
 from contactsim.evaluation.work_precision.knobs import (
     Setting,
@@ -46,6 +47,8 @@ CASE_KEYS = FIGURE_KEYS | {
     "thesis_members": Key(whole(1), "the thesis's own number of members, 1 or more", None),
     "thesis_increment": Key(positive, "the thesis's own increment, a positive number", None),
 }
+KEPT_TIERS = "baselines_from_package"
+"""Key of accuracy.yaml that is no tier."""
 
 
 def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
@@ -53,12 +56,29 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
     file = Path(folder) / "accuracy.yaml"
     if not file.exists():
         return {}
-    tiers = load_yaml(file)
+    tiers, kept_tiers = _read_tiers(file)
     if plan.tier not in tiers:
         raise InputError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
     if not isinstance(tiers[plan.tier], dict):
         raise InputError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
-    return {name: _read_case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
+    cases = {name: _read_case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
+    if plan.tier in kept_tiers:
+        return {name: replace(case, kept=measured_dates(case)) for name, case in cases.items()}
+    return cases
+
+
+def read_kept_tiers(folder: str | Path) -> list[str]:
+    """Return the tiers of accuracy.yaml that take the results of baselines from the package."""
+    return _read_tiers(Path(folder) / "accuracy.yaml")[1]
+
+
+def _read_tiers(file: Path) -> tuple[dict[str, Any], list[str]]:
+    """Return the sections of tiers by name, and the tiers that take the results of baselines from the package."""
+    content = load_yaml(file)
+    tiers = {name: section for name, section in content.items() if name != KEPT_TIERS}
+    key = Key(listed(choice(tuple(tiers))), f"a list from {', '.join(tiers)}", [])
+    given = {KEPT_TIERS: content[KEPT_TIERS]} if KEPT_TIERS in content else {}
+    return tiers, read(given, {KEPT_TIERS: key}, file)[KEPT_TIERS]
 
 
 def read_overview(folder: str | Path) -> FigureSettings | None:
@@ -76,6 +96,7 @@ def overview_figure_job(overview: FigureSettings, cases: Mapping[str, Case], tie
     return {
         "settings": overview.layout,
         "cases": panels,
+        "kept": {name: dict(case.kept) for name, case in cases.items()},
         "tier": tier,
         "source": stage_digest("overview_figure"),
     }
@@ -174,7 +195,9 @@ def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict[s
     thesis |= {"points": case.study.settings["thesis_points"]}
     return {
         "settings": case.settings.settings,
-        "jobs": case.jobs(),
+        "case": case.name,
+        "jobs": case.shown_jobs(),
+        "kept": dict(case.kept),
         "digests": [case_job(case, job) for job in case.jobs()],
         "marks": marks | {"thesis": {knob: value for knob, value in thesis.items() if value}},
         "tier": plan.tier,

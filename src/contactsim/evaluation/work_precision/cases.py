@@ -8,7 +8,7 @@ more tightly, that of the increment the same path in far smaller ones; no refere
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import xarray as xr
@@ -81,11 +81,22 @@ class CaseSettings(FigureSettings):
 
 @dataclass(frozen=True)
 class Case:
-    """A case: its name, its settings, and its study restricted to the selected values."""
+    """A case of the work-precision study.
+
+    Parameters
+    ----------
+    name, settings
+        Its name and its settings.
+    study
+        Its study, restricted to the selected values.
+    kept
+        Date of measurement by solver, for solvers whose results the package contains.
+    """
 
     name: str
     settings: CaseSettings
     study: Study
+    kept: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def kind(self) -> SingleLoads | WholePath:
@@ -104,9 +115,18 @@ class Case:
         """Return the selected values of the study's dataset by dimension; other dimensions count whole."""
         return {dimension_name(name): values for name, values in self.settings.vary.items()}
 
+    @property
+    def baselines(self) -> list[str]:
+        """Return the solvers that are compared with the study's own, installed or not."""
+        return [solver for solver in self.settings.solvers if solver != self.default]
+
     def jobs(self) -> list[str]:
-        """Return the jobs of a case: its reference and its installed solvers."""
-        return [REFERENCE, *filter(is_installed, self.settings.solvers)]
+        """Return the jobs of a case: its reference and its installed solvers, without those that are kept."""
+        return [job for job in self.shown_jobs() if job not in self.kept]
+
+    def shown_jobs(self) -> list[str]:
+        """Return the jobs that the figure shows: the reference and each solver that is kept or installed."""
+        return [REFERENCE, *(name for name in self.settings.solvers if name in self.kept or is_installed(name))]
 
     def settings_of(self, job: str) -> list[Setting]:
         """Return the settings that a job measures."""

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -18,11 +16,11 @@ from matplotlib.lines import Line2D
 from contactsim import dataset
 from contactsim.analysis.ensemble import converged
 from contactsim.evaluation.work_precision import error_cost
-from contactsim.evaluation.work_precision.cases import REFERENCE
 from contactsim.evaluation.work_precision.error_cost import ROUNDING
 from contactsim.figures import style
 from contactsim.figures.diagnostics import knobs
 from contactsim.figures.diagnostics.accuracy_footer import KNOB_NAMES, footer_text, own_solver, varied_knobs
+from contactsim.figures.diagnostics.accuracy_results import read_results
 from contactsim.figures.layout import empty_figure, save
 from contactsim.files import write_atomically
 from contactsim.variables import RESULTS
@@ -44,24 +42,22 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
     Parameters
     ----------
     plan : of `contactsim.evaluation.work_precision.case_config.case_figure_job`
-    files : data and costs, the jobs' files in the order of the plan; study and study_costs, of the study
+    files : data and costs of the measured jobs, in the order of the plan; baselines, the package's tables; study and
+        study_costs, of the study
     targets : png, pdf, csv, and equal_error for the comparison at equal error
     """
-    settings, jobs = plan["settings"], plan["jobs"]
-    data = {job: dataset.load_dataset(path) for job, path in zip(jobs, files["data"], strict=True)}
-    costs = {job: json.loads(Path(path).read_text()) for job, path in zip(jobs, files["costs"], strict=True)}
+    settings, results = plan["settings"], read_results(plan, files)
     study = dataset.load_dataset(files["study"]).sel(plan["selection"])
-    table = error_cost.error_table(settings["quantities"], settings["load"], data, study, plan["default"])
-    seconds = {job: cost["seconds"] for job, cost in costs.items() if job != REFERENCE}
+    table = error_cost.error_table(settings["quantities"], settings["load"], results.data, study, plan["default"])
     member = seconds_of_member(pd.read_csv(files["study_costs"]), plan["selection"] | plan["loads"])
-    table = table.assign(seconds=seconds_of_rows(table, seconds, member))
-    table = with_forecast(table, plan["expected"], costs[plan["default"]]["transform_seconds"])
+    table = table.assign(seconds=seconds_of_rows(table, results.seconds, member))
+    table = with_forecast(table, plan["expected"], results.transform_seconds)
     quantity, columns = settings["quantities"][0], len(varied_knobs(table)) + 1
     layout = settings | {"panels": columns}
     widths = [1.0] * (columns - 1) + [LAST_COLUMN]
     figure, panels = empty_figure(layout, footer_text(table, plan), rows=2, widths=widths)
     equal = error_cost.compare_solvers(table, quantity, settings["levels"], COSTS)
-    plot_accuracy(table, equal, data[plan["default"]], np.reshape(panels, (2, columns)), plan)
+    plot_accuracy(table, equal, results.data[plan["default"]], np.reshape(panels, (2, columns)), plan)
     save(figure, table, targets)
     write_atomically(targets["equal_error"], lambda path: equal.to_csv(path, index=False))
 
@@ -100,7 +96,7 @@ def is_among(column: pd.Series, values: list[Any]) -> np.ndarray:
     return column.isin(values).to_numpy()
 
 
-def seconds_of_rows(table: pd.DataFrame, seconds: Mapping[str, list[float]], member: float) -> pd.Series:
+def seconds_of_rows(table: pd.DataFrame, seconds: Mapping[str, Sequence[float]], member: float) -> pd.Series:
     """Return the seconds of every row: of each solver's settings in their order, of an ensemble those of its members.
 
     seconds: by solver; member: seconds of one member of the study

@@ -37,7 +37,17 @@ def footer_text(table: pd.DataFrame, plan: Mapping[str, Any]) -> str:
     ]
     ensembles = table[table.knob == "members"]
     parts += [f"members varied at {points} points of the study" for points in ensembles.points.unique()]
-    return " · ".join([*parts, *_margin_texts(table, settings["quantities"][0]), *_ringless_texts(table, plan)])
+    parts += [*_margin_texts(table, settings["quantities"][0]), *_ringless_texts(table, plan)]
+    return " · ".join([*parts, *kept_texts(plan["kept"])])
+
+
+def kept_texts(*dates_by_solver: Mapping[str, str]) -> list[str]:
+    """Return a sentence on the solvers whose results the package contains, with the dates of measurement, or none."""
+    solvers = sorted({style.solver_name(solver) for dates in dates_by_solver for solver in dates})
+    measured = sorted({date for dates in dates_by_solver for date in dates.values()})
+    text = f"baselines ({', '.join(solvers)}) are kept in the package, measured on {', '.join(measured)}"
+    text += ", and their seconds are scaled by the time of a transform on this machine"
+    return [text] if solvers else []
 
 
 def _knob_text(knob: str, plan: Mapping[str, Any]) -> str:

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 from contactsim.evaluation.work_precision import error_cost
 from contactsim.figures import style
+from contactsim.figures.diagnostics.accuracy_footer import kept_texts
 from contactsim.figures.diagnostics.knobs import OTHER_LOOK, SOLVER_LOOKS
 from contactsim.figures.layout import empty_figure, save
 from contactsim.variables import RESULTS
@@ -30,16 +31,16 @@ def write_overview(plan: Mapping[str, Any], paths: Sequence[str], targets: Mappi
 
     Parameters
     ----------
-    plan : tier, settings of the figure, and title and quantity of each case
+    plan : tier, settings of the figure, title and quantity of each case, and kept solvers of each case
     paths : of the CSV files of the cases' own figures, in the order of their names
     targets : png, pdf and csv
     """
     cases = {name: plan["cases"][name] for name in sorted(plan["cases"])}
     tables = {name: pd.read_csv(path) for name, path in zip(cases, paths, strict=True)}
     tables = {name: table[table.knob.isin(KNOB_LINES)] for name, table in tables.items()}
-    footer = f"{plan['tier']} tier · {sum(map(len, tables.values()))} settings"
+    footer = [f"{plan['tier']} tier", f"{sum(map(len, tables.values()))} settings", *kept_texts(*plan["kept"].values())]
     layout = plan["settings"] | {"panels": PANELS_IN_ROW}
-    figure, panels = empty_figure(layout, footer, rows=-(-len(cases) // PANELS_IN_ROW))
+    figure, panels = empty_figure(layout, " · ".join(footer), rows=-(-len(cases) // PANELS_IN_ROW))
     parts = []
     for panel, (name, table) in zip(panels, tables.items(), strict=False):
         quantity = cases[name]["quantity"]

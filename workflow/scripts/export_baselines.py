@@ -1,0 +1,11 @@
+"""The results of all baselines, in the tables that the package contains."""
+
+from pathlib import Path
+
+from joblog import open_log
+
+from contactsim.evaluation.work_precision.baselines import Baseline, write_baselines
+
+open_log(snakemake.log[0])
+measured = [Baseline.from_files(*files) for files in zip(snakemake.input.data, snakemake.input.costs, strict=True)]
+write_baselines(measured, Path(snakemake.output.jobs))
