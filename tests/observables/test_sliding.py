@@ -260,6 +260,29 @@ def test_a_slide_becomes_a_dataset_with_its_slips():
     assert float(found.slip.max()) <= LATTICE / 2 + 1e-9
 
 
+def test_the_increment_error_of_every_number_of_a_slide_is_known_and_covers_its_change_on_finer_increments():
+    found, finer = (friction.summarise_slides(dataset_of(increment)) for increment in (0.05, 0.0125))
+    for name in friction.ONSET:
+        error = float(found[f"{name}_increment_error"])
+        assert np.isnan(error) == np.isnan(float(found[name])), name
+    for name in ("onset_contact_length", "reattached_fraction", "first_slip_released_energy", "contact_shift_halfway"):
+        error = float(found[f"{name}_increment_error"])
+        assert error > 0, name
+        assert abs(float(found[name] - finer[name])) < 1.5 * error, name
+
+
+def test_without_every_second_state_a_slide_keeps_its_ends_and_its_slips():
+    states = {"sliding_distance": np.arange(6.0), "friction_force": np.arange(6.0) ** 2}
+    events = {"event_step": np.array([3.0, 5.0, np.nan]), "event_width": np.full(3, 0.002)}
+    odd, _ = polyline.every_second(states, events, 1)
+    assert odd["sliding_distance"].tolist() == [0, 1, 3, 5]
+    fewer, slips = polyline.every_second(states, events, 2)
+    assert fewer["sliding_distance"].tolist() == [0, 2, 4, 5]
+    assert slips["event_step"][:2].tolist() == [2, 3]  # before the states at 4 and 5, the next ones after each slip
+    assert np.isnan(slips["event_step"][2])
+    assert slips["event_width"] is events["event_width"]
+
+
 def test_the_layer_stores_a_part_of_the_work_where_nothing_slips():
     data = dataset().isel(step=slice(20, 60))
     work = np.cumsum(

@@ -66,6 +66,11 @@ def slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
     return mean(slopes(values, against, along))
 
 
+def slope_furthest_from_one(values: xr.DataArray, places: Places, against: xr.DataArray, along: str) -> float:
+    """Return the slope of the line through the logarithms that is furthest from one, over the other dimensions."""
+    return float(slopes(values, against, along).isel(places))
+
+
 def origin_slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
     """Return the slope of the line of least squares through the origin along a dimension, averaged over the others."""
     return mean((against * values).sum(along, skipna=False) / (against**2).sum(along, skipna=False))

@@ -100,7 +100,7 @@ REDUCTIONS: dict[str, Reduction] = {
     "slope": Reduction(measures.slope),
     "largest_slope": largest_of(measures.slopes),
     "slope_furthest_from_one": Reduction(
-        lambda values, places, against, along: float(measures.slopes(values, against, along).isel(places)),
+        measures.slope_furthest_from_one,
         lambda values, against, along: measures.place_of_largest(abs(measures.slopes(values, against, along) - 1)),
         neutral=1.0,
     ),

@@ -14,7 +14,7 @@ import xarray as xr
 from contactsim.grid import Array
 from contactsim.observables.peeling import PEELING
 from contactsim.observables.polyline import Polyline, average_force, every_second, loop_energy
-from contactsim.observables.slide_peeling import peeling_numbers, regained_lengths
+from contactsim.observables.slide_peeling import peeling_numbers, per_initial_length, regained_lengths
 from contactsim.observables.sliding import EVENT, TOUCHING
 from contactsim.observables.threshold import fit_thresholds
 from contactsim.status import is_solved
@@ -61,7 +61,7 @@ def summarise_slide(
     """Return the summary of one slide (`ONSET`), and what its increments leave open in each number.
 
     The error of a force, or of its place, follows from the states beside it. That of any other number is its change
-    without every second state.
+    without every second state, the larger one of both ways to leave them out.
 
     Parameters
     ----------
@@ -84,8 +84,9 @@ def summarise_slide(
     states["contact_length"] = np.where(touches_all_over, np.nan, states["contact_length"])
     events = {**events, "event_step": events["event_step"] - np.flatnonzero(on_slide)[0]}
     numbers, errors = _slide_numbers(states, events, period)
-    fewer, _ = _slide_numbers(*every_second(states, events), period)
-    return numbers, {name: abs(numbers[name] - fewer[name]) for name in ONSET} | errors
+    fewer = [_slide_numbers(*every_second(states, events, begin), period)[0] for begin in (1, 2)]
+    changes = {name: float(max(abs(numbers[name] - part[name]) for part in fewer)) for name in ONSET}
+    return numbers, changes | errors
 
 
 def _slide_numbers(
@@ -105,7 +106,7 @@ def _slide_numbers(
     numbers |= peeling_numbers(line, states, onset) | _sticking_numbers(line, onset)
     for more_numbers, more_errors in (
         _friction_numbers(line, states, onset, period),
-        _slip_numbers(line, events, period),
+        _slip_numbers(line, states, events, period),
     ):
         numbers |= more_numbers
         errors |= more_errors
@@ -133,6 +134,9 @@ def _friction_numbers(
         "mean_friction": sum(map(line.extreme_error, ends)) / 2,
         "average_friction": average_error,
     }
+    if line.width[onset]:  # at a slip, which no state decides
+        errors["onset_contact_length"] = line.slip_error(onset, line.length)
+        errors["peeled_fraction"] = errors["onset_contact_length"] * per_initial_length(states)
     return numbers, errors
 
 
@@ -157,7 +161,7 @@ def _stored_energy(line: Polyline, states: Mapping[str, Array]) -> float:
 
 
 def _slip_numbers(
-    line: Polyline, events: Mapping[str, Array], period: float
+    line: Polyline, states: Mapping[str, Array], events: Mapping[str, Array], period: float
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the force drop, distance and energy of the first slip, and their errors; nothing without a slip."""
     if not line.slips.size:
@@ -169,8 +173,11 @@ def _slip_numbers(
         "first_slip_periods": events["event_slip"][0] / period,
         "first_slip_released_energy": events["event_released_energy"][0],
     }
+    lengths = [line.slip_error(place, line.length) * per_initial_length(states) for place in (first - 1, first)]
     errors = {
         "first_force_drop": line.slip_error(first - 1) + line.slip_error(first),
+        "reattached_fraction": lengths[1],
+        "regained_fraction": sum(lengths),
         "first_slip_released_energy": float(abs(line.force[first - 1]) * line.width[first]),
     }
     return numbers, errors

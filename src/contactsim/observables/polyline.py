@@ -82,17 +82,18 @@ class Polyline:
         falling = np.flatnonzero(np.diff(self.force) < 0)
         return int(falling[0]) if falling.size else None
 
-    def slope(self, first: int, second: int) -> float | None:
-        """Return the slope of the force between two places, N/m/nm; None if there is no distance between them."""
+    def slope(self, first: int, second: int, values: Array | None = None) -> float | None:
+        """Return the slope of the force (N/m/nm), or of other values, between two places; None without a distance."""
+        values = self.force if values is None else values
         step = self.sliding_distance[first] - self.sliding_distance[second]
-        return None if step == 0 else (self.force[first] - self.force[second]) / step
+        return None if step == 0 else (values[first] - values[second]) / step
 
-    def slip_error(self, place: int) -> float:
-        """Return the error (N/m) of the force at a side of a slip, which may lie anywhere within its width."""
+    def slip_error(self, place: int, values: Array | None = None) -> float:
+        """Return the error of the force (N/m), or of other values, at a side of a slip: it lies within its width."""
         neighbour = place + 1 if self.is_after_slip[place] else place - 1
         if not 0 <= neighbour < self.force.size:
             return 0.0
-        slope = self.slope(place, neighbour)
+        slope = self.slope(place, neighbour, values)
         return 0.0 if slope is None else float(self.width[place] * abs(slope))
 
     def extreme_error(self, place: int) -> float:
@@ -139,13 +140,22 @@ class Polyline:
         return Polyline(*(np.concatenate(pair) for pair in parts))
 
 
-def every_second(states: Mapping[str, Array], events: Mapping[str, Array]) -> tuple[dict[str, Array], dict[str, Array]]:
+def every_second(
+    states: Mapping[str, Array], events: Mapping[str, Array], begin: int
+) -> tuple[dict[str, Array], dict[str, Array]]:
     """Return the states and slips of a slide without every second state; the first and the last state stay.
 
-    Slips stay, as they are known apart from the states. Arguments as of `Polyline.from_states`.
+    Slips stay, as they are known apart from the states.
+
+    Parameters
+    ----------
+    states, events
+        As of `Polyline.from_states`.
+    begin
+        1 to keep the states with odd numbers, 2 for even ones.
     """
     count = states["sliding_distance"].size
-    kept = np.unique([*range(0, count, 2), count - 1])
+    kept = np.unique([0, *range(begin, count, 2), count - 1])
     numbers = events["event_step"]
     after = np.where(np.isnan(numbers) | (numbers < 0), numbers, np.searchsorted(kept, numbers))
     return {name: values[kept] for name, values in states.items()}, {**events, "event_step": after}

@@ -32,7 +32,7 @@ def peeling_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> 
         "quadratic_r_squared_all": fit_quadratic_law(force, length)[1],
         "peel_rate_ratio": peel_rate_ratio(force[contact], length[contact]),
         "peel_exponent": fit_exponent(force[contact], length[contact]),
-        "peeled_fraction": 1 - line.length[onset] * _per_initial_length(states),
+        "peeled_fraction": 1 - line.length[onset] * per_initial_length(states),
     } | (_edge_numbers(line, states, onset) | _reattachment(line, states))
 
 
@@ -42,7 +42,7 @@ def _edge_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> di
     trailing, leading = (states[f"contact_{edge}_edge"][: last + 1] for edge in ("trailing", "leading"))
     distance = states["sliding_distance"][: last + 1]
     numbers = {
-        f"contact_shift_{name}": edge_shift(trailing, leading, share) * _per_initial_length(states)
+        f"contact_shift_{name}": edge_shift(trailing, leading, share) * per_initial_length(states)
         for name, share in SHRINKING.items()
     }
     for suffix, place in (("_halfway", line.sliding_distance[onset] / 2), ("", float(distance[-1]))):
@@ -51,7 +51,7 @@ def _edge_numbers(line: Polyline, states: Mapping[str, Array], onset: int) -> di
             f"trailing_peel{suffix}": behind,
             f"leading_peel{suffix}": ahead,
             f"peel_asymmetry{suffix}": peel_asymmetry(behind, ahead),
-            f"contact_shift{suffix}": (behind - ahead) / 2 * _per_initial_length(states),
+            f"contact_shift{suffix}": (behind - ahead) / 2 * per_initial_length(states),
         }
     return numbers
 
@@ -63,7 +63,7 @@ def _reattachment(line: Polyline, states: Mapping[str, Array]) -> dict[str, floa
     """
     if not line.slips.size:
         return {}
-    first, share = line.slips[0], _per_initial_length(states)
+    first, share = line.slips[0], per_initial_length(states)
     return {
         "reattached_fraction": line.length[first] * share if line.length[first] > 0 else np.nan,
         "regained_fraction": regained_lengths(line)[0] * share,
@@ -75,7 +75,7 @@ def regained_lengths(line: Polyline) -> Array:
     return line.length[line.slips] - line.length[line.slips - 1]
 
 
-def _per_initial_length(states: Mapping[str, Array]) -> float:
+def per_initial_length(states: Mapping[str, Array]) -> float:
     """Return one over the contact length before the slide, 1/nm; NaN without contact."""
     length = states["contact_length"][0]
     return 1 / length if length > 0 else np.nan

@@ -201,6 +201,9 @@ def _changed_claim(
     if not changes:
         raise InputError(place, replaced, f"at least one of {', '.join(allowed)}", file)
     dropped = {"is_finding", "cause"} | ({"beside"} if {"quantity", "against"} & set(changes) else set())
-    dropped |= {*EDGES} if "expect" in changes else {"expect", "tolerance", *EDGES} if {*EDGES} & set(changes) else set()
+    if "expect" in changes:
+        dropped |= {*EDGES}
+    elif {*EDGES} & set(changes):
+        dropped |= {"expect", "tolerance", *EDGES}
     given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
     return read_claim(place.removeprefix("claims."), given | changes, file, studies).settings

@@ -1,4 +1,4 @@
-"""Differences between studies of the two kinds of problem: their keys, loads, quantities and options."""
+"""Differences between studies of the two kinds of problem: their keys, loads and options."""
 
 from __future__ import annotations
 
@@ -6,15 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from contactsim.contact.pose_cohesive import check_tolerance
-from contactsim.contact.scene import ProblemKind, Scene
+from contactsim.contact.scene import ProblemKind
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
-from contactsim.observables.adhesion import FINAL, SUMMARY
-from contactsim.observables.deformation import DEFORMATION
-from contactsim.observables.friction import ONSET
-from contactsim.observables.hysteresis import CYCLE
-from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.threshold import ALONG, THRESHOLD
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.options import Setup
 
@@ -30,14 +24,11 @@ class StudyKind(Protocol):
         Parts that runs depend on.
     needs_path
         True where single loads have no meaning.
-    comparable
-        Quantities whose change can say whether an effect is negligible.
     """
 
     keys: tuple[str, ...]
     sections: tuple[str, ...]
     needs_path: bool
-    comparable: tuple[str, ...]
 
     def run_settings(self, settings: Mapping, member: int) -> dict:
         """Return what a run of that member keeps, as settings."""
@@ -51,10 +42,6 @@ class StudyKind(Protocol):
         """Raise InputError for options that cannot work."""
         ...
 
-    def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
-        """Return the names of the summaries of a path; dimensions: of the study's dataset."""
-        ...
-
 
 class HardWallStudy:
     """Loads at a hard wall."""
@@ -62,7 +49,6 @@ class HardWallStudy:
     keys: tuple[str, ...] = ("keep",)
     sections: tuple[str, ...] = ()
     needs_path = False
-    comparable: tuple[str, ...] = ("relative_contact_area", "relative_contact_area_subgrid", "mean_gap")
 
     def run_settings(self, settings: Mapping, member: int) -> dict:
         """Return what is kept of each solution."""
@@ -75,10 +61,6 @@ class HardWallStudy:
     def check(self, setup: Setup) -> None:
         """Accept all options."""
 
-    def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
-        """Return how area and load of a path through given approaches are related."""
-        return set(AREA_LOAD)
-
 
 class CohesiveStudy:
     """Paths of cohesive laws."""
@@ -86,7 +68,6 @@ class CohesiveStudy:
     keys: tuple[str, ...] = ("increments", "snapshots", "snapshot_members")
     sections: tuple[str, ...] = ("increments",)
     needs_path = True
-    comparable: tuple[str, ...] = (*SUMMARY, *CYCLE, *AREA_LOAD, *ONSET)
 
     def run_settings(self, settings: Mapping, member: int) -> dict:
         """Return where snapshots are kept, and if they have fields."""
@@ -111,15 +92,6 @@ class CohesiveStudy:
         (options.increments or Requested()).check(setup.points, scene.path.steps, solver)
         for value in options.snapshots or ():
             scene.path.nearest(value)
-
-    def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
-        """Return what load curves, cycles and slides amount to, as far as the scene has them."""
-        slips = "t" in scene.components
-        names = {name for name in (*SUMMARY, *CYCLE, *DEFORMATION) if slips or FINAL.get(name) != "slip"}
-        if scene.sliding:
-            names |= {*ONSET, *(f"{name}_increment_error" for name in ONSET)}
-            names |= {*(THRESHOLD if set(ALONG) & set(dimensions) else ())}
-        return names | set(AREA_LOAD)
 
 
 STUDY_KINDS: dict[ProblemKind, StudyKind] = {

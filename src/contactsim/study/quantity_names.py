@@ -8,7 +8,7 @@ from contactsim.analysis.quantities import BAR_SHARES, CRACK_DEPARTURE, ERROR_BA
 from contactsim.observables.contact_readings import reading_names
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
-from contactsim.study.kinds import study_kind
+from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.study import Study
 
 
@@ -38,7 +38,7 @@ def quantities(study: Study) -> list[str]:
 def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
     scene = study.runs()[0].setup.scene
-    names = study_kind(study.settings).path_quantities(scene, study.dimensions)
+    names = KIND_QUANTITIES[scene.kind].path_quantities(scene, study.dimensions)
     names |= reading_names(study.settings, "t" in scene.components)
     if study.settings["surface"]["kind"] == "cylinder" and "work_of_separation" in study.dimensions:
         names.add(CRACK_DEPARTURE)

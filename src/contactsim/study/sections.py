@@ -17,6 +17,7 @@ from contactsim.study.keys import (
     SLIDE_KEYS,
     STUDY_KEYS,
 )
+from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.kinds import STUDY_KINDS, problem_kind, study_kind
 from contactsim.study.reading import Key, listed, number, read
 from contactsim.surfaces.measured import SURFACES
@@ -39,7 +40,7 @@ def read_effects(settings: dict, file: object, prefix: str) -> dict:
         allowed = "left out, for what is negligible is neglected anyway"
         raise InputError(f"{prefix}.neglect", settings["neglect"], allowed, file)
     effects = auto.pop("list")
-    comparable = STUDY_KINDS[problem_kind(effects)].comparable
+    comparable = KIND_QUANTITIES[problem_kind(effects)].comparable
     for name in auto["quantities"]:
         if name not in comparable:
             raise InputError(f"{prefix}.effects.quantities", name, f"some of {', '.join(comparable)}", file)

@@ -13,7 +13,8 @@ from contactsim.errors import InputError, is_number
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.interface.registry import EFFECTS
 from contactsim.study.keys import any_of
-from contactsim.study.kinds import study_kind
+from contactsim.study.kind_quantities import KIND_QUANTITIES
+from contactsim.study.kinds import problem_kind
 from contactsim.study.reading import Key, keys_of, listed, mapping, number, pair, read, text, tiered
 from contactsim.study.study import Study
 
@@ -127,7 +128,7 @@ def _read_map(name: str, section: object, file: str) -> EffectMap:
             runs = effect_map.study(first | {axis_name: value}, name, file).runs()
     if len(runs) != 1:
         raise InputError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
-    comparable = study_kind(runs[0].settings).comparable
+    comparable = KIND_QUANTITIES[problem_kind(runs[0].settings["effects"])].comparable
     for quantity in effect_map.of:
         if quantity not in comparable:
             raise InputError(f"{prefix}.of", quantity, f"some of {', '.join(comparable)}", file)
