@@ -12,7 +12,15 @@ from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.conditions import narrower_blocks
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import Estimate
-from contactsim.analysis.verdict import CONDITION, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, judge_number
+from contactsim.analysis.verdict import (
+    CONDITION,
+    FINDING,
+    NOT_DECIDABLE,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    judge_number,
+    judge_steps,
+)
 from contactsim.errors import InputError
 from contactsim.figures.diagnostics.claims import COLOURS, claims_figure
 from contactsim.study.claim_plan import Claim, read_claim
@@ -54,6 +62,19 @@ def test_a_number_has_a_verdict_a_margin_in_errors_and_a_place_in_the_band(numbe
     result = judge_number(claim(), number)
     assert result.verdict == verdict
     assert [result.margin, result.place] == pytest.approx([margin, place], nan_ok=True)
+
+
+def test_a_case_may_have_a_band_of_its_own():
+    cases = {
+        "another number": {"expect": 3.0},
+        "one edge": {"at_least": 1.5},
+    }
+    settings = claim(cases=cases)["cases"]
+    assert (settings["another number"]["expect"], settings["another number"]["tolerance"]) == (
+        3.0,
+        claim()["tolerance"],
+    )
+    assert (settings["one edge"]["expect"], settings["one edge"]["at_least"]) == (None, 1.5)
 
 
 def test_a_relation_has_one_edge():
@@ -131,6 +152,18 @@ def test_an_order_holds_if_no_step_has_the_wrong_sign_by_two_errors(values, verd
 def test_steps_without_any_error_are_decided_by_their_sign():
     data = paths([1.0, 2.0, 2.0], increment=0.0, work_ratio=[0.0, 0.5, 1.0])
     assert judge(path_claim(reduce="rising_steps", along="work_ratio", **BANDLESS), [data])["verdict"] == REPRODUCED
+
+
+def test_an_order_needs_a_change_from_end_to_end_and_fails_by_many_small_steps():
+    one, error = np.ones(5), np.full(5, 1.0)
+    whole = np.array([np.sqrt(2.0)])  # of two independent ends
+    assert judge_steps((one, error), (np.array([5.0]), whole))[0].verdict == REPRODUCED
+    result, worst = judge_steps((-one, error), (np.array([-5.0]), whole))
+    assert (result.verdict, worst) == (NOT_REPRODUCED, -1.0)
+    assert result.margin == pytest.approx(5 / np.sqrt(2))
+    assert judge_steps((one / 5, error), (np.array([1.0]), whole))[0].verdict == NOT_DECIDABLE
+    several = np.array([5.0, 1.0]), np.ones(2)  # of two variants, one of which does not change
+    assert judge_steps((one, error), several)[0].verdict == NOT_DECIDABLE
 
 
 # --- conditions ---------------------------------------------------------------------------------------------------
