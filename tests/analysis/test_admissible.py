@@ -15,10 +15,11 @@ from contactsim.analysis.admissible import (
     choices_table,
     read_candidates,
 )
+from contactsim.analysis.candidate_shares import HoldingShare
 from contactsim.analysis.causes import UNKNOWN, claims_without_cause
 from contactsim.analysis.claims import judge_claims
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import choices_text
+from contactsim.analysis.wording import candidates_text, choices_text, readings_text
 from contactsim.errors import InputError
 from contactsim.publish.gallery import count_verdicts
 from contactsim.study.claim_plan import read_claim
@@ -105,8 +106,35 @@ def test_a_statement_that_fails_in_some_admitted_cells_depends_on_what_is_open_w
     assert (judged.admitted_decided, judged.admitted_by_signs_decided) == (3, 2)
     assert (judged.admitted_share, judged.admitted_by_signs_share) == (pytest.approx(1 / 3), 0.0)
     assert judged.choices == ""
-    assert "33% ± 28% of 3 admitted cells" in choices_text(judged)
-    assert "0% ± 31% of 2 those with the signs of the text" in choices_text(judged)
+    words = "holds in 1 of the 3 admitted cells, and in none of the 2 that also have the signs of the text"
+    assert choices_text(judged) == f"{words}; as judged: reproduced"
+
+
+@pytest.mark.parametrize(
+    ("held", "count", "words"),
+    [
+        (36, 38, "holds in 36 of the 38 admitted cells (95% ± 4%)"),
+        (38, 38, "holds in all of the 38 admitted cells (100% ± 3%)"),
+        (0, 4, "holds in none of the 4 admitted cells"),
+        (0, 1, "holds not in the one admitted cell"),
+    ],
+)
+def test_cells_are_counted_and_a_share_of_few_is_not_given(held, count, words):
+    share = HoldingShare(count, held)
+    numbers = {"decided": count, "share": share.share, "error": share.error}
+    assert candidates_text({f"admitted_{name}": number for name, number in numbers.items()}) == words
+
+
+@pytest.mark.parametrize(
+    ("count", "share", "words"),
+    [
+        (2, 0.0, "holds with none of the 2 readings that are decided"),
+        (1, 1.0, "holds with the one reading that is decided"),
+        (0, float("nan"), "not decidable with any reading"),
+    ],
+)
+def test_readings_are_counted(count, share, words):
+    assert readings_text({"choices": "[]", "choices_decided": count, "choices_share": share}) == words
 
 
 def test_a_statement_that_holds_in_all_admitted_cells_keeps_its_verdict():

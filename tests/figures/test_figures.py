@@ -13,7 +13,7 @@ from contactsim import dataset
 from contactsim.analysis import wording
 from contactsim.analysis.mean_errors import estimate_trend, grid_error
 from contactsim.analysis.quantities import mean_quantity
-from contactsim.analysis.wording import rounded_texts
+from contactsim.analysis.rounding import number_text, rounded_texts, short_number
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
@@ -329,19 +329,65 @@ def test_the_range_of_a_logarithmic_axis_holds_its_values_and_a_factor_of_ten(va
 @pytest.mark.parametrize(
     ("value", "errors", "shown"),
     [
-        (0.012689, (0.00381, 0.0249), ["0.0127", "0.0038", "0.025"]),
+        (0.012689, (0.00381, 0.0249), ["0.013", "0.004", "0.025"]),
         (0.012689, (0.00381, 0.0), ["0.0127", "0.0038", "0"]),
         (0.0094952, (8.5e-5, 0.0), ["0.009495", "0.000085", "0"]),
         (1.4682, (0.0, 0.0), ["1.468", "0", "0"]),
-        (1.7476, (0.0996, 0.996), ["1.75", "0.10", "1.0"]),
-        (0.2061, (0.01, np.nan), ["0.206", "0.010", "–"]),
-        (np.nan, (np.nan, np.nan), ["–", "–", "–"]),
+        (7.0, (0.0, 0.0), ["7", "0", "0"]),
+        (1.7476, (0.0996, 0.996), ["1.7", "0.1", "1.0"]),
+        (0.2061, (0.01, np.nan), ["0.206", "0.010", "not known"]),
+        (np.nan, (np.nan, np.nan), ["not known"] * 3),
         (1234.6, (56.0, 0.0), ["1235", "56", "0"]),
-        (5.6e-17, (5.08e-17, np.nan), ["5.6e-17", "5.1e-17", "–"]),
+        (5.6e-17, (5.08e-17, np.nan), ["0", "0", "not known"]),
+        (1.4e-11, (), ["1.4e-11"]),
+        (0.868689879, (0.0, 3.6e-9), ["0.86869", "0", "< 0.00001"]),
+        (4.49107214168253233, (0.69, 8.9e-16), ["4.49", "0.69", "0"]),
+        (-135.02724769, (0.0, 2.1e-7), ["-135.03", "0", "< 0.01"]),
     ],
 )
-def test_errors_have_two_digits_and_the_value_goes_as_far_as_they(value, errors, shown):
-    assert wording.rounded_texts(value, *errors) == shown
+def test_a_value_has_two_digits_of_its_total_error_and_five_at_most(value, errors, shown):
+    assert rounded_texts(value, *errors) == shown
+
+
+def verdict_row(measure, value, *errors):
+    return {"measure": measure, "value": value, "ensemble_error": errors[0], "grid_error": errors[1]}
+
+
+@pytest.mark.parametrize(
+    ("row", "shown"),
+    [
+        (verdict_row("mean of kappa", 1.4682, 0.0, 0.0012), "1.4682 ± none ± 0.0012"),
+        (verdict_row("mean of kappa", 1.4682, np.nan, 0.0012), "1.4682 ± not known ± 0.0012"),
+        (verdict_row("mean of kappa", np.nan, np.nan, np.nan), "not known"),
+        (verdict_row("exact number: law_remainder", 1.4142, 0.0, 0.0), "1.414 (exact)"),
+        (verdict_row("rising_steps of kappa along x", 309079456.0, np.nan, np.nan), "worst step > 99 errors"),
+        (verdict_row("rising_steps of kappa along x", -2.27, np.nan, np.nan), "worst step -2.3 errors"),
+    ],
+)
+def test_words_tell_no_error_from_one_that_is_not_known(row, shown):
+    assert number_text(row) == shown
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"), [(np.nan, "–"), (1.4e8, "> 99"), (3.4e-16, "0"), (2.04, "2"), (0.32, "0.32")]
+)
+def test_margins_and_places_are_short(value, shown):
+    assert short_number(value) == shown
+
+
+def test_studies_and_quantities_of_a_measure_are_words():
+    plan = Plan.read(ROOT / "config", "standard")
+    named = [
+        (name, claim.settings)
+        for claims in plan.claims.values()
+        for name, claim in claims.items()
+        if claim.settings["relative_to"] or claim.settings["minus"]
+    ]
+    studies = {settings[key] for _, settings in named for key in ("study", "relative_to", "minus")} - {None}
+    assert studies <= set(wording.STUDY_PHRASES)
+    text = wording.measure_text("least of sticking_r_squared in rough_line over rough_surface, worst of 2 cases")
+    assert text == "least of R² while sticking (rough lines over rough surfaces), worst of 2 cases"
+    assert wording.measure_text("departure of kappa against kappa_r, worst of 2 cases").startswith("departure of κ")
 
 
 def test_every_quantity_and_dimension_of_a_claim_has_words_to_read():
@@ -365,7 +411,7 @@ def test_the_table_of_claims_shows_symbols_and_says_what_follows_a_value(made):
     numbers = ("condition_value", "condition_ensemble_error", "condition_grid_error", "condition_share")
     rows.loc[0, ["condition", *numbers]] = ["c/R up to 1", 0.995312, 0.0, 0.00471, 0.75]
     texts = [text.get_text() for text in claims.claims_figure(rows, "Title", "footer").axes[0].texts]
-    assert any("0.9953_±_0_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
+    assert any("0.9953_±_none_±_0.0047".replace("_", "\N{NO-BREAK SPACE}") in text for text in texts)
 
 
 # --- the sketch of a scene ----------------------------------------------------------------------------------------

@@ -14,8 +14,8 @@ import pytest
 from PIL import Image
 
 from contactsim import dataset
+from contactsim.analysis.rounding import number_cells
 from contactsim.analysis.verdict import CONDITION, NOT_REPRODUCED
-from contactsim.analysis.wording import rounded_texts
 from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.publish import report
 from contactsim.publish.gallery import VERDICTS
@@ -111,7 +111,7 @@ def test_every_statement_stands_there_once_with_its_verdict_value_and_errors(pag
         cells = [html.unescape(cell) for cell in re.findall(r"<td.*?>(.*?)</td>", text, re.DOTALL)]
         assert cells[0] == claim["source"]
         assert cells[1] == claim["statement"].replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*")
-        assert cells[5:8] == rounded_texts(claim["value"], claim["ensemble_error"], claim["grid_error"])
+        assert cells[5:8] == number_cells(claim)
         assert claim["verdict"] in cells[2]
         assert (claim["verdict"] == CONDITION) <= (str(claim["condition"]) in cells[2])
 

@@ -33,23 +33,50 @@ def verdicts():
 
 def test_each_statement_stands_with_its_number_and_failures_with_their_cause(verdicts):
     page = verdict_page(verdicts)
-    assert "| κ is 2, a value that holds. | mean of κ | 2 ± 0.1 | 2.051 ± 0 ± 0.011 | reproduced | 4.4 | 0.51 |" in page
-    assert "**κ is 3.** Not reproduced. Estimator: Off by 0.3." in page
-    assert f"**κ is 4.** Not reproduced. {UNKNOWN.capitalize()}." in page
+    cells = "mean of κ | 2 ± 0.1<br><sub>A test.</sub> | 2.051 ± none ± 0.011 | reproduced | 4.4 | 0.51 |"
+    assert f"| κ is 2, a value that holds.<br><sub>Section 0</sub> | {cells}" in page
+    block = page[page.index("**κ is 3.** Not reproduced (Section 0).") :]
+    assert block.index("- Found 2.051 ± none ± 0.011, allowed 3 ± 0.1;") < block.index("- Estimator: Off by 0.3.")
+    block = page[page.index("**κ is 4.** Not reproduced (Section 0).") :]
+    assert f"- {UNKNOWN.capitalize()}." in block
     assert "**κ is 2, a value" not in page
-    assert "holds with 50% of 2 decided readings; as judged: reproduced" in page
+    assert (
+        "- Holds with 1 of the 2 readings that are decided.\n- By the reading of the claim itself: reproduced." in page
+    )
+    assert "| κ is open. | as judged |" in page
     assert page.index("## Chapter 3") < page.index("## Findings") < page.index("## What the text leaves open")
+
+
+def test_both_estimators_stand_side_by_side_with_their_verdicts(verdicts):
+    beside = {"beside": "kappa_corrected", "beside_value": 2.3, "beside_ensemble_error": 0.0, "beside_grid_error": 0.01}
+    row = verdicts.iloc[[0]].assign(**beside, beside_verdict="not reproduced", beside_margin=20.0)
+    page = verdict_page(row)
+    cells = "2.051 ± none ± 0.011 | reproduced (4.4) | 2.300 ± none ± 0.010 | not reproduced (20) | as in the thesis |"
+    assert f"| κ is 2, a value that holds. | {cells}" in page
+    assert "both estimators" not in verdict_page(verdicts)
+
+
+def test_a_block_tells_its_condition_its_cases_and_other_bands(verdicts):
+    condition = {"condition": "H = 0.2", "condition_share": 0.5, "condition_value": 2.95}
+    errors = {"condition_ensemble_error": 0.01, "condition_grid_error": 0.02}
+    cases = {"cases": "first: reproduced (2.9); heavy: not reproduced (2.1)", "deciding_case": "heavy"}
+    row = verdicts[verdicts.claim == "fails"].assign(**condition, **errors, **cases, verdict_double="reproduced")
+    page = verdict_page(row)
+    assert "- Holds for H = 0.2 (50% of all): 2.950 ± 0.010 ± 0.020." in page
+    assert "- Cases: first: reproduced (2.9); heavy: not reproduced (2.1).\n- The case that decides: heavy." in page
+    assert "- With half the band; with double: not reproduced; reproduced." in page
+    assert "mean of κ, here: heavy |" in page
 
 
 def test_changes_are_listed_with_their_reasons(verdicts):
     earlier = {"holds": "reproduced", "fails": "reproduced", "gone": "not decidable"}
-    before = pd.DataFrame(earlier.items(), columns=["claim", "verdict"])
+    before = pd.DataFrame(earlier.items(), columns=["claim", "verdict"]).assign(statement=[None, None, "κ is 5."])
     reasons = pd.DataFrame({"claim": ["fails", "fails"], "reason": ["band", "grid"]})
     page = changes_page(before, verdicts, reasons)
-    assert "| fails | reproduced | not reproduced | band; grid |" in page
-    assert "| gone | not decidable | – | reason not yet given |" in page
-    assert "| puzzles | not reproduced |\n" in page[page.index("## New") : page.index("## As before")]
-    assert "| holds | reproduced |" in page.split("## As before")[1]
+    assert "| κ is 3. | reproduced | not reproduced | band; grid |" in page
+    assert "| κ is 5. | not decidable | – | reason not yet given |" in page
+    assert "| κ is 4. | not reproduced |\n" in page[page.index("## New") : page.index("## As before")]
+    assert "| κ is 2, a value that holds. | reproduced |" in page.split("## As before")[1]
 
 
 def test_the_pages_in_docs_are_those_of_the_table():

@@ -24,12 +24,19 @@ def join_cases(rows: Mapping[str, Mapping[str, object]]) -> dict[str, object]:
 
     Returns
     -------
-    The row, with `cases`: the verdicts on all cases in words; empty for a single one.
+    The row of the worst case, with `cases`: the verdicts on all of them in words, and `deciding_case`: the name of the
+    worst. Both are empty for a single one.
     """
-    worst = min(rows.values(), key=_badness)
+    worst = min(rows, key=lambda name: _badness(rows[name]))
     verdicts = {band: min((str(row[band]) for row in rows.values()), key=_rank) for band in BANDS}
     words = [f"{name}: {row['verdict']} ({row['value']:.3g})" for name, row in rows.items()]
-    return {**worst, **verdicts, "cases": "; ".join(words) if len(words) > 1 else ""}
+    several = len(rows) > 1
+    return {
+        **rows[worst],
+        **verdicts,
+        "cases": "; ".join(words) if several else "",
+        "deciding_case": worst if several else "",
+    }
 
 
 def _rank(verdict: str) -> int:

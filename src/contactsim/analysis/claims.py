@@ -16,6 +16,7 @@ from contactsim.analysis.admissible import Choice, candidate_choices, candidate_
 from contactsim.analysis.cases import DEFAULT as DEFAULT_CASE
 from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
+from contactsim.analysis.cell_rules import cell_texts
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
 from contactsim.analysis.formulas import FORMULAS
@@ -202,6 +203,7 @@ def judge_claims(
         row = judge_cases(settings, data)
         row |= choice_entries(row, choices, candidate_choices(candidates, name)) | candidate_entries(candidates, name)
         cause = None if claim["cause"] is None else Cause(**claim["cause"])
+        cells = cell_texts(candidates, name, cause.cell) if cause else {}
         rows.append(
             {
                 "claim": name,
@@ -210,7 +212,7 @@ def judge_claims(
                 "expected": band_text(claim),
                 "beside": claim["beside"] or "",
                 **row,
-                "cause": cause_text(cause, str(row["verdict"])),
+                "cause": cause_text(cause, row, cells),
                 "rationale": claim["rationale"],
                 **{key: settings[key] or "" for key in ("study", *SECOND_STUDY)},
             }

@@ -1,7 +1,8 @@
-"""Text about results: names and symbols of quantities, rounded values, grids, errors and the summary of a dataset."""
+"""Text about results: names and symbols of quantities, readings of statements, grids, errors, summaries of datasets."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -11,9 +12,8 @@ import xarray as xr
 
 from contactsim import dataset, status, variables
 from contactsim.analysis import ensemble
+from contactsim.analysis.rounding import FORMULA, number_text, short_number
 
-TINY = 1e-9
-"""Numbers below it are written with a power of ten."""
 FACTORS = ("kappa", "kappa_corrected", "kappa_r", "kappa_r_corrected")
 SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in FACTORS} | {
     "final_contact_length": "contact",
@@ -37,27 +37,54 @@ REDUCTION_PHRASES = {
     "largest_rise_gain": "largest gain of the rise",
 }
 """Quantities and reductions of claims that no dataset holds."""
+MEASURE_PHRASES = {
+    "furthest_from_one": "value furthest from one",
+    "largest_size": "largest size",
+    "origin_slope": "slope through the origin",
+    "ratio_size": "size of the ratio",
+}
+"""Reductions whose names are not read as words."""
+STUDY_PHRASES = {
+    "rough_line": "rough lines",
+    "rough_line_many": "many rough lines",
+    "rough_surface": "rough surfaces",
+    "smooth_line": "cylinders",
+    "smooth_surface": "spheres",
+    "indentation": "adhesive cylinder",
+    "indentation_close": "closer cylinders",
+    "indentation_thick": "thicker layer",
+    "indentation_uncoupled": "uncoupled law",
+    "indentation_wide": "period twice as long",
+    "pull_off": "other ν",
+    "interplay": "coupled law",
+    "interplay_uncoupled": "uncoupled law with friction",
+    "interplay_close": "coupled law at a close spacing",
+    "interplay_close_uncoupled": "uncoupled law with friction",
+    "rough_adhesive": "adhesive rough lines",
+    "rough_adhesive_15": "lines of 15 nm rms height",
+    "rough_adhesive_30": "lines of 30 nm rms height",
+    "rough_adhesive_hurst": "lines of smaller H",
+    "rough_adhesive_64": "lines without waves below 1/64",
+    "rough_adhesive_128": "lines without waves below 1/128",
+    "rough_adhesive_coupled": "the coupled law",
+    "rough_repulsive": "repulsion alone",
+    "rough_stiff": "weak adhesion on stiff repulsion",
+    "rough_wall": "hard wall",
+    "probe": "high friction",
+    "probe_weak": "half the work",
+    "probe_low_friction": "low friction",
+}
+"""Studies that statements compare, in words."""
+STUDIES = re.compile(r" in (\w+) (over|minus) (\w+)")
+"""Both studies in the measure of a claim."""
+NAME = re.compile(r"[a-z]\w*")
+"""A name of a quantity or a dimension, or a word, in the measure of a claim."""
+CELL_SETS = {"admitted": "admitted cell", "admitted_by_signs": "that also {} the signs of the text"}
+"""Sets of candidates in words."""
+MIN_SHARED = 5
+"""Fewest cells whose share is given beside their number."""
 INDEX_LETTERS = {"κ_r": "κᵣ", "p_r*": "pᵣ*"}
 """Symbols of statements as they are printed."""
-
-
-def rounded_texts(value: float, *errors: float) -> list[str]:
-    """Return a value and its errors as texts, rounded as far as they are known.
-
-    Errors have two digits. The value has as many decimals as the smallest error that is not zero, or four digits
-    without one. A dash stands for NaN. A value that is zero but for rounding gets a power of ten.
-    """
-    if 0 < abs(value) < TINY:
-        return [f"{number:.1e}" if np.isfinite(number) else "–" for number in (value, *errors)]
-    decimals = {error: _decimals(error, 2) for error in errors if np.isfinite(error) and error > 0}
-    finest = decimals[min(decimals)] if decimals else _decimals(value, 4)
-    texts = [f"{value:.{finest}f}" if np.isfinite(value) else "–"]
-    return texts + [f"{error:.{decimals.get(error, 0)}f}" if np.isfinite(error) else "–" for error in errors]
-
-
-def _decimals(value: float, digits: int) -> int:
-    """Return the number of decimals that show so many significant digits."""
-    return max(0, digits - 1 - int(f"{abs(value):.{digits - 1}e}".split("e")[1])) if np.isfinite(value) else 0
 
 
 def quantity_text(name: str) -> str:
@@ -78,39 +105,72 @@ def range_text(dim: str, low: float, high: float) -> str:
 
 
 def measure_text(measure: str) -> str:
-    """Return the measure of a claim with symbols in place of the names of quantities."""
-    return " ".join(quantity_text(word).replace("_", " ") for word in measure.split())
+    """Return the measure of a claim with symbols and words in place of the names of quantities and studies."""
+    if measure.startswith(FORMULA):
+        return FORMULA
+    text = STUDIES.sub(lambda names: f" ({study_text(names[1])} {names[2]} {study_text(names[3])})", measure)
+    reduction = text.partition(" ")[0]
+    text = text.replace(reduction, MEASURE_PHRASES.get(reduction, reduction), 1)
+    return NAME.sub(lambda name: quantity_text(name[0]).replace("_", " "), text)
+
+
+def study_text(name: str) -> str:
+    """Return a study in words; one without a phrase by its name."""
+    return STUDY_PHRASES.get(name, name).replace("_", " ")
 
 
 def beside_text(row: Mapping[str, Any]) -> str:
-    """Return the second row of a claim, which is not counted: quantity, number, errors and verdict; or nothing."""
+    """Return the second row of a claim, which is not counted: quantity, number, verdict and margin; or nothing."""
     name = row.get("beside")
     if not isinstance(name, str) or not name:
         return ""
-    numbers = rounded_texts(*(row[f"beside_{key}"] for key in ("value", "ensemble_error", "grid_error")))
-    return f"{quantity_text(name)} {' ± '.join(numbers)}, {row['beside_verdict']}"
+    margin = row.get("beside_margin", np.nan)
+    sure = "" if np.isnan(margin) else f" (margin {short_number(margin)})"
+    return f"{quantity_text(name)} {number_text(row, 'beside_')}, {row['beside_verdict']}{sure}"
 
 
 def choices_text(row: Mapping[str, Any]) -> str:
-    """Return with how many admissible readings and sets of parameters a claim holds, and the default's verdict."""
-    texts = [candidates_text(row)]
-    if isinstance(row.get("choices"), str) and row["choices"]:
-        count = int(row["choices_decided"])
-        share = f"{row['choices_share']:.0%}" if count else "none"
-        texts = [f"holds with {share} of {count} decided readings", *texts]
+    """Return with how many admissible readings and in how many cells a claim holds, and the verdict of the default."""
+    texts = [readings_text(row), candidates_text(row)]
     texts = [text for text in texts if text]
     return "; ".join([*texts, f"as judged: {row['default_verdict']}"]) if texts else ""
 
 
+def readings_text(row: Mapping[str, Any]) -> str:
+    """Return with how many admissible readings a claim holds; nothing without other readings."""
+    if not isinstance(row.get("choices"), str) or not row["choices"]:
+        return ""
+    count = int(row["choices_decided"])
+    if not count:
+        return "not decidable with any reading"
+    held = round(count * float(row["choices_share"]))
+    return f"holds {_part_text('with', held, count, 'reading')} that {'is' if count == 1 else 'are'} decided"
+
+
 def candidates_text(row: Mapping[str, Any]) -> str:
-    """Return the shares of both sets of candidates in which a claim holds, with binomial errors; or nothing."""
-    words = {"admitted": "admitted cells", "admitted_by_signs": "those with the signs of the text"}
-    texts = [
-        f"{row[f'{group}_share']:.0%} ± {row[f'{group}_error']:.0%} of {row[f'{group}_decided']:.0f} {name}"
-        for group, name in words.items()
-        if row.get(f"{group}_decided", 0.0) > 0
-    ]
-    return f"holds in {' and '.join(texts)}" if texts else ""
+    """Return in how many of the decided admitted cells a claim holds, in both sets; nothing without any.
+
+    The share and its binomial error follow where they are of `MIN_SHARED` cells or more.
+    """
+    texts = []
+    for group, of_cells in CELL_SETS.items():
+        count = row.get(f"{group}_decided", np.nan)
+        if not count > 0:
+            continue
+        held = round(count * row[f"{group}_share"])
+        share = f" ({row[f'{group}_share']:.0%} ± {row[f'{group}_error']:.0%})" if count >= MIN_SHARED else ""
+        noun = of_cells.format("has" if count == 1 else "have")
+        texts.append(f"{_part_text('in', held, int(count), noun)}{share}")
+    return f"holds {', and '.join(texts)}" if texts else ""
+
+
+def _part_text(word: str, held: int, count: int, noun: str) -> str:
+    """Return a part of several things in words, such as "in 36 of the 38 admitted cells"."""
+    if count == 1:
+        return f"{'' if held else 'not '}{word} the one {noun}"
+    part = "all" if held == count else str(held or "none")
+    plural = noun if noun.startswith("that") else f"{noun}s"
+    return f"{word} {part} of the {count} {plural}"
 
 
 def printed(text: str) -> str:

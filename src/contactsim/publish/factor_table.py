@@ -7,8 +7,8 @@ from pathlib import Path
 import xarray as xr
 
 from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.rounding import rounded_texts
 from contactsim.analysis.uncertainty import Estimate, estimate
-from contactsim.analysis.wording import rounded_texts
 from contactsim.dataset import load_dataset
 from contactsim.study.claim_plan import read_claim
 from contactsim.study.plan import Plan

@@ -12,15 +12,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 from PIL import Image
 
 from contactsim import dataset
 from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.claims import SCALES
-from contactsim.analysis.verdict import CONDITION, DEPENDS, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import beside_text, choices_text, error_texts, measure_text, rounded_texts
+from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.wording import error_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
 
@@ -134,51 +133,6 @@ def counts_markdown(claims: pd.DataFrame) -> str:
     return "\n".join(lines) + "\n"
 
 
-def verdicts_markdown(claims: pd.DataFrame, tier: str) -> str:
-    """Return all claims by verdict as a Markdown page, those not reproduced first; claims: of `read_verdicts`."""
-    parts = [f"# Verdicts on all statements at the {tier} tier\n", counts_markdown(claims)]
-    parts.append("Found: value ± ensemble error (one standard error) ± grid error; a dash: none, or not known.\n")
-    findings = [FINDING] if (claims.verdict == FINDING).any() else []
-    for verdict in (NOT_REPRODUCED, DEPENDS, CONDITION, NOT_DECIDABLE, REPRODUCED, *findings):
-        parts += [
-            f"## {verdict.capitalize()}\n",
-            "| thesis | statement | compared | expected | found | why this band |",
-        ]
-        parts[-1] += "\n|---|---|---|---|---|---|"
-        parts += [_statement(row) for row in claims[claims.verdict == verdict].to_dict("records")]
-        parts.append("")
-    return "\n".join(parts)
-
-
-def _statement(row: Mapping) -> str:
-    """Return the row of a claim in a Markdown table."""
-    texts = {key: "" if isinstance(value, float) else str(value).replace("|", "\\|") for key, value in row.items()}
-    result = " ± ".join(rounded_texts(row["value"], row["ensemble_error"], row["grid_error"]))
-    if texts["condition"]:
-        numbers = (row[f"condition_{name}"] for name in ("value", "ensemble_error", "grid_error"))
-        share = row.get("condition_share", np.nan)
-        covered = "" if np.isnan(share) else f" ({share:.0%} of all)"
-        result += f"; {texts['condition']}{covered}: {' ± '.join(rounded_texts(*numbers))}"
-    for name, words in {"margin": "margin", "place": "place in the band"}.items():
-        if np.isfinite(row.get(name, np.nan)):
-            result += f"; {words} {row[name]:.2g}"
-    if beside := beside_text(row):
-        result += f"; beside it {beside}"
-    if readings := choices_text(row):
-        result += f"; {readings}"
-    if texts.get("cause"):
-        result += f"; {texts['cause']}"
-    cells = (
-        texts["source"],
-        texts["statement"],
-        measure_text(texts["measure"]),
-        texts["expected"],
-        result,
-        texts["rationale"],
-    )
-    return f"| {' | '.join(cells)} |"
-
-
 def _cell(row: Mapping) -> str:
     """Return the cell of a figure."""
     name, title = row["figure"], row["title"]
@@ -205,7 +159,7 @@ def gallery_settings(plan: Plan, others: Mapping[str, str]) -> dict:
 
 
 def write_gallery(plan: Plan, folder: Path, target: Path, others: Mapping[str, str]) -> None:
-    """Write small pictures of all figures, the tables of figures and verdicts, and their Markdown pages to a folder.
+    """Write small pictures of all figures, the tables of figures and verdicts, and the page of figures to a folder.
 
     folder: of the tier's results; others: as in `gallery_table`.
     """
@@ -217,7 +171,6 @@ def write_gallery(plan: Plan, folder: Path, target: Path, others: Mapping[str, s
         write_thumbnail(folder / "figures" / f"{name}.png", target / f"{name}.png")
     claims.to_csv(target / "verdicts.csv", index=False)
     choices_table(claims).to_csv(target / "choices.csv", index=False)
-    (target / "verdicts.md").write_text(verdicts_markdown(claims, plan.tier), encoding="utf-8")
     (target / "gallery.md").write_text(gallery_page(rows), encoding="utf-8")
     (target / "counts.md").write_text(counts_markdown(claims), encoding="utf-8")
     rows.to_csv(target / "gallery.csv", index=False)  # last: with it the gallery is whole

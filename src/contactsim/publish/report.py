@@ -24,8 +24,9 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from contactsim import dataset
+from contactsim.analysis.rounding import number_cells, number_text
 from contactsim.analysis.verdict import FINDING
-from contactsim.analysis.wording import beside_text, choices_text, dataset_summary, measure_text, printed, rounded_texts
+from contactsim.analysis.wording import beside_text, choices_text, dataset_summary, measure_text, printed
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
@@ -153,12 +154,11 @@ def _statements(claims: pd.DataFrame, plan: Plan) -> list[dict]:
     """Return the rows of the claims, with rounded numbers, figures and studies."""
     rows = []
     for row in claims.to_dict("records"):
-        numbers = ("value", "ensemble_error", "grid_error")
         texts = {key: "" if isinstance(value, float) else value for key, value in row.items()}
-        texts |= dict(zip(("found", "ensemble", "grid"), rounded_texts(*(row[name] for name in numbers)), strict=True))
+        texts |= dict(zip(("found", "ensemble", "grid"), number_cells(row), strict=True))
         texts["measure"] = measure_text(texts["measure"])
         if texts["condition"]:
-            texts["there"] = " ± ".join(rounded_texts(*(row[f"condition_{name}"] for name in numbers)))
+            texts["there"] = number_text(row, "condition_")
         texts["readings"] = choices_text(row)
         texts["second_row"] = beside_text(row)
         texts["figures"] = sorted(figures_in_source(row["source"]) & set(plan.figures))

@@ -2,63 +2,65 @@
 
 from __future__ import annotations
 
+import itertools
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.causes import FAILING, UNKNOWN
+from contactsim.analysis.quantities import SECOND_ESTIMATORS
+from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_number
 from contactsim.analysis.verdict import FINDING
-from contactsim.analysis.wording import choices_text, measure_text, printed, rounded_texts
+from contactsim.analysis.wording import candidates_text, measure_text, printed, readings_text
 from contactsim.publish.gallery import counts_markdown
 
-NUMBERS = ("value", "ensemble_error", "grid_error")
-HEADS = ("statement", "reading", "allowed", "value ± errors", "verdict", "margin", "place")
-LARGE = 99
-"""Margins above it are not told apart."""
-ABSENT = "–"
+HEADS = ("statement", "reading", "allowed", "value ± errors", "verdict", "margin", "place", "half; double band")
+ESTIMATOR_HEADS = ("statement", "as in the thesis", "verdict (margin)", "corrected", "verdict (margin)", "counted")
+OURS = "Ours."
+"""First word of the reason for a band that is not derived from the text."""
 INTRODUCTION = """# Verdicts on the statements of the thesis
 
 Each row is a sentence of the thesis, held against our own data; [the rules](judging.md)
-stand on a page of their own.
+stand on a page of their own, and [all numbers](gallery/verdicts.csv) in a table.
 
-- *Reading*: the number that we compute for the sentence. *Allowed*: the band of values that agree with it.
-- *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and its grid error.
-  A dash: none, or not known. For statements of order the number is the worst step over its error.
+- *Statement*: with its place in the thesis.
+- *Reading*: the number that we compute for the sentence. Of several cases the worst one counts; it is named.
+- *Allowed*: the band of values that agree with the sentence, and why that band.
+- *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and its grid error, rounded
+  to two digits of both together. *None*: there is no such error; *not known*: there is one, and nobody knows it;
+  *exact*: a formula. For an order the worst step over its error.
 - *Margin*: the distance to the edge of the band in errors. Below 2 there is no verdict: *not decidable*.
 - *Place*: 0 at the value stated, 1 at the edge of the band. Near 1 our choice of the band decides.
-- *Reproduced with a condition*: it fails on the whole selection and holds on the part named under the table.
+- *Half; double band*: the verdicts with bands of half and of twice the width, where one differs.
+- *Reproduced with a condition*: it fails on the whole selection and holds on the part that is named.
 - *Depends on what the text leaves open*: it holds with one admissible reading of the text and fails with another.
 
 Statements that fail stand again under the table, with the cause as far as it is known.
 """
+ESTIMATORS = """### Chapter {}: both estimators
+
+Counted points and the gradient of Eq. 3.8, as in the thesis, and the corrected area and gradient.
+"""
 
 
 def verdict_page(claims: pd.DataFrame) -> str:
-    """Return all statements as a Markdown page: counts, a table and causes by chapter, findings, open choices.
+    """Return all statements as a Markdown page: counts, tables and causes by chapter, findings, open choices.
 
     claims: table of verdicts with a column of chapters, of `contactsim.publish.gallery.read_verdicts`
     """
-    statements = claims[claims.verdict != FINDING]
     parts = [INTRODUCTION, counts_markdown(claims)]
-    for chapter, rows in statements.groupby("chapter", sort=True):
-        parts.append(f"## Chapter {str(chapter).removeprefix('ch')}\n")
-        parts.append(_table(HEADS, map(_statement_cells, rows.to_dict("records"))))
-        parts += [_failure_text(row) for row in rows[rows.verdict.isin(FAILING)].to_dict("records")]
+    for chapter, rows in claims[claims.verdict != FINDING].groupby("chapter", sort=True):
+        parts += _chapter_parts(str(chapter).removeprefix("ch"), rows)
     findings = claims[claims.verdict == FINDING].to_dict("records")
     if findings:
-        cells = ((_text(row, "statement"), measure_text(_text(row, "measure")), _number_text(row)) for row in findings)
         parts += ["## Findings\n", "Numbers that no sentence of the thesis states.\n"]
-        parts.append(_table(("number", "reading", "value ± errors"), cells))
-    choices = choices_table(claims)
-    if len(choices):
-        readings = map(_choice_cells, choices.to_dict("records"))
-        parts += [
-            "## What the text leaves open\n",
-            _table(("statement", "choice", "value ± errors", "verdict"), readings),
-        ]
+        parts.append(_table(("number", "reading", "value ± errors"), map(_finding_cells, findings)))
+    if choices := list(_choice_rows(claims)):
+        heads = ("statement", "choice", "value ± errors", "verdict", "margin")
+        parts += ["## What the text leaves open\n", _table(heads, choices)]
     return "\n".join(parts)
 
 
@@ -68,7 +70,7 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
     Parameters
     ----------
     before
-        Earlier verdicts: claim and verdict.
+        Earlier verdicts: claim, verdict, and the statement of a claim that is gone.
     claims
         Table of verdicts.
     reasons
@@ -76,8 +78,13 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
     """
     earlier, now = before.set_index("claim").verdict, claims.set_index("claim").verdict
     texts = reasons.groupby("claim", sort=False).reason.agg("; ".join)
+    statements = before.set_index("claim").get("statement", pd.Series(dtype=str)).dropna().to_dict()
+    statements |= claims.set_index("claim").statement.map(printed).to_dict()
     names = [*now.index, *earlier.index.difference(now.index, sort=False)]
-    rows = [(name, earlier.get(name, ABSENT), now.get(name, ABSENT), texts.get(name, "")) for name in names]
+    rows = [
+        (statements.get(name, name), earlier.get(name, ABSENT), now.get(name, ABSENT), texts.get(name, ""))
+        for name in names
+    ]
     changed = [(*row[:3], row[3] or "reason not yet given") for row in rows if ABSENT != row[1] != row[2]]
     new = [(row[0], row[2]) for row in rows if row[1] == ABSENT]
     same = [row[:2] for row in rows if row[1] == row[2]]
@@ -100,42 +107,107 @@ def write_verdict_pages(folder: Path) -> None:
     (folder / "verdict_changes.md").write_text(changes_page(before, claims, reasons), encoding="utf-8")
 
 
+def _chapter_parts(number: str, rows: pd.DataFrame) -> list[str]:
+    """Return the parts of a chapter: its statements, those of two estimators, and blocks on those that fail."""
+    parts = [f"## Chapter {number}\n", _table(HEADS, map(_statement_cells, rows.to_dict("records")))]
+    if estimators := [_estimator_cells(row) for row in rows.to_dict("records") if _text(row, "beside")]:
+        parts += [ESTIMATORS.format(number), _table(ESTIMATOR_HEADS, estimators)]
+    if failing := rows[rows.verdict.isin(FAILING)].to_dict("records"):
+        parts += [f"### Chapter {number}: what fails, depends or is not decidable\n", *map(_failure_text, failing)]
+    return parts
+
+
 def _statement_cells(row: Mapping) -> tuple[str, ...]:
     """Return the cells of a statement."""
-    margin, place = (row.get(name, np.nan) for name in ("margin", "place"))
     return (
-        printed(_text(row, "statement")),
-        measure_text(_text(row, "measure")),
-        _text(row, "expected"),
-        _number_text(row),
+        _with_note(printed(_text(row, "statement")), _text(row, "source")),
+        _reading_text(row),
+        _with_note(_band_text(row), _band_reason(row)),
+        number_text(row),
         row["verdict"],
-        ABSENT if np.isnan(margin) else f"{margin:.2g}" if margin < LARGE else f"> {LARGE}",
-        ABSENT if np.isnan(place) else f"{place:.2g}",
+        *(short_number(float(row.get(name, float("nan")))) for name in ("margin", "place")),
+        _other_bands_text(row),
     )
 
 
-def _choice_cells(row: Mapping) -> tuple[str, ...]:
-    """Return the cells of an admissible reading."""
-    return row["claim"], row["choice"], _number_text(row), row["verdict"]
+def _estimator_cells(row: Mapping) -> tuple[str, ...]:
+    """Return the cells of a statement with two estimators; the one that is beside is not counted."""
+    rows = ("beside_", "") if _text(row, "beside") not in SECOND_ESTIMATORS else ("", "beside_")
+    cells = [(number_text(row, prefix), _verdict_text(row, prefix)) for prefix in rows]
+    counted = ("as in the thesis", "corrected")[rows.index("")]
+    return (printed(_text(row, "statement")), *itertools.chain(*cells), counted)
+
+
+def _finding_cells(row: Mapping) -> tuple[str, ...]:
+    """Return the cells of a finding."""
+    return _with_note(printed(_text(row, "statement")), _text(row, "source")), _reading_text(row), number_text(row)
+
+
+def _choice_rows(claims: pd.DataFrame) -> Iterable[tuple[str, ...]]:
+    """Yield the cells of all admissible readings; the statement stands with the first of its own."""
+    by_name = claims.set_index("claim")
+    for name, rows in choices_table(claims).groupby("claim", sort=False):
+        statement = printed(str(by_name.statement[name]))
+        for row in rows.to_dict("records"):
+            number = number_text(row | {"measure": by_name.measure[name]})
+            yield statement, row["choice"], number, row["verdict"], short_number(float(row["margin"]))
+            statement = ""
 
 
 def _failure_text(row: Mapping) -> str:
-    """Return the paragraph on a statement that fails: condition, readings, unknown states, and its cause."""
-    parts = [f"**{printed(_text(row, 'statement'))}** {row['verdict'].capitalize()}"]
+    """Return the block on a statement that fails: where it holds, cases, readings, other bands, and its cause."""
+    lines = [f"Found {number_text(row)}, allowed {_band_text(row)}; margin {short_number(float(row['margin']))}."]
     if condition := _text(row, "condition"):
-        parts.append(f"holds for {condition} ({row['condition_share']:.0%} of all)")
-    parts += [text for text in (choices_text(row),) if text]
-    if unknown := _text(row, "unknown"):
-        parts.append(f"unknown: {unknown}")
+        there = "" if is_order(row) else f": {number_text(row, 'condition_')}"
+        lines.append(f"Holds for {condition} ({row['condition_share']:.0%} of all){there}.")
+    lines += [f"{label}: {_text(row, name)}." for name, label in TEXTS.items() if _text(row, name)]
+    default = _text(row, "default_verdict")
+    readings = [text for text in (readings_text(row), candidates_text(row)) if text]
+    lines += [f"{text[0].upper()}{text[1:]}." for text in readings]
+    lines += [f"By the reading of the claim itself: {default}."] * (default not in ("", row["verdict"]))
+    if bands := _other_bands_text(row):
+        lines.append(f"With half the band; with double: {bands}.")
     cause = _text(row, "cause") or UNKNOWN
-    return f"{'; '.join(parts)}. {cause[0].upper()}{cause[1:].rstrip('.')}.\n"
+    lines.append(f"{cause[0].upper()}{cause[1:].rstrip('.')}.")
+    head = f"**{printed(_text(row, 'statement'))}** {row['verdict'].capitalize()} ({_text(row, 'source')})."
+    return "\n".join([head, "", *(f"- {line}" for line in lines), ""])
 
 
-def _number_text(row: Mapping) -> str:
-    """Return a number with its errors, rounded to them."""
-    if np.isnan(row["value"]):
-        return ABSENT
-    return " ± ".join(rounded_texts(*(float(row[name]) for name in NUMBERS)))
+TEXTS = {"cases": "Cases", "deciding_case": "The case that decides", "unknown": "Unknown"}
+"""Texts of a row that stand in its block, with what they are called there."""
+
+
+def _reading_text(row: Mapping) -> str:
+    """Return what is computed for a statement, and the case that decides where there are several."""
+    case = _text(row, "deciding_case")
+    return measure_text(_text(row, "measure")) + (f", here: {case}" if case else "")
+
+
+def _band_text(row: Mapping) -> str:
+    """Return the band of a statement."""
+    return "each step" if is_order(row) else _text(row, "expected")
+
+
+def _band_reason(row: Mapping) -> str:
+    """Return the first sentence of the reason for a band, after the word that the band is ours."""
+    sentences = re.split(r"(?<=[.])\s+(?=[A-Z0-9κφ])", _text(row, "rationale"))
+    return " ".join(sentences[: 1 + (sentences[0] == OURS)])
+
+
+def _verdict_text(row: Mapping, prefix: str) -> str:
+    """Return the verdict of one of both estimators with its margin."""
+    return f"{_text(row, f'{prefix}verdict')} ({short_number(float(row[f'{prefix}margin']))})"
+
+
+def _other_bands_text(row: Mapping) -> str:
+    """Return the verdicts with half and double bands; nothing where both are that of the whole band."""
+    verdicts = [_text(row, f"verdict_{name}") for name in ("half", "double")]
+    return "" if set(verdicts) <= {row["verdict"], ""} else "; ".join(verdicts)
+
+
+def _with_note(text: str, note: str) -> str:
+    """Return the text of a cell with a note in small letters under it."""
+    return f"{text}<br><sub>{note}</sub>" if note else text
 
 
 def _text(row: Mapping, name: str) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 
-from contactsim.analysis.causes import KINDS, Cause
+from contactsim.analysis.causes import KINDS, PERCENT, ROW_NUMBERS, Cause
+from contactsim.analysis.cell_rules import CELL
 from contactsim.analysis.comparison import SECOND_STUDY
 from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
@@ -69,12 +70,14 @@ CLAIM_KEYS = {
     "grid": Key(choice(GRIDS), f"one of {', '.join(GRIDS)}", None),
     "cases": Key(mapping, "a mapping from the name of a case to the keys that it replaces", None),
     "admissible": Key(mapping, "a mapping from what the text leaves open to its alternatives", None),
-    "cause": Key(mapping, "a mapping with `kind` and `text`", None),
+    "cause": Key(mapping, "a mapping with `kind` and `text`, and `cell` where one separates candidates", None),
 }
 CAUSE_KEYS = {
     "kind": Key(choice(KINDS), f"one of {', '.join(KINDS)}"),
-    "text": Key(text, "a short text with the number that shows it"),
+    "text": Key(text, "a short text with the number that shows it; numbers of the row in braces"),
+    "cell": Key(mapping, "a mapping from lengths of the cell to their exponents", None),
 }
+CELL_KEYS = {name: Key(number, "an exponent", None) for name in CELL}
 EDGES = ("at_least", "at_most")
 """Keys of a band with one edge; a band with two is `expect` with `tolerance`."""
 REPLACED = (
@@ -149,9 +152,27 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     return claim
 
 
-def read_cause(section: Mapping | None, file: object, prefix: str) -> dict[str, str] | None:
-    """Return the cause of a failure as settings; None where the config gives none."""
-    return None if section is None else asdict(Cause(**read(section, CAUSE_KEYS, file, prefix)))
+def read_cause(section: Mapping | None, file: object, prefix: str) -> dict | None:
+    """Return the cause of a failure as settings; None where the config gives none.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or the text names a number in braces that no row has.
+    """
+    if section is None:
+        return None
+    settings = read(section, CAUSE_KEYS, file, prefix)
+    if settings["cell"] is not None:
+        exponents = read(settings["cell"], CELL_KEYS, file, f"{prefix}.cell")
+        settings["cell"] = {name: power for name, power in exponents.items() if power is not None}
+    cause = Cause(**settings)
+    for name, form in cause.named_numbers:
+        if name not in cause.known_names:
+            raise InputError(f"{prefix}.text", name, f"in braces one of {', '.join(cause.known_names)}", file)
+        if form not in ("", PERCENT) or (form and name not in ROW_NUMBERS):
+            raise InputError(f"{prefix}.text", f"{name}:{form}", f"no format, or `{PERCENT}` of a number", file)
+    return asdict(cause)
 
 
 def read_alternatives(

@@ -14,8 +14,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactsim import dataset
+from contactsim.analysis.rounding import NUMBERS, number_cells, short_number
 from contactsim.analysis.verdict import CONDITION, DEPENDS, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed, rounded_texts, sample_texts
+from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed, sample_texts
 from contactsim.figures import style
 from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save
 
@@ -47,9 +48,6 @@ PADDING = 0.07
 """Space in a cell above and below its text together, inches."""
 TITLE_HEIGHT = 0.35
 PLUS_MINUS = "\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}"
-NUMBERS = ("value", "ensemble_error", "grid_error")
-LARGE = 99
-"""Margins above it are not told apart."""
 
 
 @mpl.rc_context(style.RC_PARAMS)
@@ -102,9 +100,9 @@ def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
     """Return the text of each cell; a condition and the value under it follow the verdict."""
     texts = {name: row[name] for name in ("source", "statement", "expected", "rationale", "verdict")}
     texts["measure"] = measure_text(row["measure"])
-    texts |= dict(zip(NUMBERS, rounded_texts(*(row[name] for name in NUMBERS)), strict=True))
+    texts |= dict(zip(NUMBERS, number_cells(row), strict=True))
     if row["condition"]:
-        values = rounded_texts(*(row[f"condition_{name}"] for name in NUMBERS))
+        values = number_cells(row, "condition_")
         texts["verdict"] += (
             f": {row['condition']}, {row['condition_share']:.0%} of all; there {PLUS_MINUS.join(values)}"
         )
@@ -114,14 +112,9 @@ def _cells(row: Mapping[Any, Any]) -> dict[str, str]:
         texts["verdict"] += f": {readings}"
     if row["unknown"]:
         texts["verdict"] += f": unknown is {row['unknown']}"
-    texts |= {name: _short_number(row[name]) for name in ("margin", "place")}
+    texts |= {name: short_number(row[name]) for name in ("margin", "place")}
     widths = {name: int(width * CELL_LETTERS) for name, (_, width) in COLUMNS.items()}
     return {name: textwrap.fill(printed(texts[name]), width) for name, width in widths.items()}
-
-
-def _short_number(value: float) -> str:
-    """Return a number in two digits; large ones only as large, and a dash for none."""
-    return "–" if np.isnan(value) else f"{value:.2g}" if value < LARGE else f"> {LARGE:g}"
 
 
 def footer_text(verdicts: pd.DataFrame, data: Mapping[str, xr.Dataset]) -> str:
@@ -129,7 +122,7 @@ def footer_text(verdicts: pd.DataFrame, data: Mapping[str, xr.Dataset]) -> str:
     tiers = sorted({dataset.settings_of(part)["tier"] for part in data.values()})
     parts = [f"{tier} tier" for tier in tiers]
     parts += [f"{study}: {', '.join(sample_texts(part))}" for study, part in data.items()]
-    parts.append("errors to two digits; ensemble error: one standard error over members")
+    parts.append("numbers to two digits of both errors together; ensemble error: one standard error over members")
     parts.append("grid error: change on halving the points, and what the increments of a path leave open")
     parts.append("margin: distance to the edge of the band over both errors in quadrature; below 2 not decidable")
     parts.append("place in the band: 0 at the value stated, or where nothing changes; 1 at the edge")

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim.analysis.wording import rounded_texts
+from contactsim.analysis.rounding import rounded_texts
 from contactsim.figures import style
 from contactsim.figures.parts.proportionality import AS_IN_THESIS, CORRECTED, ESTIMATORS, persson_curve
 from contactsim.grid import Array

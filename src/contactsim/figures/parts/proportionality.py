@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from contactsim.analysis.mean_errors import estimate_trend, grid_error, mean_error
-from contactsim.analysis.wording import rounded_texts
+from contactsim.analysis.rounding import rounded_texts
 from contactsim.figures import style
 from contactsim.grid import Array
 from contactsim.reference import hard_wall
