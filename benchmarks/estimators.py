@@ -75,7 +75,7 @@ def print_table(name: str, values: xr.DataArray, is_surface: bool) -> None:
     print(f"| {name} by | H | p* | " + " | ".join(f"{count:d}" for count in values.points.values) + " |")
     print("|---" * (3 + values.points.size) + "|")
     distance = 100 * (values / finest - 1)
-    for estimator in ESTIMATORS:
+    for estimator in ESTIMATORS if name == "κ_r" else ESTIMATORS[:-1]:  # pairs have the counted area
         for hurst in HURST_EXPONENTS:
             for pressure in PRESSURES:
                 row = distance.sel(estimator=estimator, hurst=hurst, pressure=pressure)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from contactsim.analysis.uncertainty import Estimate
 from contactsim.publish import factor_table
 from support.claims import PLAN, made_up, with_corrected
 
@@ -21,3 +22,12 @@ def test_each_factor_stands_with_the_errors_of_a_statement(monkeypatch, tmp_path
     spread = np.std(0.01 * np.linspace(-1, 1, 4), ddof=1) / 2
     assert values[0] == values[1] == pytest.approx([1.9, spread, 0.07], rel=0.02)  # the second estimator decides
     assert values[2] == pytest.approx([0.95, spread / 2, 0.035], rel=0.03)
+
+
+def test_a_grid_error_that_is_small_by_chance_takes_those_beside_it():
+    errors = [0.02, 0.0, 0.02, 0.02]
+    pooled = factor_table.pool_grid_errors([Estimate(1.7, 0.01, error) for error in errors])
+    assert [part.grid_error for part in pooled] == pytest.approx(
+        [0.02 / np.sqrt(2), 0.02 * np.sqrt(2 / 3), 0.02 * np.sqrt(2 / 3), 0.02]
+    )
+    assert {(part.value, part.ensemble_error) for part in pooled} == {(1.7, 0.01)}

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 from contactsim.analysis.comparison import Comparison
@@ -44,11 +47,26 @@ def factor_table(plan: Plan, folder: Path, study: str) -> str:
     exponents = [float(value) for value in data.hurst_exponent]
     heads = [f"{symbol}, H = {hurst:g}" for symbol in FACTORS.values() for hurst in exponents]
     lines = [f"| p* | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
-    for pressure in map(float, data.reduced_pressure):
-        if pressure > LARGEST_PRESSURE:
-            continue
-        places = [{"hurst_exponent": hurst, "reduced_pressure": pressure} for hurst in exponents]
-        numbers = [factor_estimate(plan, study, data, name, place) for name in FACTORS for place in places]
-        texts = [rounded_texts(number.value, number.ensemble_error, number.grid_error) for number in numbers]
+    pressures = [float(pressure) for pressure in data.reduced_pressure if pressure <= LARGEST_PRESSURE]
+    columns = []
+    for name in FACTORS:
+        for hurst in exponents:
+            places = [{"hurst_exponent": hurst, "reduced_pressure": pressure} for pressure in pressures]
+            columns.append(pool_grid_errors([factor_estimate(plan, study, data, name, place) for place in places]))
+    for pressure, row in zip(pressures, zip(*columns, strict=True), strict=True):
+        texts = [rounded_texts(number.value, number.ensemble_error, number.grid_error) for number in row]
         lines.append(f"| {pressure:g} | {' | '.join(' ± '.join(cell) for cell in texts)} |")
     return "\n".join(lines) + "\n"
+
+
+def pool_grid_errors(estimates: Sequence[Estimate]) -> list[Estimate]:
+    """Return the estimates at rising loads, each with the root mean square of the grid errors at it and beside it.
+
+    A change on halving the points may be small by chance where its sign turns.
+    """
+    errors = np.array([estimate.grid_error for estimate in estimates])
+    windows = [errors[max(place - 1, 0) : place + 2] for place in range(len(errors))]
+    return [
+        replace(estimate, grid_error=float(np.sqrt(np.mean(window**2))))
+        for estimate, window in zip(estimates, windows, strict=True)
+    ]
