@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contactsim.analysis.uncertainty import Estimate
+from contactsim.analysis.uncertainty import Estimate, student_factor
 from contactsim.publish import factor_table
 from support.claims import PLAN, made_up, with_corrected
 
@@ -19,7 +19,7 @@ def test_each_factor_stands_with_the_errors_of_a_statement(monkeypatch, tmp_path
     assert [row.split(" | ")[0] for row in rows] == ["| 0.001", "| 0.01", "| 0.1"]
     cells = rows[0].strip("| ").split(" | ")[1:]
     values = [[float(part) for part in cell.split(" ± ")] for cell in cells]
-    spread = np.std(0.01 * np.linspace(-1, 1, 4), ddof=1) / 2
+    spread = student_factor(4) * np.std(0.01 * np.linspace(-1, 1, 4), ddof=1) / 2
     assert values[0] == values[1] == pytest.approx([1.9, spread, 0.07], rel=0.02)  # the second estimator decides
     assert values[2] == pytest.approx([0.95, spread / 2, 0.035], rel=0.03)
 
