@@ -65,7 +65,7 @@ def test_a_block_tells_its_condition_its_cases_and_other_bands(verdicts):
     assert "- Holds for H = 0.2 (50% of all): 2.950 ± 0.010 ± 0.020." in page
     assert "- Cases: first: reproduced (2.9); heavy: not reproduced (2.1).\n- The case that decides: heavy." in page
     assert "- With half the band; with double: not reproduced; reproduced." in page
-    assert "mean of κ, here: heavy |" in page
+    assert "mean of κ: heavy |" in page
 
 
 def test_changes_are_listed_with_their_reasons(verdicts):

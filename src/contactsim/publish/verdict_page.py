@@ -10,6 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from contactsim.analysis.admissible import choices_table
+from contactsim.analysis.cases import DEFAULT
 from contactsim.analysis.causes import FAILING, UNKNOWN
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_number
@@ -167,7 +168,7 @@ def _failure_text(row: Mapping) -> str:
     lines += [f"By the reading of the claim itself: {default}."] * (default not in ("", row["verdict"]))
     if bands := _other_bands_text(row):
         lines.append(f"With half the band; with double: {bands}.")
-    cause = _text(row, "cause") or UNKNOWN
+    cause = printed(_text(row, "cause") or UNKNOWN)
     lines.append(f"{cause[0].upper()}{cause[1:].rstrip('.')}.")
     head = f"**{printed(_text(row, 'statement'))}** {row['verdict'].capitalize()} ({_text(row, 'source')})."
     return "\n".join([head, "", *(f"- {line}" for line in lines), ""])
@@ -179,8 +180,8 @@ TEXTS = {"cases": "Cases", "deciding_case": "The case that decides", "unknown": 
 
 def _reading_text(row: Mapping) -> str:
     """Return what is computed for a statement, and the case that decides where there are several."""
-    case = _text(row, "deciding_case")
-    return measure_text(_text(row, "measure")) + (f", here: {case}" if case else "")
+    case = _text(row, "deciding_case").replace(DEFAULT, f"the {DEFAULT}")
+    return measure_text(_text(row, "measure")) + (f": {case}" if case else "")
 
 
 def _band_text(row: Mapping) -> str:
@@ -191,7 +192,7 @@ def _band_text(row: Mapping) -> str:
 def _band_reason(row: Mapping) -> str:
     """Return the first sentence of the reason for a band, after the word that the band is ours."""
     sentences = re.split(r"(?<=[.])\s+(?=[A-Z0-9κφ])", _text(row, "rationale"))
-    return " ".join(sentences[: 1 + (sentences[0] == OURS)])
+    return printed(" ".join(sentences[: 1 + (sentences[0] == OURS)]))
 
 
 def _verdict_text(row: Mapping, prefix: str) -> str:
