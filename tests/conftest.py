@@ -72,6 +72,14 @@ def assess_claims(plan: Plan, chapter: str) -> None:
     write_claims(judge_claims(dict(settings["claims"]), data), chapter, data, targets)
 
 
+def gather_study(plan: Plan, study: str) -> None:
+    """Dataset and table of costs of a study."""
+    settings, name = plan.study_settings(study), plan.dataset_name(study)
+    data = aggregate.aggregate(settings["runs"], settings["settings"], settings["source"])
+    dataset.write(data, plan.results / f"datasets/{name}.nc")
+    costs.table(settings["runs"]).to_csv(plan.results / f"costs/{name}.csv", index=False)
+
+
 @pytest.fixture(scope="session")
 def made(tmp_path_factory) -> Path:
     """A folder in which `results/quick` holds everything of the quick tier, made by the first worker that needs it."""
@@ -103,11 +111,9 @@ def make_quick_tier(folder: Path) -> None:
             list(pool.map(decide_run, decisions))
             list(pool.map(compute_run, [job for job in jobs if not job[-1]]))
             list(pool.map(compute_run, [job for job in jobs if job[-1]]))
-        for study in plan.studies:
-            settings, name = plan.study_settings(study), plan.dataset_name(study)
-            data = aggregate.aggregate(settings["runs"], settings["settings"], settings["source"])
-            dataset.write(data, plan.results / f"datasets/{name}.nc")
-            costs.table(settings["runs"]).to_csv(plan.results / f"costs/{name}.csv", index=False)
+            gathered = [pool.submit(gather_study, plan, study) for study in plan.studies]
+            for job in gathered:
+                job.result()
         (plan.results / "figures").mkdir()
         (plan.results / "claims").mkdir()
         with ProcessPoolExecutor(2, get_context("spawn")) as pool:
