@@ -8,7 +8,12 @@ import pytest
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.layer import Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
-from contactsim.observables.deformation import displacement_numbers, gaps_about_pull_off, slip_at_largest_pull
+from contactsim.observables.deformation import (
+    displacement_numbers,
+    gap_errors_about_pull_off,
+    gaps_about_pull_off,
+    slip_at_largest_pull,
+)
 from contactsim.observables.derived import summarise_paths
 from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat
@@ -80,3 +85,12 @@ def test_the_share_of_the_period_in_contact_is_a_length_over_the_period():
 def test_without_fields_there_is_no_displacement():
     found = pressed(70.0, snapshots=())
     assert np.isnan([found.peak_displacement, found.far_displacement, found.slip_at_largest_pull]).all()
+
+
+def test_the_errors_of_gaps_about_a_pull_off_are_their_changes_to_the_states_beyond():
+    approach = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    gap = np.array([10.0, 7.0, 5.0, 1.0, 0.5])
+    assert gaps_about_pull_off(approach, gap, 2.3) == (5.0, 1.0)
+    assert gap_errors_about_pull_off(approach, gap, 2.3) == (2.0, 0.5)
+    assert np.isnan(gap_errors_about_pull_off(approach, gap, np.nan)).all()
+    assert np.isnan(gap_errors_about_pull_off(approach, gap, 4.0)).all()

@@ -24,6 +24,8 @@ DEFORMATION = (
     "final_contact_share",
 )
 """Numbers of the deformation along a path."""
+AT_ONE_STATE = DEFORMATION[3:]
+"""Those of them that are read at a snapshot, or at the largest approach."""
 
 
 def gaps_about_pull_off(approach: Array, gap: Array, place: float) -> tuple[float, float]:
@@ -42,6 +44,20 @@ def gaps_about_pull_off(approach: Array, gap: Array, place: float) -> tuple[floa
     if not (before.size and after.size):
         return np.nan, np.nan
     return float(gap[loading][before[-1]]), float(gap[loading][after[0]])
+
+
+def gap_errors_about_pull_off(approach: Array, gap: Array, place: float) -> tuple[float, float]:
+    """Return what the increments leave open in the gaps of `gaps_about_pull_off`: their changes to the state beyond.
+
+    approach, gap, place: as there
+    """
+    loading = legs(approach)[0]
+    here, gaps = approach[loading], gap[loading]
+    last = int(np.count_nonzero(here <= place + TURN_TOLERANCE)) - 1
+    if not 0 <= last < here.size - 1:
+        return np.nan, np.nan
+    errors = [abs(gaps[last] - gaps[max(last - 1, 0)]), abs(gaps[min(last + 2, here.size - 1)] - gaps[last + 1])]
+    return float(errors[0]), float(errors[1])
 
 
 def displacement_numbers(displacement: Array, heights: Array) -> tuple[float, float]:
@@ -79,16 +95,19 @@ def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
     data: with the summaries of load curves
     """
     unknown = xr.full_like(data.pull_off_approach_loading, np.nan)
-    at = after = peak = far = slip = unknown
+    at = after = peak = far = slip = at_error = after_error = unknown
     if "min_gap" in data:
-        at, after = xr.apply_ufunc(
-            gaps_about_pull_off,
-            data.approach,
-            data.min_gap.where(is_solved(data.status)),
-            data.pull_off_approach_loading,
-            input_core_dims=[["step"], ["step"], []],
-            output_core_dims=[[], []],
-            vectorize=True,
+        (at, after), (at_error, after_error) = (
+            xr.apply_ufunc(
+                function,
+                data.approach,
+                data.min_gap.where(is_solved(data.status)),
+                data.pull_off_approach_loading,
+                input_core_dims=[["step"], ["step"], []],
+                output_core_dims=[[], []],
+                vectorize=True,
+            )
+            for function in (gaps_about_pull_off, gap_errors_about_pull_off)
         )
     if "normal_displacement" in data and "heights" in data:
         peak, far = xr.apply_ufunc(
@@ -110,4 +129,6 @@ def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
         )
     pulled_up = -data.pull_off_approach_loading - at  # undeformed bodies are -δ apart at the peak
     share = data.final_contact_length / data.length
-    return data.assign(dict(zip(DEFORMATION, (at, after, pulled_up, peak, far, slip, share), strict=True)))
+    data = data.assign(dict(zip(DEFORMATION, (at, after, pulled_up, peak, far, slip, share), strict=True)))
+    errors = at_error, after_error, at_error + data.pull_off_approach_loading_increment_error
+    return data.assign({f"{name}_increment_error": error for name, error in zip(DEFORMATION[:3], errors, strict=True)})
