@@ -154,7 +154,7 @@ def test_a_claim_asks_for_the_studies_of_its_alternatives():
     [
         ({"admissible": {"weights": {}}}, "admissible.weights"),
         ({"admissible": {"weights": {"none": {}}}}, "admissible.weights.none"),
-        ({"admissible": {"weights": {"x": {"at_most": 3.0}}}}, "admissible.weights.x.at_most"),
+        ({"admissible": {"weights": {"x": {"neutral": 3.0}}}}, "admissible.weights.x.neutral"),
         ({"admissible": {"weights": {"x": {"quantity": "kapa"}}}}, "admissible.weights.x.quantity"),
         ({"cause": {"kind": "weather", "text": "Rain."}}, "cause.kind"),
         ({"cause": {"kind": "physics"}}, "cause.text"),
