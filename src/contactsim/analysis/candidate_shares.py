@@ -40,6 +40,12 @@ class HoldingShare:
         return math.sqrt(expected * (1 - expected) / self.decided)
 
 
+def drawn_candidates(candidates: pd.DataFrame, claim: str, group: str) -> pd.DataFrame:
+    """Return the rows of a claim in the drawn candidates of a set; arguments as of `holding_candidates`."""
+    rows = candidates[(candidates.claim == claim) & candidates[group].astype(bool)]
+    return rows[rows.candidate.astype(str).str.fullmatch(DRAWN).astype(bool)]
+
+
 def holding_candidates(candidates: pd.DataFrame, claim: str, group: str) -> HoldingShare:
     """Return in how many drawn candidates of a set a statement holds.
 
@@ -52,8 +58,7 @@ def holding_candidates(candidates: pd.DataFrame, claim: str, group: str) -> Hold
     group
         One of `SETS`.
     """
-    rows = candidates[(candidates.claim == claim) & candidates[group].astype(bool)]
-    verdicts = rows[rows.candidate.astype(str).str.fullmatch(DRAWN)].verdict
+    verdicts = drawn_candidates(candidates, claim, group).verdict
     return HoldingShare(int((verdicts != NOT_DECIDABLE).sum()), int((verdicts == REPRODUCED).sum()))
 
 

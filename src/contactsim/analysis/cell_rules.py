@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from contactsim.analysis.candidate_shares import DRAWN, SETS
+from contactsim.analysis.candidate_shares import SETS, drawn_candidates
 from contactsim.analysis.verdict import NOT_DECIDABLE, REPRODUCED
 
 CELL = ("width", "thickness", "lattice_constant")
@@ -36,8 +36,7 @@ class CellRule:
 
 def admitted_cells(candidates: pd.DataFrame, claim: str) -> pd.DataFrame:
     """Return the rows of a claim in the candidates that are drawn and admitted."""
-    rows = candidates[(candidates.claim == claim) & candidates[SETS[0]].astype(bool)]
-    return rows[rows.candidate.astype(str).str.fullmatch(DRAWN).astype(bool)]
+    return drawn_candidates(candidates, claim, SETS[0])
 
 
 def separate_cells(cells: pd.DataFrame, exponents: Mapping[str, float]) -> CellRule | None:
