@@ -413,6 +413,6 @@ def test_the_plan_refuses_a_bad_claim(tmp_path):
         text = file.read_text(encoding="utf-8")
         (tmp_path / file.name).write_text(text.replace("    reduce: fall\n", "    reduce: sink\n", 1), encoding="utf-8")
     with pytest.raises(
-        InputError, match=r"ch3.yaml: claims.kappa_not_constant.reduce: got 'sink'; allowed: one of mean"
+        InputError, match=r"ch3.yaml: claims.kappa_pressure.reduce: got 'sink'; allowed: one of mean"
     ):
         Plan.read(tmp_path)
