@@ -412,7 +412,5 @@ def test_the_plan_refuses_a_bad_claim(tmp_path):
     for file in (ROOT / "config").glob("*.yaml"):
         text = file.read_text(encoding="utf-8")
         (tmp_path / file.name).write_text(text.replace("    reduce: fall\n", "    reduce: sink\n", 1), encoding="utf-8")
-    with pytest.raises(
-        InputError, match=r"ch3.yaml: claims.kappa_pressure.reduce: got 'sink'; allowed: one of mean"
-    ):
+    with pytest.raises(InputError, match=r"ch3.yaml: claims.kappa_pressure.reduce: got 'sink'; allowed: one of mean"):
         Plan.read(tmp_path)

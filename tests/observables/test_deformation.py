@@ -9,6 +9,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.layer import Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.deformation import (
+    displacement_at_largest_pull,
     displacement_numbers,
     gap_errors_about_pull_off,
     gaps_about_pull_off,
@@ -94,3 +95,12 @@ def test_the_errors_of_gaps_about_a_pull_off_are_their_changes_to_the_states_bey
     assert gap_errors_about_pull_off(approach, gap, 2.3) == (2.0, 0.5)
     assert np.isnan(gap_errors_about_pull_off(approach, gap, np.nan)).all()
     assert np.isnan(gap_errors_about_pull_off(approach, gap, 4.0)).all()
+
+
+def test_the_displacement_at_the_largest_pull_is_read_after_a_jump_and_has_the_change_of_that_branch():
+    approach = np.array([-4.0, -3.0, -2.0, -1.0, 0.0])
+    gap, load = np.array([3.9, 2.8, 0.5, -0.4, -1.3]), np.array([-0.1, -0.2, -5.0, -4.0, -3.0])
+    assert displacement_at_largest_pull(approach, gap, load) == pytest.approx((1.5, 0.1))
+    assert np.isnan(displacement_at_largest_pull(approach, gap, np.full(5, np.nan))).all()
+    assert np.isnan(displacement_at_largest_pull(approach, gap, -load)).all()
+    assert np.isnan(displacement_at_largest_pull(approach[:3], gap[:3], load[:3])).all()

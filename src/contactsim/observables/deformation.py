@@ -1,8 +1,9 @@
 """Numbers of a path that say how the surface deforms while two smooth bodies adhere.
 
-The gap about the largest pull on loading says if the pull drops because points come closer than the law's length, and
-how far the surface is pulled up there. The normal displacement at the first snapshot says what the rest of the surface
-does meanwhile. The slip at the last snapshot is read where the pull is largest, at the edge of the contact.
+The gap about the largest pull on loading says if the pull drops because points come closer than the law's length. How
+far the surface is pulled up is read at the state with the largest pull, which lies after a jump into contact. The
+normal displacement at the first snapshot says what the rest of the surface does meanwhile. The slip at the last
+snapshot is read where the pull is largest, at the edge of the contact.
 """
 
 from __future__ import annotations
@@ -60,6 +61,25 @@ def gap_errors_about_pull_off(approach: Array, gap: Array, place: float) -> tupl
     return float(errors[0]), float(errors[1])
 
 
+def displacement_at_largest_pull(approach: Array, gap: Array, load: Array) -> tuple[float, float]:
+    """Return how far the surface is pulled up below the peak at the state with the largest pull on loading, nm.
+
+    The second number is what the increments leave open: the least change to a state beside it. Beside a jump that is
+    the change on its own branch.
+
+    Parameters
+    ----------
+    approach, gap, load
+        Approach and smallest gap, nm, and load, N/m, of each state, (step,); gap and load are NaN without a solution.
+    """
+    loading = legs(approach)[0]
+    pull, pulled_up = -load[loading], -(approach + gap)[loading]  # undeformed bodies are -approach apart at the peak
+    best = 0 if np.isnan(pull).all() else int(np.nanargmax(pull))
+    if not (0 < best < pull.size - 1 and pull[best] > 0):
+        return np.nan, np.nan
+    return float(pulled_up[best]), float(np.fmin(*np.abs(pulled_up[[best - 1, best + 1]] - pulled_up[best])))
+
+
 def displacement_numbers(displacement: Array, heights: Array) -> tuple[float, float]:
     """Return the largest normal displacement (nm), and its mean over the half of the period furthest from the peak.
 
@@ -95,19 +115,29 @@ def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
     data: with the summaries of load curves
     """
     unknown = xr.full_like(data.pull_off_approach_loading, np.nan)
-    at = after = peak = far = slip = at_error = after_error = unknown
+    at = after = pulled_up = peak = far = slip = at_error = after_error = pulled_up_error = unknown
     if "min_gap" in data:
+        solved = data[["min_gap", "line_load"]].where(is_solved(data.status))
         (at, after), (at_error, after_error) = (
             xr.apply_ufunc(
                 function,
                 data.approach,
-                data.min_gap.where(is_solved(data.status)),
+                solved.min_gap,
                 data.pull_off_approach_loading,
                 input_core_dims=[["step"], ["step"], []],
                 output_core_dims=[[], []],
                 vectorize=True,
             )
             for function in (gaps_about_pull_off, gap_errors_about_pull_off)
+        )
+        pulled_up, pulled_up_error = xr.apply_ufunc(
+            displacement_at_largest_pull,
+            data.approach,
+            solved.min_gap,
+            solved.line_load,
+            input_core_dims=[["step"]] * 3,
+            output_core_dims=[[], []],
+            vectorize=True,
         )
     if "normal_displacement" in data and "heights" in data:
         peak, far = xr.apply_ufunc(
@@ -127,8 +157,7 @@ def summarise_deformation(data: xr.Dataset) -> xr.Dataset:
             input_core_dims=[["x"], ["x"]],
             vectorize=True,
         )
-    pulled_up = -data.pull_off_approach_loading - at  # undeformed bodies are -δ apart at the peak
     share = data.final_contact_length / data.length
     data = data.assign(dict(zip(DEFORMATION, (at, after, pulled_up, peak, far, slip, share), strict=True)))
-    errors = at_error, after_error, at_error + data.pull_off_approach_loading_increment_error
+    errors = at_error, after_error, pulled_up_error
     return data.assign({f"{name}_increment_error": error for name, error in zip(DEFORMATION[:3], errors, strict=True)})

@@ -15,7 +15,7 @@ J. Nocedal, Math. Comp. 35, 773 (1980), doi:10.1090/S0025-5718-1980-0572855-7.
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -39,13 +39,17 @@ LEAST_CURVATURE = 1e-8
 
 @dataclass
 class _Place:
-    """A displacement (exerted, m), what acts at it, and its gradient as real numbers whose products are means."""
+    """A displacement, what acts at it, and the gradient of the energy.
+
+    Displacement, elastic traction and gradient are scaled coefficients (exerted, m): times the root of how often each
+    counts in a mean, so that products of their real and imaginary parts add up to means over the period.
+    """
 
     displacement: Array
+    elastic: Array
     gap: Array
     traction: Array
-    residual: Array = field(init=False)
-    gradient: Array = field(init=False)
+    gradient: Array
 
 
 def descend(problem: CohesiveProblem, start: Array, budget: int) -> Equilibrium:
@@ -69,7 +73,7 @@ class _Descent:
     def __init__(self, problem: CohesiveProblem) -> None:
         self._problem = problem
         self._metric: Symbol = problem.regularised_stiffness.inverse(problem.law_stiffness)
-        self._weights = np.sqrt(problem.mode_weights)
+        self._scale = np.sqrt(problem.mode_weights)
         self._pairs: deque[tuple[Array, Array, float]] = deque(maxlen=PAIRS)
 
     def run(self, start: Array, budget: int) -> Equilibrium:
@@ -77,10 +81,10 @@ class _Descent:
         problem, status, count = self._problem, Status.MAX_ITERATIONS, 0
         here = self._place_at(start)
         while True:
-            worst = self._worst(here.residual)
-            if worst <= problem.tolerance and count:  # the gap of many steps, added up, has their rounding
-                here = self._place_at(here.displacement)
-                worst = self._worst(here.residual)
+            worst = self._worst(here.gradient)
+            if worst <= problem.tolerance and count:  # sums of many steps have their rounding
+                here = self._place_at(here.displacement / self._scale)
+                worst = self._worst(here.gradient)
             if worst <= problem.tolerance:
                 status = Status.CONVERGED
             elif not np.isfinite(worst):
@@ -89,42 +93,43 @@ class _Descent:
                 status = Status.NO_EQUILIBRIUM
             if status is not Status.MAX_ITERATIONS or count == budget:
                 break
-            step, slope = self._direction(here.gradient)
+            step, slope = self._direction(_numbers(here.gradient))
             after = self._search(here, step, slope) if slope < 0 else None
             if after is None:
                 break
             count, here = count + 1, after
-        distance = largest_change(problem, here.displacement - start)
+        displacement = here.displacement / self._scale
+        distance = largest_change(problem, displacement - start)
         if status is not Status.CONVERGED:
-            worst = problem.norm(here.residual)
-        return Equilibrium(here.displacement, here.gap, here.traction, status, worst, distance, count)
+            worst = problem.norm(here.gradient / self._scale)
+        return Equilibrium(displacement, here.gap, here.traction, status, worst, distance, count)
 
     def _place_at(self, displacement: Array) -> _Place:
-        """Return the place at a displacement."""
+        """Return the place at the coefficients of a displacement (exerted, m)."""
         gap = self._problem.gap(displacement)
-        return self._place(displacement, gap, self._problem.traction(gap))
+        scaled = displacement * self._scale
+        return self._place(scaled, self._elastic(scaled), gap, self._problem.traction(gap))
 
-    def _place(self, displacement: Array, gap: Array, traction: Array) -> _Place:
+    def _elastic(self, scaled: Array) -> Array:
+        """Return the elastic traction at a displacement, both scaled coefficients."""
+        return self._problem.add_elastic(np.zeros_like(scaled), scaled)
+
+    def _place(self, displacement: Array, elastic: Array, gap: Array, traction: Array) -> _Place:
         """Return a place with its gradient."""
-        place = _Place(displacement, gap, traction)
-        place.residual = self._problem.residual(displacement, traction)
-        place.gradient = self._real(place.residual)
-        return place
-
-    def _real(self, coefficients: Array) -> Array:
-        """Return coefficients (exerted, m) as real numbers, whose products are means over the period."""
-        return (coefficients * self._weights).reshape(-1).view(float)
-
-    def _complex(self, numbers: Array) -> Array:
-        """Return real numbers as coefficients (exerted, m)."""
-        return numbers.view(complex).reshape(self._problem.unknowns) / self._weights
-
-    def _worst(self, residual: Array) -> float:
-        """Return the largest residual at any point, or less where its root mean square is above the tolerance."""
         problem = self._problem
-        numbers = self._real(residual)
-        mean = float(np.sqrt(numbers @ numbers)) / (problem.strength * np.sqrt(len(residual)))
-        return problem.norm(residual) if mean <= problem.tolerance else mean
+        gradient = problem.coefficients(traction)
+        gradient *= self._scale
+        gradient += elastic
+        if problem.load is not None:
+            gradient[0, 0] += problem.load
+        gradient[problem.fixed_modes, 0] = 0
+        return _Place(displacement, elastic, gap, traction, gradient)
+
+    def _worst(self, gradient: Array) -> float:
+        """Return the largest residual at any point, or less where its root mean square is above the tolerance."""
+        problem, numbers = self._problem, _numbers(gradient)
+        mean = float(np.sqrt(numbers @ numbers)) / (problem.strength * np.sqrt(len(gradient)))
+        return problem.norm(gradient / self._scale) if mean <= problem.tolerance else mean
 
     def _direction(self, gradient: Array) -> tuple[Array, float]:
         """Return a step as real numbers and the slope along it; along the gradient where the pairs give none."""
@@ -133,7 +138,7 @@ class _Descent:
             for moved, turned, product in reversed(pairs):
                 shares.append((moved @ step) / product)
                 step -= shares[-1] * turned
-            step = self._real(self._metric.apply(self._complex(step)))
+            step = _numbers(self._metric.apply(self._coefficients(step)))
             for (moved, turned, product), share in zip(pairs, reversed(shares), strict=True):
                 step += (share - (turned @ step) / product) * moved
             slope = float(gradient @ step)
@@ -142,32 +147,43 @@ class _Descent:
             self._pairs.clear()
         return step, slope
 
+    def _coefficients(self, numbers: Array) -> Array:
+        """Return real numbers as the scaled coefficients that they are parts of."""
+        return numbers.view(complex).reshape(self._problem.unknowns)
+
     def _search(self, here: _Place, step: Array, slope: float) -> _Place | None:
         """Return the place at the end of a step, shortened until it does not go far uphill; None if it never ends."""
-        problem = self._problem
-        change = self._complex(step)
-        field = problem.field(change)[: len(change)]
-        elastic = problem.add_elastic(np.zeros_like(change), change)
-        bend = float(step @ self._real(elastic))
-        fixed = slope - float(np.vdot(here.traction, field)) / field.shape[1]
-        length = min(1.0, LONGEST_STEP * problem.interaction_range / float(np.abs(field).max()))
+        problem, change = self._problem, self._coefficients(step)
+        field = problem.field(change / self._scale)
+        along = field[: len(change)]
+        elastic = self._elastic(change)
+        bend = float(step @ _numbers(elastic))
+        fixed = slope - float(np.vdot(here.traction, along)) / along.shape[1]
+        length = min(1.0, LONGEST_STEP * problem.interaction_range / max(float(along.max()), -float(along.min())))
         for _ in range(MAX_SHORTENINGS):
             gap = here.gap + length * field
             traction = problem.traction(gap)
-            end = fixed + length * bend + float(np.vdot(traction, field)) / field.shape[1]
+            end = fixed + length * bend + float(np.vdot(traction, along)) / along.shape[1]
             if end <= -UPHILL * slope:
                 break
             length *= max(LEAST_SHORTENING, slope / (slope - end)) if np.isfinite(end) else LEAST_SHORTENING
         else:
             return None
-        after = self._place(here.displacement + length * change, gap, traction)
-        self._remember(length * step, after.gradient - here.gradient)
+        elastic *= length
+        elastic += here.elastic
+        after = self._place(here.displacement + length * change, elastic, gap, traction)
+        self._remember(length * step, _numbers(after.gradient - here.gradient))
         return after
 
     def _remember(self, moved: Array, turned: Array) -> None:
         """Remember a step and the change of the gradient where the energy curves upwards along it."""
         product = float(moved @ turned)
-        if product > LEAST_CURVATURE * np.linalg.norm(moved) * np.linalg.norm(turned):
+        if product > LEAST_CURVATURE * np.sqrt(float(moved @ moved) * float(turned @ turned)):
             self._pairs.append((moved, turned, product))
         else:
             self._pairs.clear()
+
+
+def _numbers(coefficients: Array) -> Array:
+    """Return the real and imaginary parts of coefficients (exerted, m) in a row."""
+    return coefficients.reshape(-1).view(float)
