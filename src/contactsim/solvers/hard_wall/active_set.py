@@ -6,13 +6,14 @@ are not positive), so with exact inner solutions the sets shrink monotonically a
 The stiffness of an incompressible layer much thinner than the contacts are wide is no M-matrix; on rough lines, with
 layers of half a grid spacing and more, the sets have settled all the same.
 
-The inner solver is conjugate gradients on the contact set, preconditioned across the gaps (see
-`contactsim.solvers.hard_wall.negative_gap_preconditioner`).
+Few contact points have a matrix that is solved directly. More of them are left to conjugate gradients on the contact
+set, preconditioned across the gaps (see `contactsim.solvers.hard_wall.negative_gap_preconditioner`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -30,21 +31,66 @@ from contactsim.traits import Trait
 
 @dataclass(frozen=True)
 class ActiveSetState(State):
-    """Pressure (n,), zero outside the contact set that the preconditioner is made for, and outer steps done.
+    """Pressure (n,), zero outside the contact set, and what the next outer step needs.
 
     Parameters
     ----------
-    preconditioner
-        On the contact set.
+    contact
+        Contact set.
     count
         Outer steps done.
-    work
-        Arrays (3, n), overwritten by every step.
     """
 
-    preconditioner: NegativeGapPreconditioner
+    contact: ContactSet
     count: int
-    work: Array
+
+
+class Line:
+    """What all contact sets of a line share, made when it is first asked for.
+
+    work: arrays (3, n) that every step overwrites
+    """
+
+    def __init__(self, problem: HardWallProblem) -> None:
+        self._problem = problem
+        self.work = np.empty((3, problem.heights.size))
+
+    @cached_property
+    def response(self) -> Array:
+        """Displacement (n,) at each distance from a point of unit pressure, with a uniform part under a load.
+
+        That part changes the approach alone, since the load is prescribed. With it the matrix of a contact set is
+        positive definite.
+        """
+        compliance, point = self._problem.compliance, np.zeros(self._problem.heights.size)
+        point[0] = 1.0
+        uniform = 0.0 if self._problem.load is None else compliance.symbol[1] / point.size
+        return compliance(point) + uniform
+
+    @cached_property
+    def stiffness(self) -> BlockStiffness:
+        """Stiffness of the line, for preconditioners."""
+        return BlockStiffness(self._problem.compliance, uniform=self._problem.load is not None)
+
+
+class ContactSet:
+    """A contact set: its points, and its preconditioner, made when it is first asked for.
+
+    Parameters
+    ----------
+    where
+        True in contact, (n,); at least one point.
+    line
+        What it shares with other sets.
+    """
+
+    def __init__(self, where: Array, line: Line) -> None:
+        self.index, self.line, self._where = np.flatnonzero(where), line, where
+
+    @cached_property
+    def preconditioner(self) -> NegativeGapPreconditioner:
+        """Preconditioner of conjugate gradients on the set."""
+        return NegativeGapPreconditioner(self._where, self.line.stiffness)
 
 
 @dataclass(frozen=True)
@@ -53,15 +99,18 @@ class ActiveSet:
 
     Parameters
     ----------
+    direct_points
+        Most contact points whose matrix is solved directly.
     reduction
-        Factor by which an inner solution lowers the residual. It is squared every tenth outer step, so that a set which
-        does not settle gets exact inner solutions.
+        Factor by which an inner solution by conjugate gradients lowers the residual. It is squared every tenth outer
+        step, so that a set which does not settle gets exact inner solutions.
     inner_budget
         Largest number of inner iterations in an outer step.
     budget
         Largest number of outer steps.
     """
 
+    direct_points: int = 96
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
@@ -83,37 +132,38 @@ class ActiveSet:
         if not contact.any():
             contact = problem.heights > (-np.inf if problem.approach is None else -problem.approach)
             pressure[contact] = problem.load or 0.0
-        stiffness = BlockStiffness(problem.compliance, uniform=problem.load is not None)
-        preconditioner = NegativeGapPreconditioner(_solvable(problem, contact), stiffness)
-        return ActiveSetState(pressure, False, preconditioner, 0, np.empty((3, problem.heights.size)))
+        return ActiveSetState(pressure, False, ContactSet(_solvable(problem, contact), Line(problem)), 0)
 
     def step(self, problem: HardWallProblem, state: ActiveSetState) -> ActiveSetState:
         """Solve on the contact set, then remove points that pull and add points that overlap."""
-        pressure, index = state.pressure.copy(), state.preconditioner.index
-        reduction = self.reduction ** (2 ** (state.count // 10))
-        gap, approach = self._relax(problem, pressure, state, reduction)
+        pressure, contact, count = state.pressure.copy(), state.contact, state.count + 1
+        if contact.index.size <= self.direct_points:
+            index = _eliminate(problem, pressure, contact)
+            gap = contact.line.work[0]
+            problem.compliance(pressure, out=gap)
+            gap -= problem.heights
+            approach = _residual(problem, gap[index])[1]
+        else:
+            index = contact.index
+            gap, approach = self._relax(problem, pressure, state)
         residual = np.max(np.abs(gap[index] - approach))
         overlapping = gap < approach - problem.tolerance / 2
         overlapping[index] = False
         if not (overlapping.any() or (pressure < 0).any()):
-            return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=state.count + 1)
-        preconditioner = state.preconditioner.on(_solvable(problem, (pressure > 0) | overlapping))
-        kept = preconditioner.gather(pressure)  # removed points give what they carried to their neighbours
-        pressure[:] = 0.0
-        if problem.load is not None and kept.size == 1:
-            kept[:] = problem.load * pressure.size  # exactly: a small load would be lost in rounding
-        pressure[preconditioner.index] = kept
-        return replace(state, pressure=pressure, preconditioner=preconditioner, count=state.count + 1)
+            return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=count)
+        contact = ContactSet(_solvable(problem, (pressure > 0) | overlapping), contact.line)
+        if contact.index.size > self.direct_points:
+            pressure = _gather(problem, pressure, contact)
+        return replace(state, pressure=pressure, contact=contact, count=count)
 
-    def _relax(
-        self, problem: HardWallProblem, pressure: Array, state: ActiveSetState, reduction: float
-    ) -> tuple[Array, float]:
+    def _relax(self, problem: HardWallProblem, pressure: Array, state: ActiveSetState) -> tuple[Array, float]:
         """Iterate by conjugate gradients on the contact set, in place; return w - h and the approach."""
-        precondition, (gap, spread, change) = state.preconditioner, state.work
-        index = precondition.index
+        index, (gap, spread, change) = state.contact.index, state.contact.line.work
+        precondition = state.contact.preconditioner
         problem.compliance(pressure, out=gap)
         gap -= problem.heights
         residual, approach = _residual(problem, gap[index])
+        reduction = self.reduction ** (2 ** (state.count // 10))
         target = max(reduction * np.max(np.abs(residual)), 0.3 * problem.tolerance)
         direction, energy = np.zeros(len(index)), 1.0
         for _ in range(self.inner_budget):
@@ -141,6 +191,35 @@ def _residual(problem: HardWallProblem, gap: Array) -> tuple[Array, float]:
     """Return the approach less the gap on the contact set, and the approach: prescribed, or the mean of the gap."""
     approach = float(gap.mean()) if problem.approach is None else problem.approach
     return approach - gap, approach
+
+
+def _eliminate(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> Array:
+    """Solve on a contact set by elimination, in place, without points that pull; return the indices of those left."""
+    index, load, approach = contact.index, problem.load, problem.approach
+    matrix = contact.line.response[np.abs(np.subtract.outer(index, index))]
+    given = np.ones((index.size, 2))  # heights, and the change of all of them with the approach
+    given[:, 0] = problem.heights[index]
+    pressure[:] = 0.0
+    while True:
+        solution, raised = np.linalg.solve(matrix, given).T
+        if load is not None:
+            approach = (load * pressure.size - solution.sum()) / raised.sum()
+        solution += approach * raised
+        stays = solution > 0
+        if stays.all() or not stays.any():
+            pressure[index] = solution
+            return index
+        index, matrix, given = index[stays], matrix[stays][:, stays], given[stays]
+
+
+def _gather(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> Array:
+    """Return the pressure on another contact set: points that leave it give what they carried to their neighbours."""
+    kept = contact.preconditioner.gather(pressure)
+    if problem.load is not None and kept.size == 1:
+        kept[:] = problem.load * pressure.size  # exactly: a small load would be lost in rounding
+    gathered = np.zeros_like(pressure)
+    gathered[contact.index] = kept
+    return gathered
 
 
 def _solvable(problem: HardWallProblem, contact: Array) -> Array:
