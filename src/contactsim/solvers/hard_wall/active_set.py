@@ -6,8 +6,9 @@ are not positive), so with exact inner solutions the sets shrink monotonically a
 The stiffness of an incompressible layer much thinner than the contacts are wide is no M-matrix; on rough lines, with
 layers of half a grid spacing and more, the sets have settled all the same.
 
-Few contact points have a matrix that is solved directly. More of them are left to conjugate gradients on the contact
-set, preconditioned across the gaps (see `contactsim.solvers.hard_wall.negative_gap_preconditioner`).
+Few contact points have a matrix that is solved directly. More of them, and complete contact, are left to conjugate
+gradients on the contact set, preconditioned across the gaps (see
+`contactsim.solvers.hard_wall.negative_gap_preconditioner`).
 """
 
 from __future__ import annotations
@@ -78,19 +79,19 @@ class ContactSet:
 
     Parameters
     ----------
-    where
-        True in contact, (n,); at least one point.
+    index
+        Indices of its points (m,); at least one.
     line
         What it shares with other sets.
     """
 
-    def __init__(self, where: Array, line: Line) -> None:
-        self.index, self.line, self._where = np.flatnonzero(where), line, where
+    def __init__(self, index: Array, line: Line) -> None:
+        self.index, self.line = index, line
 
     @cached_property
     def preconditioner(self) -> NegativeGapPreconditioner:
         """Preconditioner of conjugate gradients on the set."""
-        return NegativeGapPreconditioner(self._where, self.line.stiffness)
+        return NegativeGapPreconditioner(self.index, self.line.stiffness)
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,7 @@ class ActiveSet:
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
-    fields = 29
+    fields = 28
     accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
 
     def __post_init__(self) -> None:
@@ -126,29 +127,25 @@ class ActiveSet:
         return 2 + 2 / block_size(points)
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> ActiveSetState:
-        """Return the first state: a guess, uniform pressure, or at an approach the overlap of the bodies."""
-        pressure = np.zeros_like(problem.heights) if guess is None else problem.project(guess)
+        """Return the first state: a guess, the load on the higher half, or at an approach the overlap of the bodies."""
+        heights = problem.heights
+        pressure = np.zeros_like(heights) if guess is None else problem.project(guess)
         contact = pressure > 0
         if not contact.any():
-            contact = problem.heights > (-np.inf if problem.approach is None else -problem.approach)
-            pressure[contact] = problem.load or 0.0
+            contact = heights >= np.median(heights) if problem.approach is None else heights > -problem.approach
+            pressure = problem.project(np.where(contact, problem.load or 0.0, 0.0))
         return ActiveSetState(pressure, False, ContactSet(_solvable(problem, contact), Line(problem)), 0)
 
     def step(self, problem: HardWallProblem, state: ActiveSetState) -> ActiveSetState:
         """Solve on the contact set, then remove points that pull and add points that overlap."""
         pressure, contact, count = state.pressure.copy(), state.contact, state.count + 1
-        if contact.index.size <= self.direct_points:
-            index = _eliminate(problem, pressure, contact)
-            gap = contact.line.work[0]
-            problem.compliance(pressure, out=gap)
-            gap -= problem.heights
-            approach = _residual(problem, gap[index])[1]
-        else:
-            index = contact.index
-            gap, approach = self._relax(problem, pressure, state)
-        residual = np.max(np.abs(gap[index] - approach))
+        reduction = self.reduction ** (2 ** (state.count // 10))
+        if contact.index.size <= min(self.direct_points, pressure.size - 1):
+            contact, reduction = _eliminate(problem, pressure, contact), 0.0  # only rounding is left to remove
+        gap, approach = self._relax(problem, pressure, contact, reduction)
+        residual = np.max(np.abs(gap[contact.index] - approach))
         overlapping = gap < approach - problem.tolerance / 2
-        overlapping[index] = False
+        overlapping[contact.index] = False
         if not (overlapping.any() or (pressure < 0).any()):
             return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=count)
         contact = ContactSet(_solvable(problem, (pressure > 0) | overlapping), contact.line)
@@ -156,20 +153,20 @@ class ActiveSet:
             pressure = _gather(problem, pressure, contact)
         return replace(state, pressure=pressure, contact=contact, count=count)
 
-    def _relax(self, problem: HardWallProblem, pressure: Array, state: ActiveSetState) -> tuple[Array, float]:
-        """Iterate by conjugate gradients on the contact set, in place; return w - h and the approach."""
-        index, (gap, spread, change) = state.contact.index, state.contact.line.work
-        precondition = state.contact.preconditioner
+    def _relax(
+        self, problem: HardWallProblem, pressure: Array, contact: ContactSet, reduction: float
+    ) -> tuple[Array, float]:
+        """Iterate by conjugate gradients on a contact set, in place; return w - h and the approach."""
+        index, (gap, spread, change) = contact.index, contact.line.work
         problem.compliance(pressure, out=gap)
         gap -= problem.heights
         residual, approach = _residual(problem, gap[index])
-        reduction = self.reduction ** (2 ** (state.count // 10))
         target = max(reduction * np.max(np.abs(residual)), 0.3 * problem.tolerance)
         direction, energy = np.zeros(len(index)), 1.0
         for _ in range(self.inner_budget):
             if np.max(np.abs(residual)) <= target:
                 break
-            corrected = precondition(residual, spread, change)
+            corrected = contact.preconditioner(residual, spread, change)
             if problem.load is not None:
                 corrected -= corrected.mean()  # every direction keeps the load
             previous, energy = energy, float(residual @ corrected)
@@ -193,8 +190,8 @@ def _residual(problem: HardWallProblem, gap: Array) -> tuple[Array, float]:
     return approach - gap, approach
 
 
-def _eliminate(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> Array:
-    """Solve on a contact set by elimination, in place, without points that pull; return the indices of those left."""
+def _eliminate(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> ContactSet:
+    """Solve on a contact set by elimination, in place, without points that pull; return the set of those left."""
     index, load, approach = contact.index, problem.load, problem.approach
     matrix = contact.line.response[np.abs(np.subtract.outer(index, index))]
     given = np.ones((index.size, 2))  # heights, and the change of all of them with the approach
@@ -208,7 +205,7 @@ def _eliminate(problem: HardWallProblem, pressure: Array, contact: ContactSet) -
         stays = solution > 0
         if stays.all() or not stays.any():
             pressure[index] = solution
-            return index
+            return ContactSet(index, contact.line)
         index, matrix, given = index[stays], matrix[stays][:, stays], given[stays]
 
 
@@ -223,12 +220,15 @@ def _gather(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> A
 
 
 def _solvable(problem: HardWallProblem, contact: Array) -> Array:
-    """Return a set on which the inner problem has a solution: never empty, and not full where full contact has none."""
+    """Return the indices of a set, bool (n,), on which the inner problem has a solution.
+
+    It is never empty, and not full where full contact has none.
+    """
     if not contact.any():
         contact[np.argmax(problem.heights)] = True
     if problem.load is None and problem.compliance.symbol[0] == 0 and contact.all():
         contact[np.argmin(problem.heights)] = False
-    return contact
+    return np.flatnonzero(contact)
 
 
 @dataclass(frozen=True)

@@ -34,23 +34,15 @@ class NegativeGapPreconditioner:
 
     Parameters
     ----------
-    contact
-        Contact set, bool (n,); at least one point.
+    index
+        Indices of the contact points (m,); at least one.
     stiffness
         Stiffness of the whole line.
     """
 
-    def __init__(self, contact: Array, stiffness: BlockStiffness) -> None:
-        self._extension, self._stiffness = GapExtension(contact, stiffness.decay), stiffness
-
-    @property
-    def index(self) -> Array:
-        """Indices of the contact points (m,)."""
-        return self._extension.index
-
-    def on(self, contact: Array) -> NegativeGapPreconditioner:
-        """Return the preconditioner on another contact set of the same line."""
-        return NegativeGapPreconditioner(contact, self._stiffness)
+    def __init__(self, index: Array, stiffness: BlockStiffness) -> None:
+        self._extension = GapExtension(index, stiffness.field.size, stiffness.decay)
+        self._stiffness, self._first = stiffness, index[0]
 
     def __call__(self, residual: Array, work: Array, scratch: Array) -> Array:
         """Return the preconditioned residual (m,) of one (m,); work and scratch (n,) are overwritten."""
@@ -59,7 +51,7 @@ class NegativeGapPreconditioner:
 
     def gather(self, pressure: Array) -> Array:
         """Return a pressure (n,) on the contact points (m,): what others carry goes to their neighbours in contact."""
-        return self._extension.share(np.roll(pressure, -self.index[0]))
+        return self._extension.share(np.roll(pressure, -self._first))
 
 
 class GapExtension:
@@ -71,20 +63,21 @@ class GapExtension:
 
     Parameters
     ----------
-    contact
-        Contact set, bool (n,).
+    index
+        Indices of the contact points (m,); at least one.
+    size
+        Points of the line.
     decay
         Rate of decay per point.
     """
 
-    def __init__(self, contact: Array, decay: float = 0.0) -> None:
-        self.index = np.flatnonzero(contact)
-        gaps = np.diff(self.index, append=self.index[0] + contact.size)
+    def __init__(self, index: Array, size: int, decay: float = 0.0) -> None:
+        gaps = np.diff(index, append=index[0] + size)
         self._begin = np.cumsum(gaps) - gaps
-        self._owner = np.repeat(np.arange(self.index.size), gaps)
-        self._fraction = (np.arange(contact.size) - self._begin[self._owner]) / gaps[self._owner]
+        self._owner = np.repeat(np.arange(index.size), gaps)
+        self._fraction = (np.arange(size) - self._begin[self._owner]) / gaps[self._owner]
         self._envelope = None
-        if decay * contact.size > 1e-8:  # else the envelope is 1 to rounding
+        if decay * size > 1e-8:  # else the envelope is 1 to rounding
             self._envelope = _decay_factor(self._fraction, decay * gaps, self._owner)
 
     def extend(self, values: Array, out: Array, scratch: Array) -> None:
