@@ -321,3 +321,37 @@ def test_one_solver_serves_several_threads_at_once():
     loads = [0.01, 0.02, 0.05, 0.1] * 4
     with ThreadPoolExecutor(2) as pool:
         assert list(pool.map(area, loads)) == [area(load) for load in loads]
+
+
+@pytest.mark.parametrize("load", [{"mean_pressure": 3e-4}, {"mean_pressure": 3e-2}, {"approach": -8.0}])
+@pytest.mark.parametrize("thickness", [None, 20.0])
+def test_elimination_and_conjugate_gradients_find_the_same_pressure(load, thickness):
+    layer = {} if thickness is None else {"thickness": thickness, "poisson_ratio": 0.3}
+    found = [
+        contactsim.press(
+            rough(256),
+            spacing=1.0,
+            contact_modulus=1.0,
+            tolerance=1e-9,
+            solver=make_solver("active_set", direct_points=most),
+            **layer,
+            **load,
+        )
+        for most in (0, 96)
+    ]
+    assert [result.status for result in found] == [Status.CONVERGED] * 2
+    assert np.array_equal(*(result.contact for result in found))
+    assert np.allclose(*(result.pressure for result in found), rtol=0, atol=1e-7 * found[0].pressure.max())
+    assert found[1].record.transforms < found[0].record.transforms / 2
+
+
+@pytest.mark.parametrize("points", [64, 256, 1024])
+def test_few_contact_points_take_few_transforms(points):
+    assert press(rough(points), 1e-3).record.transforms <= 16
+
+
+def test_a_set_that_shrinks_to_one_point_carries_the_load_exactly():
+    heights = -0.5 * (np.arange(64) - 20.0) ** 2
+    result = press(heights, 1e-12)
+    assert result.contact.sum() == 1
+    assert result.record.certificate.load_error <= 1e-15
