@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -10,9 +12,9 @@ from contactsim.observables.contact_readings import (
     BY_CRITERION,
     CRITERIA,
     CRITERION_NUMBERS,
+    RoughPath,
     numbers_by_criterion,
     numbers_by_height,
-    reading_names,
     solved_loading,
     summarise_readings,
 )
@@ -20,14 +22,8 @@ from contactsim.reference.hard_wall import uniaxial_modulus
 
 STEPS = np.arange(0.0, 31.0)
 LENGTH, MODULUS = 1000.0, 2.0
-BODY = {"kind": "half_space", "youngs_modulus": 1.5, "poisson_ratio": 0.3}
-SETTINGS = {
-    "surface": {"kind": "self_affine"},
-    "path": {"control": "approach"},
-    "effects": ["normal_cohesive_zone"],
-    "body": BODY,
-    "vary": {},
-}
+PATH = RoughPath(adheres=True, slips=False, uniaxial_modulus=uniaxial_modulus(1.5, 0.3))
+SLIPPING = replace(PATH, slips=True)
 
 
 def rough_path(pressure: np.ndarray = 1e-4 * STEPS) -> xr.Dataset:
@@ -57,7 +53,7 @@ def test_at_a_hard_wall_all_criteria_are_the_same():
 
 
 def test_a_body_of_finite_height_reaches_an_approach_under_a_smaller_pressure():
-    found = numbers_by_height(rough_path(), BODY)
+    found = numbers_by_height(rough_path(), uniaxial_modulus(1.5, 0.3))
     strain = 1e-4 * MODULUS / uniaxial_modulus(1.5, 0.3)  # for each nm of approach
     for height, name in ((LENGTH, "on_one_period"), (2 * LENGTH, "on_two_periods"), (5000.0, "on_5um")):
         share = 1 / (1 + strain * height)
@@ -68,29 +64,29 @@ def test_a_body_of_finite_height_reaches_an_approach_under_a_smaller_pressure():
 
 def test_a_body_that_falls_back_passes_the_states_in_a_jump():
     pulled = np.where((STEPS > 5) & (STEPS < 10), -0.01, 1e-4 * STEPS)
-    found = numbers_by_height(rough_path(pulled), BODY)
+    found = numbers_by_height(rough_path(pulled), uniaxial_modulus(1.5, 0.3))
     after = 1e-4 * 20 / (1 + 1e-4 * MODULUS * LENGTH / uniaxial_modulus(1.5, 0.3))
     assert float(found["pressure_at_20nm_on_one_period"]) == pytest.approx(after)
 
 
 def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
-    data = summarise_readings(rough_path(), SETTINGS)
+    data = summarise_readings(rough_path(), PATH)
     assert float(data.mean_gap_at_load_0_001) == pytest.approx(30.0)
     assert float(data.touching_peaks_at_20nm) == pytest.approx(200.0)
     assert float(data.conformity_at_20nm_long) == pytest.approx(0.5)
     assert float(data.conformity_at_20nm_contrast) == pytest.approx(-0.1)
     assert float(data.gap_at_20nm_long_over_short) == pytest.approx(0.5 / 0.6)
-    assert reading_names(SETTINGS, False) <= set(data)
+    assert PATH.reading_names <= set(data)
 
 
 def test_the_largest_slip_is_that_up_to_twenty_nm_and_unknown_where_the_path_ends_before():
     slips = {"rms_slip": ("step", STEPS / 10), "slipped_share": ("step", 0.8 - abs(STEPS - 10) / 20)}
-    data = summarise_readings(rough_path().assign(slips), SETTINGS)
+    data = summarise_readings(rough_path().assign(slips), SLIPPING)
     assert float(data.rms_slip_to_20nm) == pytest.approx(2.0)
     assert float(data.slipped_share_to_20nm) == pytest.approx(0.8)
-    short = summarise_readings(rough_path().assign(slips).isel(step=slice(0, 20)), SETTINGS)
+    short = summarise_readings(rough_path().assign(slips).isel(step=slice(0, 20)), SLIPPING)
     assert np.isnan(float(short.rms_slip_to_20nm))
-    assert "rms_slip_to_20nm" not in reading_names(SETTINGS, False)
+    assert "rms_slip_to_20nm" not in PATH.reading_names
 
 
 def test_a_largest_slip_bridges_one_unknown_state_and_no_two():
@@ -98,16 +94,16 @@ def test_a_largest_slip_bridges_one_unknown_state_and_no_two():
     for lost, known in ((slice(7, 8), True), (slice(7, 9), False), (slice(23, 30), True)):
         data = rough_path().assign(slips)
         data.status[lost] = 1
-        assert np.isfinite(float(summarise_readings(data, SETTINGS).rms_slip_to_20nm)) == known
+        assert np.isfinite(float(summarise_readings(data, SLIPPING).rms_slip_to_20nm)) == known
 
 
-def test_other_surfaces_and_bodies_have_no_such_numbers():
-    assert reading_names(SETTINGS | {"surface": {"kind": "cylinder"}}, False) == set()
-    assert reading_names(SETTINGS | {"path": None}, False) == set()
-    layer = reading_names(SETTINGS | {"body": BODY | {"kind": "layer"}}, False)
-    varied = reading_names(SETTINGS | {"vary": {"body.poisson_ratio": [0.1, 0.3]}}, False)
-    assert layer == varied and not any(name.endswith("on_5um") for name in layer)
-    assert "touching_peaks_at_20nm" not in reading_names(SETTINGS | {"effects": ["hard_wall"]}, False)
+def test_only_what_a_path_has_is_read():
+    wall, anywhere = replace(PATH, adheres=False), replace(PATH, uniaxial_modulus=None)
+    assert not any(name.endswith("on_5um") for name in anywhere.reading_names)
+    assert "touching_peaks_at_20nm" not in wall.reading_names
+    for path in (wall, anywhere):
+        data = summarise_readings(rough_path(), path)
+        assert path.reading_names <= set(data) and not (PATH.reading_names - path.reading_names) & set(data)
 
 
 def test_a_single_unknown_state_is_bridged_and_two_end_the_loading():

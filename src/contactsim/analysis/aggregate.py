@@ -19,6 +19,7 @@ from contactsim.analysis.fits import PARAMETERS, fit_line_areas
 from contactsim.analysis.height_distribution import height_distances
 from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
 from contactsim.analysis.quantities import unknown
+from contactsim.analysis.rough_readings import rough_path_of
 from contactsim.observables.contact_readings import summarise_readings
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
 from contactsim.observables.derived import combine_runs
@@ -91,11 +92,13 @@ def _exact_array(data: xr.Dataset, radius: xr.DataArray | float) -> dict[str, xr
 
 def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict], settings: dict) -> xr.Dataset:
     """Return paths with means of their states, and the errors of their summaries."""
-    data = summarise_readings(data, settings)
+    rough = rough_path_of(settings, "rms_slip" in data)
+    data = data if rough is None else summarise_readings(data, rough)
     if data.member.size > 1:
         data = data.merge(ensemble_means(data, form.averaged))
     for suffix, combined in _error_runs(runs):
-        other = summarise_readings(form.derive(combined), settings)
+        other = form.derive(combined)
+        other = other if rough is None else summarise_readings(other, rough)
         same = data.sel(member=other.member)
         names = [name for name in PATH_SUMMARIES if name in other and name in same]
         changes = {name: _known_changes(same, other, name) for name in names}

@@ -6,8 +6,8 @@ numbers are those of `contactsim.observables.linearity` with the criterion or th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -22,7 +22,6 @@ from contactsim.observables.linearity import (
     value_at_level,
     values_at_loads,
 )
-from contactsim.reference import hard_wall
 from contactsim.status import is_solved
 
 CRITERIA = {
@@ -62,30 +61,47 @@ READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVE
 ERROR = "_increment_error"
 
 
-def reading_names(settings: Mapping[str, Any], slips: bool) -> set[str]:
-    """Return the names of the numbers that a study has; slips: if one of its laws reads the tangential gap."""
-    is_rough = settings["surface"]["kind"] == "self_affine" and settings["path"] is not None
-    names = {*BY_CRITERION, *AT_LOAD} if is_rough else set()
-    names |= {*AT_APPROACH.values(), *BY_WAVES} if is_rough and settings["effects"] != ["hard_wall"] else set()
-    names |= {*UP_TO_APPROACH.values()} if is_rough and slips else set()
-    return names | ({*BY_HEIGHT} if is_rough and _is_one_half_space(settings) else set())
+@dataclass(frozen=True)
+class RoughPath:
+    """What decides which numbers a path through a rough contact has.
+
+    Parameters
+    ----------
+    adheres
+        True where surfaces interact across a gap, False at a hard wall.
+    slips
+        True where a law reads the tangential gap.
+    uniaxial_modulus
+        Stiffness C11 of the one half-space that all paths are pressed into, GPa; None where there are several, or
+        where it is not known.
+    """
+
+    adheres: bool
+    slips: bool
+    uniaxial_modulus: float | None = None
+
+    @property
+    def reading_names(self) -> set[str]:
+        """Names of the numbers that such a path has."""
+        names = {*BY_CRITERION, *AT_LOAD}
+        names |= {*AT_APPROACH.values(), *BY_WAVES} if self.adheres else set()
+        names |= {*UP_TO_APPROACH.values()} if self.slips else set()
+        return names | ({*BY_HEIGHT} if self.uniaxial_modulus is not None else set())
 
 
-def summarise_readings(data: xr.Dataset, settings: Mapping[str, Any]) -> xr.Dataset:
-    """Return paths with the numbers that a study with these settings has, and the errors of their increments."""
-    names = reading_names(settings, "rms_slip" in data)
-    if set(BY_CRITERION) & names:
-        data = data.assign(numbers_by_criterion(data))
-        data = data.assign(_read_loading(data, "mean_gap", AT_LOAD[0], _gap_at_load))
-    if set(BY_WAVES) & names and set(AT_APPROACH) <= set(data):
+def summarise_readings(data: xr.Dataset, path: RoughPath) -> xr.Dataset:
+    """Return paths with the numbers that they have, and the errors of their increments."""
+    data = data.assign(numbers_by_criterion(data))
+    data = data.assign(_read_loading(data, "mean_gap", AT_LOAD[0], _gap_at_load))
+    if path.adheres and set(AT_APPROACH) <= set(data):
         for name, number in AT_APPROACH.items():
             data = data.assign(_read_loading(data, name, number, _value_at_approach))
         data = data.assign(_compare_waves(data))
-    for name, number in UP_TO_APPROACH.items():
-        if number in names:
+    if path.slips:
+        for name, number in UP_TO_APPROACH.items():
             data = data.assign(_read_loading(data, name, number, _largest_up_to_approach))
-    if set(BY_HEIGHT) & names:
-        data = data.assign(numbers_by_height(data, settings["body"]))
+    if path.uniaxial_modulus is not None:
+        data = data.assign(numbers_by_height(data, path.uniaxial_modulus))
     return data
 
 
@@ -102,15 +118,15 @@ def numbers_by_criterion(data: xr.Dataset) -> dict[str, xr.DataArray]:
     return numbers
 
 
-def numbers_by_height(data: xr.Dataset, body: Mapping[str, Any]) -> dict[str, xr.DataArray]:
-    """Return `BY_HEIGHT` and their errors.
+def numbers_by_height(data: xr.Dataset, uniaxial_modulus: float) -> dict[str, xr.DataArray]:
+    """Return `BY_HEIGHT` and their errors; uniaxial_modulus: C11, GPa.
 
     A body of height h adds p h/C11 to the approach. If it is half as high as the period, the longest wave is stiffer
     by 8 %, which is left out.
     """
     area = data["relative_interacting_area" if "relative_interacting_area" in data else "relative_contact_area"]
     pressure = data.normalised_pressure.where(is_solved(data.status))
-    strain = pressure * data.contact_modulus / hard_wall.uniaxial_modulus(body["youngs_modulus"], body["poisson_ratio"])
+    strain = pressure * data.contact_modulus / uniaxial_modulus
     heights = (CHAPTER_4_HEIGHT, data.length, 2 * data.length)
     numbers: dict[str, xr.DataArray] = {}
     for name, height in zip(HEIGHTS, heights, strict=True):
@@ -220,9 +236,3 @@ def _compare_waves(data: xr.Dataset) -> dict[str, xr.DataArray]:
     squares = [(errors[name] / left[name]) ** 2 for name in (short, long)]
     numbers[f"{ratio}{ERROR}"] = numbers[ratio] * sum(squares) ** 0.5
     return numbers
-
-
-def _is_one_half_space(settings: Mapping[str, Any]) -> bool:
-    """Return True if all variants are pressed into the same half-space, of known modulus and Poisson's ratio."""
-    varies_body = any(key.startswith("body.") for key in settings["vary"] or {})
-    return settings["body"]["kind"] == "half_space" and "youngs_modulus" in settings["body"] and not varies_body

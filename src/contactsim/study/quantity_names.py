@@ -5,7 +5,7 @@ from __future__ import annotations
 from contactsim.analysis import costs
 from contactsim.analysis.aggregate import ROLL_OFF
 from contactsim.analysis.quantities import BAR_SHARES, CRACK_DEPARTURE, ERROR_BARS, FITTED, GRADIENT_DEFICITS
-from contactsim.observables.contact_readings import reading_names
+from contactsim.analysis.rough_readings import rough_path_of
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.study.keys import ERROR_RUNS
 from contactsim.study.kind_quantities import KIND_QUANTITIES
@@ -39,7 +39,8 @@ def _path_quantities(study: Study) -> list[str]:
     """Return the summaries of a path, the errors measured of them, and the varied keys."""
     scene = study.runs()[0].setup.scene
     names = KIND_QUANTITIES[scene.kind].path_quantities(scene, study.dimensions)
-    names |= reading_names(study.settings, "t" in scene.components)
+    rough = rough_path_of(study.settings, "t" in scene.components)
+    names |= set() if rough is None else rough.reading_names
     if study.settings["surface"]["kind"] == "cylinder" and "work_of_separation" in study.dimensions:
         names.add(CRACK_DEPARTURE)
     if study.settings["members"] > 1:
