@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.markers import CARETUPBASE
 
 from contactsim.figures import style
-from contactsim.figures.layout import framed
+from contactsim.figures.layout import empty_figure
 
 SOLVERS = {
     "active_set": ("active set", style.WHOLE),
@@ -116,9 +116,10 @@ def compared(rows: pd.DataFrame) -> pd.DataFrame:
 def draw(rows: pd.DataFrame, path: Path) -> None:
     """(a) Time of single loads; (b) transforms of all loads against the size of the grid."""
     footer = "surfaces of rough_line in config/ch3.yaml · one thread · what finished is certified by recomputation"
-    figure, (left, right) = framed(FIGURE, footer)
+    figure, (left, right) = empty_figure(FIGURE, footer)
     draw_loads(left, compared(rows[rows.hurst_exponent == SHOWN]))
     draw_sweeps(right, sweep_means(rows))
+    style.add_letters((left, right))
     figure.savefig(path)
 
 
@@ -146,7 +147,6 @@ def draw_loads(axes: Axes, rows: pd.DataFrame) -> None:
     for points in sorted(set(rows.points)):
         axes.plot([], [], color=style.EXACT, label=f"$2^{{{power(points)}}}$ points", **size_look(points))
     axes.legend(loc="upper left", ncols=2)
-    style.letter(axes, "a")
 
 
 def size_look(points: int) -> dict[str, object]:
@@ -164,11 +164,10 @@ def draw_sweeps(axes: Axes, means: pd.DataFrame) -> None:
                 group.index.get_level_values("points"),
                 group[tolerance],
                 color=colour,
-                **style.hurst_exponent(hurst_exponent),
+                **style.hurst_look(hurst_exponent),
             )
     colours = {f"tolerance {tolerance:g} steps": colour for tolerance, colour in colours.items()}
-    exponents = style.hurst_key(sorted(set(means.index.get_level_values("hurst_exponent"))))
-    axes.legend(loc="lower right", handles=style.key(colours, {}) + exponents)
+    exponents = style.hurst_handles(sorted(set(means.index.get_level_values("hurst_exponent"))))
+    axes.legend(loc="lower right", handles=style.colour_handles(colours) + exponents)
     axes.set_xscale("log", base=2)
     axes.set(ylim=(0, 2700), xlabel="points", ylabel="transforms of the finest grid, all 12 loads")
-    style.letter(axes, "b")

@@ -11,7 +11,7 @@ from measure import CAP
 from report import insert, markdown
 
 from contactsim.figures import style
-from contactsim.figures.layout import framed
+from contactsim.figures.layout import empty_figure
 
 SOLVERS = {
     "ours": ("conjugate gradients, ours", style.WHOLE),
@@ -66,18 +66,20 @@ def found(area: float, certificate: float, transforms: float, seconds: float, pe
 def draw(rows: pd.DataFrame, path: Path) -> None:
     """A panel for each size."""
     footer = "surfaces of rough_surface in config/ch3.yaml · one thread · what finished is certified by recomputation"
-    figure, panels = framed(FIGURE | {"panels": rows.points.nunique()}, footer)
-    for axes, letter, (points, group) in zip(panels, "abcd", rows.groupby("points"), strict=False):
+    figure, panels = empty_figure(FIGURE | {"panels": rows.points.nunique()}, footer)
+    for axes, (points, group) in zip(panels, rows.groupby("points"), strict=False):
         loads(axes, group)
         axes.set(xlabel="reduced pressure $p^*$", ylabel="CPU time, in transforms of the heights")
         axes.set_title(f"{points} × {points} points", fontsize=9)
-        style.letter(axes, letter)
+    style.add_letters(panels)
     bottom, top = (pick(axes.get_ylim()[k] for axes in panels) for k, pick in ((0, min), (1, max)))
     for axes in panels:
         axes.set_ylim(bottom, top * 6)  # room for the legend
     colours = dict(SOLVERS[name] for name in ("ours", *sorted(set(rows.solver))))
     panels[0].legend(
-        loc="upper left", ncols=2, handles=style.key(colours, {}) + style.hurst_key(sorted(set(rows.hurst_exponent)))
+        loc="upper left",
+        ncols=2,
+        handles=style.colour_handles(colours) + style.hurst_handles(sorted(set(rows.hurst_exponent))),
     )
     figure.savefig(path)
 
@@ -86,14 +88,14 @@ def loads(axes: Axes, rows: pd.DataFrame) -> None:
     """Cost against reduced pressure: colours are solvers, marks are Hurst exponents."""
     for hurst_exponent, group in rows.groupby("hurst_exponent"):
         own = group.groupby("reduced_pressure").agg({"own_per_transform": "median", "transform_seconds": "median"})
-        axes.plot(own.index, own.own_per_transform, color=SOLVERS["ours"][1], **style.hurst_exponent(hurst_exponent))
+        axes.plot(own.index, own.own_per_transform, color=SOLVERS["ours"][1], **style.hurst_look(hurst_exponent))
         for name, part in group.groupby("solver"):
             colour, solved = SOLVERS[name][1], part.area.notna()
             axes.plot(
                 part.reduced_pressure[solved],
                 part.per_transform[solved],
                 color=colour,
-                **style.hurst_exponent(hurst_exponent),
+                **style.hurst_look(hurst_exponent),
             )
             cut = part[~solved]
             least = cut.seconds / own.transform_seconds.reindex(cut.reduced_pressure).to_numpy()

@@ -111,7 +111,7 @@ class ActiveSet:
         Largest number of outer steps.
     """
 
-    direct_points: int = 96
+    direct_points: int = 128
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
@@ -132,7 +132,7 @@ class ActiveSet:
         pressure = np.zeros_like(heights) if guess is None else problem.project(guess)
         contact = pressure > 0
         if not contact.any():
-            contact = heights >= np.median(heights) if problem.approach is None else heights > -problem.approach
+            contact = heights >= heights.mean() if problem.approach is None else heights > -problem.approach
             pressure = problem.project(np.where(contact, problem.load or 0.0, 0.0))
         return ActiveSetState(pressure, False, ContactSet(_solvable(problem, contact), Line(problem)), 0)
 

@@ -1,0 +1,92 @@
+"""What line contacts of few points cost: the default solver beside Polonsky–Keer, in ratios of CPU time.
+
+    pip install -e .[benchmark]
+    python benchmarks/small_lines.py    # about two minutes
+
+Solvers take turns in one process on one thread, from the heights to the certified solution. A number is the ratio to
+the default solver, median over the rounds and mean over the members; nan where a solver fails. The shortest wave has
+eight points.
+"""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import time
+from pathlib import Path
+from statistics import median
+
+import measure
+import numpy as np
+from records import on_one_thread
+from report import insert, markdown
+
+from contactsim import HalfSpace, HardWall, Scene, SelfAffine, pressures
+from contactsim.contact.pose_hard_wall import pose_hard_wall
+from contactsim.grid import Array
+from contactsim.solvers.registry import is_installed
+
+README = Path(__file__).resolve().parent / "README.md"
+SIZES = (64, 128, 256, 512, 1024, 2048, 4096)
+PRESSURES = (1e-3, 1e-2, 1e-1)
+TOLERANCE, MEMBERS, ROUNDS, GRADIENT = 1e-6, 3, 9, 0.1
+BEGIN, END = "<!-- small lines: written by small_lines.py -->", "<!-- end of small lines -->"
+DEFAULT, OTHERS = "active_set", ("polonsky_keer", "tamaas")
+
+logger = logging.getLogger("small_lines")
+
+
+def timed(scene: Scene, heights: Array, solver: str) -> dict:
+    """Return one solution with a solver, and its CPU seconds."""
+    begin = time.thread_time()
+    problem, scale = pose_hard_wall(scene, scene.path.steps[0], heights, TOLERANCE, 1)
+    return measure.measure_load(problem, scale, solver) | {"seconds": time.thread_time() - begin}
+
+
+def ratio(scene: Scene, heights: Array, solver: str) -> float:
+    """Return the CPU time of a solver over that of the default one; NaN if it finds no solution."""
+    pairs = []
+    for _ in range(ROUNDS):
+        try:
+            own, other = (timed(scene, heights, name) for name in (DEFAULT, solver))
+        except FloatingPointError:  # tamaas, on a contact of a single point
+            return np.nan
+        assert own["status"] == other["status"] == "CONVERGED"
+        pairs.append(other["seconds"] / own["seconds"])
+    return median(pairs)
+
+
+def row(points: int, hurst_exponent: float, pressure: float, solvers: list[str]) -> list[str]:
+    """Return a row of the table."""
+    shares, transforms = [], []
+    for seed in range(MEMBERS):
+        surface = SelfAffine(
+            length=1e4,
+            hurst_exponent=hurst_exponent,
+            long_cutoff=2500.0,
+            short_cutoff=8e4 / points,
+            rms_gradient=GRADIENT,
+            seed=seed,
+        )
+        scene = Scene(HalfSpace(contact_modulus=1.0), surface, HardWall(), pressures([pressure * GRADIENT]))
+        heights = scene.heights(points)
+        transforms.append(timed(scene, heights, DEFAULT)["transforms"])
+        shares.append([ratio(scene, heights, name) for name in solvers])
+    numbers = [f"{share:.2g}" for share in np.mean(shares, axis=0)]
+    return [f"{points}", f"{hurst_exponent:g}", f"{pressure:g}", f"{np.mean(transforms):.0f}", *numbers]
+
+
+def main() -> None:
+    """Measure all cases and put their table into the README."""
+    on_one_thread()
+    solvers = [name for name in OTHERS if name != "tamaas" or is_installed(name)]
+    header = ["points", "H", "p*", "transforms", *(f"{name} ÷ {DEFAULT}" for name in solvers)]
+    rows = []
+    for points, hurst_exponent, pressure in itertools.product(SIZES, (0.2, 0.8), PRESSURES):
+        rows.append(row(points, hurst_exponent, pressure, solvers))
+        logger.info(" ".join(rows[-1]))
+    insert(README, BEGIN, markdown(header, rows), END)
+
+
+if __name__ == "__main__":
+    main()
