@@ -22,6 +22,7 @@ from contactsim.figures.diagnostics import trials as trial_figure
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
 from contactsim.study.reading import tiered
+from contactsim.variables import RESULTS
 from support.cases import refused
 from support.places import ROOT
 
@@ -99,6 +100,11 @@ def test_relations_measured_anew_have_the_form_of_the_packages():
     assert law.coefficients["grid"] == 2.0
     assert 0 < found.families[LINE].warm_start < 1.2
     assert "families:" in fit.format_relations(table)
+
+
+@pytest.mark.parametrize("family", sorted(measurement.MEASURED_QUANTITIES))
+def test_what_the_relations_are_of_is_a_number_of_results(family):
+    assert set(measurement.MEASURED_QUANTITIES[family]) <= set(RESULTS)
 
 
 def test_a_straight_line_through_logarithms_is_found_again():

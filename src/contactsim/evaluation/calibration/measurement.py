@@ -60,7 +60,7 @@ MEASURED_QUANTITIES = {
     SURFACE: (*QUANTITIES[SURFACE], COUNTED_AREA),
     PATH: QUANTITIES[PATH],
     ROUGH_PATH: QUANTITIES[ROUGH_PATH],
-    SLIDE: (*QUANTITIES[SLIDE], "onset_repulsive_length"),
+    SLIDE: (*QUANTITIES[SLIDE], "onset_contact_length"),
 }
 """Quantities whose errors are measured, by family."""
 WARM_START_ERROR = 0.02
