@@ -65,7 +65,7 @@ def displacement_at_largest_pull(approach: Array, gap: Array, load: Array) -> tu
     """Return how far the surface is pulled up below the peak at the state with the largest pull on loading, nm.
 
     The second number is what the increments leave open: the least change to a state beside it. Beside a jump that is
-    the change on its own branch.
+    the change on its own branch. Both are NaN where the largest pull is at the first or the last state, or is none.
 
     Parameters
     ----------

@@ -47,9 +47,17 @@ class ActiveSetState(State):
 
 
 class Line:
-    """What all contact sets of a line share, made when it is first asked for.
+    """What all contact sets of a line share.
 
-    work: arrays (3, n) that every step overwrites
+    Parameters
+    ----------
+    problem
+        Problem of the line.
+
+    Attributes
+    ----------
+    work
+        Arrays (3, n) that every step overwrites.
     """
 
     def __init__(self, problem: HardWallProblem) -> None:
@@ -58,10 +66,10 @@ class Line:
 
     @cached_property
     def response(self) -> Array:
-        """Displacement (n,) at each distance from a point of unit pressure, with a uniform part under a load.
+        """Displacement (n,) at each distance from a point of unit pressure; it is even, so its sign does not matter.
 
-        That part changes the approach alone, since the load is prescribed. With it the matrix of a contact set is
-        positive definite.
+        Under a prescribed load the problem has no compliance of the uniform mode. Here it has that of the longest wave,
+        which makes the matrix of a contact set positive definite and changes the approach alone.
         """
         compliance, point = self._problem.compliance, np.zeros(self._problem.heights.size)
         point[0] = 1.0
@@ -88,6 +96,12 @@ class ContactSet:
     def __init__(self, index: Array, line: Line) -> None:
         self.index, self.line = index, line
 
+    def only(self, pressure: Array) -> Array:
+        """Return a pressure (n,) without what lies outside the set."""
+        inside = np.zeros_like(pressure)
+        inside[self.index] = pressure[self.index]
+        return inside
+
     @cached_property
     def preconditioner(self) -> NegativeGapPreconditioner:
         """Preconditioner of conjugate gradients on the set."""
@@ -101,7 +115,7 @@ class ActiveSet:
     Parameters
     ----------
     direct_points
-        Most contact points whose matrix is solved directly.
+        Most contact points whose matrix is solved directly. From about a hundred on, BLAS would start threads.
     reduction
         Factor by which an inner solution by conjugate gradients lowers the residual. It is squared every tenth outer
         step, so that a set which does not settle gets exact inner solutions.
@@ -111,7 +125,7 @@ class ActiveSet:
         Largest number of outer steps.
     """
 
-    direct_points: int = 128
+    direct_points: int = 96
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
@@ -130,17 +144,18 @@ class ActiveSet:
         """Return the first state: a guess, the load on the higher half, or at an approach the overlap of the bodies."""
         heights = problem.heights
         pressure = np.zeros_like(heights) if guess is None else problem.project(guess)
-        contact = pressure > 0
-        if not contact.any():
-            contact = heights >= heights.mean() if problem.approach is None else heights > -problem.approach
-            pressure = problem.project(np.where(contact, problem.load or 0.0, 0.0))
-        return ActiveSetState(pressure, False, ContactSet(_solvable(problem, contact), Line(problem)), 0)
+        touches = pressure > 0
+        if not touches.any():
+            touches = heights >= heights.mean() if problem.approach is None else heights > -problem.approach
+            pressure = problem.project(np.where(touches, problem.load or 0.0, 0.0))
+        contact = ContactSet(_solvable(problem, touches), Line(problem))
+        return ActiveSetState(contact.only(pressure), False, contact, 0)
 
     def step(self, problem: HardWallProblem, state: ActiveSetState) -> ActiveSetState:
         """Solve on the contact set, then remove points that pull and add points that overlap."""
         pressure, contact, count = state.pressure.copy(), state.contact, state.count + 1
         reduction = self.reduction ** (2 ** (state.count // 10))
-        if contact.index.size <= min(self.direct_points, pressure.size - 1):
+        if self._eliminates(contact, pressure.size):
             contact, reduction = _eliminate(problem, pressure, contact), 0.0  # only rounding is left to remove
         gap, approach = self._relax(problem, pressure, contact, reduction)
         residual = np.max(np.abs(gap[contact.index] - approach))
@@ -149,9 +164,13 @@ class ActiveSet:
         if not (overlapping.any() or (pressure < 0).any()):
             return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=count)
         contact = ContactSet(_solvable(problem, (pressure > 0) | overlapping), contact.line)
-        if contact.index.size > self.direct_points:
+        if not self._eliminates(contact, pressure.size):
             pressure = _gather(problem, pressure, contact)
         return replace(state, pressure=pressure, contact=contact, count=count)
+
+    def _eliminates(self, contact: ContactSet, size: int) -> bool:
+        """Return whether a set is solved directly: it has few points, and is not all of a line of some size."""
+        return contact.index.size <= min(self.direct_points, size - 1)
 
     def _relax(
         self, problem: HardWallProblem, pressure: Array, contact: ContactSet, reduction: float
@@ -191,22 +210,25 @@ def _residual(problem: HardWallProblem, gap: Array) -> tuple[Array, float]:
 
 
 def _eliminate(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> ContactSet:
-    """Solve on a contact set by elimination, in place, without points that pull; return the set of those left."""
+    """Solve on a contact set by elimination, and again without the points that pull, until none does.
+
+    The pressure is changed in place; the set of the points left is returned. If all points pull, they stay.
+    """
     index, load, approach = contact.index, problem.load, problem.approach
     matrix = contact.line.response[np.abs(np.subtract.outer(index, index))]
-    given = np.ones((index.size, 2))  # heights, and the change of all of them with the approach
-    given[:, 0] = problem.heights[index]
+    right_sides = np.ones((index.size, 2))  # for the heights, and for all of them raised by one
+    right_sides[:, 0] = problem.heights[index]
     pressure[:] = 0.0
     while True:
-        solution, raised = np.linalg.solve(matrix, given).T
+        solution, of_approach = np.linalg.solve(matrix, right_sides).T
         if load is not None:
-            approach = (load * pressure.size - solution.sum()) / raised.sum()
-        solution += approach * raised
+            approach = (load * pressure.size - solution.sum()) / of_approach.sum()
+        solution += approach * of_approach
         stays = solution > 0
         if stays.all() or not stays.any():
             pressure[index] = solution
             return ContactSet(index, contact.line)
-        index, matrix, given = index[stays], matrix[stays][:, stays], given[stays]
+        index, matrix, right_sides = index[stays], matrix[stays][:, stays], right_sides[stays]
 
 
 def _gather(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> Array:
