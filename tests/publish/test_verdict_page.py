@@ -34,7 +34,7 @@ def verdicts():
 def test_each_statement_stands_with_its_number_and_failures_with_their_cause(verdicts):
     page = verdict_page(verdicts)
     cells = "mean of κ | 2 ± 0.1<br><sub>A test.</sub> | 2.051 ± none ± 0.011 | reproduced | 4.4 | 0.51 |"
-    assert f"| κ is 2, a value that holds.<br><sub>Section 0</sub> | {cells}" in page
+    assert f"| κ is 2, a value that holds.<br><sub>Section 0 · `holds`</sub> | {cells}" in page
     block = page[page.index("**κ is 3.** Not reproduced (Section 0).") :]
     assert block.index("- Found 2.051 ± none ± 0.011, allowed 3 ± 0.1;") < block.index("- Estimator: Off by 0.3.")
     block = page[page.index("**κ is 4.** Not reproduced (Section 0).") :]
@@ -45,6 +45,20 @@ def test_each_statement_stands_with_its_number_and_failures_with_their_cause(ver
     )
     assert "| κ is open. | as judged |" in page
     assert page.index("## Chapter 3") < page.index("## Findings") < page.index("## What the text leaves open")
+
+
+@pytest.mark.parametrize(
+    ("place", "verdict", "told"),
+    [
+        (0.95, "reproduced", True),
+        (1.08, "not reproduced", True),
+        (0.5, "reproduced", False),
+        (1.0, "not decidable", False),
+    ],
+)
+def test_a_verdict_at_the_edge_of_its_band_says_so(verdicts, place, verdict, told):
+    page = verdict_page(verdicts[verdicts.claim == "holds"].assign(place=place, verdict=verdict))
+    assert (f"| {verdict}<br><sub>at the edge of the band</sub> |" in page) == told
 
 
 def test_both_estimators_stand_side_by_side_with_their_verdicts(verdicts):

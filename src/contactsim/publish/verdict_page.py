@@ -14,27 +14,30 @@ from contactsim.analysis.cases import DEFAULT
 from contactsim.analysis.causes import FAILING, UNKNOWN
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_number
-from contactsim.analysis.verdict import FINDING
+from contactsim.analysis.verdict import FINDING, NOT_DECIDABLE
 from contactsim.analysis.wording import candidates_text, measure_text, printed, readings_text
 from contactsim.publish.gallery import counts_markdown
 
 HEADS = ("statement", "reading", "allowed", "value ± errors", "verdict", "margin", "place", "half; double band")
 ESTIMATOR_HEADS = ("statement", "as in the thesis", "verdict (margin)", "corrected", "verdict (margin)", "counted")
+EDGE_NOTE, EDGE_WIDTH = "at the edge of the band", 0.1
+"""Note at a verdict whose place is near 1, and how near."""
 OURS = "Ours."
 """First word of the reason for a band that is not derived from the text."""
 INTRODUCTION = """# Verdicts on the statements of the thesis
 
 Each row is a sentence of the thesis, held against our own data; [the rules](judging.md)
-stand on a page of their own, and [all numbers](gallery/verdicts.csv) in a table.
+stand on a page of their own, and [all numbers](gallery/verdicts.csv) in a table, with the study of each statement. The
+data are those of the standard tier: `make all`, `make gallery` and `python docs/renew.py` make this page again.
 
-- *Statement*: with its place in the thesis.
+- *Statement*: with its place in the thesis, and its name in the table and in `config/`.
 - *Reading*: the number that we compute for the sentence. Of several cases the worst one counts; it is named.
 - *Allowed*: the band of values that agree with the sentence, and why that band.
-- *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and its grid error, rounded
-  to two digits of both together. *None*: there is no such error; *not known*: there is one, and nobody knows it;
-  *exact*: a formula. For an order the worst step over its error.
+- *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and that of grid,
+  increments, jumps and approaches together, rounded to two digits of both. *None*: there is no such error; *not
+  known*: there is one, and nobody knows it; *exact*: a formula. For an order the worst step over its error.
 - *Margin*: the distance to the edge of the band in errors. Below 2 there is no verdict: *not decidable*.
-- *Place*: 0 at the value stated, 1 at the edge of the band. Near 1 our choice of the band decides.
+- *Place*: 0 at the value stated, 1 at the edge of the band. Near 1 the choice of the band decides; the verdict says so.
 - *Half; double band*: the verdicts with bands of half and of twice the width, where one differs.
 - *Reproduced with a condition*: it fails on the whole selection and holds on the part that is named.
 - *Depends on what the text leaves open*: it holds with one admissible reading of the text and fails with another.
@@ -121,11 +124,11 @@ def _chapter_parts(number: str, rows: pd.DataFrame) -> list[str]:
 def _statement_cells(row: Mapping) -> tuple[str, ...]:
     """Return the cells of a statement."""
     return (
-        _with_note(printed(_text(row, "statement")), _text(row, "source")),
+        _statement_text(row),
         _reading_text(row),
         _with_note(_band_text(row), _band_reason(row)),
         number_text(row),
-        row["verdict"],
+        _with_note(row["verdict"], EDGE_NOTE if _is_at_edge(row) else ""),
         *(short_number(float(row.get(name, float("nan")))) for name in ("margin", "place")),
         _other_bands_text(row),
     )
@@ -141,7 +144,7 @@ def _estimator_cells(row: Mapping) -> tuple[str, ...]:
 
 def _finding_cells(row: Mapping) -> tuple[str, ...]:
     """Return the cells of a finding."""
-    return _with_note(printed(_text(row, "statement")), _text(row, "source")), _reading_text(row), number_text(row)
+    return _statement_text(row), _reading_text(row), number_text(row)
 
 
 def _choice_rows(claims: pd.DataFrame) -> Iterable[tuple[str, ...]]:
@@ -176,6 +179,17 @@ def _failure_text(row: Mapping) -> str:
 
 TEXTS = {"cases": "Cases", "deciding_case": "The case that decides", "unknown": "Unknown"}
 """Texts of a row that stand in its block, with what they are called there."""
+
+
+def _statement_text(row: Mapping) -> str:
+    """Return a statement with its place in the thesis and its name."""
+    place, name = _text(row, "source"), _text(row, "claim")
+    return _with_note(printed(_text(row, "statement")), f"{place} · `{name}`" if name else place)
+
+
+def _is_at_edge(row: Mapping) -> bool:
+    """Return True if a decided number lies so near the edge of its band that another band would decide otherwise."""
+    return row["verdict"] != NOT_DECIDABLE and abs(float(row.get("place", float("nan"))) - 1) <= EDGE_WIDTH
 
 
 def _reading_text(row: Mapping) -> str:
