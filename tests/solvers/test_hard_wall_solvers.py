@@ -327,7 +327,7 @@ def test_one_solver_serves_several_threads_at_once():
 @pytest.mark.parametrize("thickness", [None, 20.0])
 def test_elimination_and_conjugate_gradients_find_the_same_pressure(load, thickness):
     layer = {} if thickness is None else {"thickness": thickness, "poisson_ratio": 0.3}
-    found = [
+    results = [
         contactsim.press(
             rough(256),
             spacing=1.0,
@@ -339,10 +339,10 @@ def test_elimination_and_conjugate_gradients_find_the_same_pressure(load, thickn
         )
         for most in (0, 96)
     ]
-    assert [result.status for result in found] == [Status.CONVERGED] * 2
-    assert np.array_equal(*(result.contact for result in found))
-    assert np.allclose(*(result.pressure for result in found), rtol=0, atol=1e-7 * found[0].pressure.max())
-    assert found[1].record.transforms < found[0].record.transforms / 2
+    assert [result.status for result in results] == [Status.CONVERGED] * 2
+    assert np.array_equal(*(result.contact for result in results))
+    assert np.allclose(*(result.pressure for result in results), rtol=0, atol=1e-7 * results[0].pressure.max())
+    assert results[1].record.transforms < results[0].record.transforms / 2
 
 
 @pytest.mark.parametrize("points", [64, 256, 1024])

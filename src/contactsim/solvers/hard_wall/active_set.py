@@ -14,7 +14,6 @@ gradients on the contact set, preconditioned across the gaps (see
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -22,11 +21,8 @@ from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.base import State, check_cascade, coarser_level, iterate
-from contactsim.solvers.hard_wall.negative_gap_preconditioner import (
-    BlockStiffness,
-    NegativeGapPreconditioner,
-    block_size,
-)
+from contactsim.solvers.hard_wall.contact_set import ContactSet, Line
+from contactsim.solvers.hard_wall.negative_gap_preconditioner import block_size
 from contactsim.traits import Trait
 
 
@@ -44,68 +40,6 @@ class ActiveSetState(State):
 
     contact: ContactSet
     count: int
-
-
-class Line:
-    """What all contact sets of a line share.
-
-    Parameters
-    ----------
-    problem
-        Problem of the line.
-
-    Attributes
-    ----------
-    work
-        Arrays (3, n) that every step overwrites.
-    """
-
-    def __init__(self, problem: HardWallProblem) -> None:
-        self._problem = problem
-        self.work = np.empty((3, problem.heights.size))
-
-    @cached_property
-    def response(self) -> Array:
-        """Displacement (n,) at each distance from a point of unit pressure; it is even, so its sign does not matter.
-
-        Under a prescribed load the problem has no compliance of the uniform mode. Here it has that of the longest wave,
-        which makes the matrix of a contact set positive definite and changes the approach alone.
-        """
-        compliance, point = self._problem.compliance, np.zeros(self._problem.heights.size)
-        point[0] = 1.0
-        uniform = 0.0 if self._problem.load is None else compliance.symbol[1] / point.size
-        return compliance(point) + uniform
-
-    @cached_property
-    def stiffness(self) -> BlockStiffness:
-        """Stiffness of the line, for preconditioners."""
-        return BlockStiffness(self._problem.compliance, uniform=self._problem.load is not None)
-
-
-class ContactSet:
-    """A contact set: its points, and its preconditioner, made when it is first asked for.
-
-    Parameters
-    ----------
-    index
-        Indices of its points (m,); at least one.
-    line
-        What it shares with other sets.
-    """
-
-    def __init__(self, index: Array, line: Line) -> None:
-        self.index, self.line = index, line
-
-    def only(self, pressure: Array) -> Array:
-        """Return a pressure (n,) without what lies outside the set."""
-        inside = np.zeros_like(pressure)
-        inside[self.index] = pressure[self.index]
-        return inside
-
-    @cached_property
-    def preconditioner(self) -> NegativeGapPreconditioner:
-        """Preconditioner of conjugate gradients on the set."""
-        return NegativeGapPreconditioner(self.index, self.line.stiffness)
 
 
 @dataclass(frozen=True)
@@ -156,7 +90,8 @@ class ActiveSet:
         pressure, contact, count = state.pressure.copy(), state.contact, state.count + 1
         reduction = self.reduction ** (2 ** (state.count // 10))
         if self._eliminates(contact, pressure.size):
-            contact, reduction = _eliminate(problem, pressure, contact), 0.0  # only rounding is left to remove
+            pressure, contact = contact.eliminate(problem)
+            reduction = 0.0  # only rounding is left to remove
         gap, approach = self._relax(problem, pressure, contact, reduction)
         residual = np.max(np.abs(gap[contact.index] - approach))
         overlapping = gap < approach - problem.tolerance / 2
@@ -164,8 +99,8 @@ class ActiveSet:
         if not (overlapping.any() or (pressure < 0).any()):
             return replace(state, pressure=pressure, done=residual <= problem.tolerance, count=count)
         contact = ContactSet(_solvable(problem, (pressure > 0) | overlapping), contact.line)
-        if not self._eliminates(contact, pressure.size):
-            pressure = _gather(problem, pressure, contact)
+        eliminates = self._eliminates(contact, pressure.size)
+        pressure = contact.only(pressure) if eliminates else contact.gather(problem, pressure)
         return replace(state, pressure=pressure, contact=contact, count=count)
 
     def _eliminates(self, contact: ContactSet, size: int) -> bool:
@@ -207,38 +142,6 @@ def _residual(problem: HardWallProblem, gap: Array) -> tuple[Array, float]:
     """Return the approach less the gap on the contact set, and the approach: prescribed, or the mean of the gap."""
     approach = float(gap.mean()) if problem.approach is None else problem.approach
     return approach - gap, approach
-
-
-def _eliminate(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> ContactSet:
-    """Solve on a contact set by elimination, and again without the points that pull, until none does.
-
-    The pressure is changed in place; the set of the points left is returned. If all points pull, they stay.
-    """
-    index, load, approach = contact.index, problem.load, problem.approach
-    matrix = contact.line.response[np.abs(np.subtract.outer(index, index))]
-    right_sides = np.ones((index.size, 2))  # for the heights, and for all of them raised by one
-    right_sides[:, 0] = problem.heights[index]
-    pressure[:] = 0.0
-    while True:
-        solution, of_approach = np.linalg.solve(matrix, right_sides).T
-        if load is not None:
-            approach = (load * pressure.size - solution.sum()) / of_approach.sum()
-        solution += approach * of_approach
-        stays = solution > 0
-        if stays.all() or not stays.any():
-            pressure[index] = solution
-            return ContactSet(index, contact.line)
-        index, matrix, right_sides = index[stays], matrix[stays][:, stays], right_sides[stays]
-
-
-def _gather(problem: HardWallProblem, pressure: Array, contact: ContactSet) -> Array:
-    """Return the pressure on another contact set: points that leave it give what they carried to their neighbours."""
-    kept = contact.preconditioner.gather(pressure)
-    if problem.load is not None and kept.size == 1:
-        kept[:] = problem.load * pressure.size  # exactly: a small load would be lost in rounding
-    gathered = np.zeros_like(pressure)
-    gathered[contact.index] = kept
-    return gathered
 
 
 def _solvable(problem: HardWallProblem, contact: Array) -> Array:
