@@ -69,7 +69,7 @@ def test_a_case_may_have_a_band_of_its_own():
         "another number": {"expect": 3.0},
         "one edge": {"at_least": 1.5},
     }
-    settings = claim(cases=cases)["cases"]
+    settings = claim(case="a number", cases=cases)["cases"]
     assert (settings["another number"]["expect"], settings["another number"]["tolerance"]) == (
         3.0,
         claim()["tolerance"],
@@ -187,6 +187,13 @@ def test_where_ends_are_compared_no_part_of_a_dimension_is_a_condition(reduce, c
     assert row["verdict"] == (CONDITION if condition else NOT_REPRODUCED)
 
 
+def test_a_dimension_of_another_clause_is_not_narrowed():
+    row = judge(claim(tolerance=0.2, whole=["reduced_pressure"]), [made_up(2.25, tilt=0.25)])
+    assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "")
+    with pytest.raises(InputError, match=r"claims\.test\.whole: got 'width'"):
+        claim(whole=["width"])
+
+
 def test_a_claim_that_holds_or_is_open_needs_no_condition():
     assert judge(claim(), [made_up()])["condition"] == ""
     assert judge(claim(), [made_up(2.25, tilt=0.25, grid=5.0)])["condition"] == ""
@@ -232,21 +239,31 @@ def test_a_second_row_is_judged_beside_the_one_that_counts():
     assert (other.beside_grid_error, other.beside_verdict) == (pytest.approx(0.3), NOT_DECIDABLE)
 
 
-def test_a_stated_number_is_that_of_the_thesis_s_grid_and_elsewhere_the_corrected_one():
+def test_a_stated_number_is_counted_on_the_thesis_s_grid_or_carried_there():
     settings = claim(beside="kappa_corrected", grid="thesis")
     row = judged(settings, with_corrected(made_up(2.0, grid=0.3), 2.5, change=0.01, subgrid=2.5))
     assert (row.measure, row.verdict, row.grid_error) == ("mean of kappa", REPRODUCED, 0)
     assert (row.beside_value, row.beside_grid_error) == (pytest.approx(2.5), pytest.approx(0.01))
-    row = judged(settings, with_corrected(made_up(2.0, grid=0.3, points=1024), 2.5, change=0.01, subgrid=2.5))
-    assert (row.measure, row.verdict) == ("mean of kappa_corrected", NOT_REPRODUCED)
-    assert (row.beside, row.beside_verdict) == ("kappa", NOT_DECIDABLE)
+    coarser = made_up(2.2, grid=-0.2, points=262144 // 4)  # counting adds 0.2 here, so 0.05 on the thesis's grid
+    row = judged(settings, with_corrected(coarser, 2.0, change=0.0, subgrid=2.0))
+    assert (row.measure, row.verdict) == ("mean of kappa_carried", REPRODUCED)
+    assert [row.value, row.grid_error] == pytest.approx([2.05, 0.0], abs=1e-12)
+    assert (row.beside, row.beside_value) == ("kappa_corrected", pytest.approx(2.0))
+
+
+def test_the_error_of_a_carried_number_is_that_of_what_it_is_carried_from():
+    settings = claim(beside="kappa_corrected", grid="thesis")
+    row = judged(settings, with_corrected(made_up(2.2, grid=-0.2, points=262144 // 4), 2.0, change=0.04, subgrid=2.0))
+    assert row.grid_error == pytest.approx(0.04 * (1 - 1 / 8))
+    row = judged(settings, with_corrected(made_up(2.2, grid=-0.2, points=262144 // 4), 2.0, change=0.0, subgrid=2.1))
+    assert row.grid_error == pytest.approx(0.1 * (1 - 1 / 4))
 
 
 def test_the_grid_of_the_thesis_is_that_of_both_studies():
     settings = claim(**RATIO, beside="kappa_corrected", grid="thesis")
     lines, surfaces = (with_corrected(made_up(level), level, change=0.0, subgrid=level) for level in (1.8, 2.0))
-    assert judged(settings, lines, surfaces).beside == "kappa_corrected"
-    assert judged(settings, lines, surfaces.assign(points=1024)).beside == "kappa"
+    assert judged(settings, lines, surfaces).measure.startswith("mean of kappa in")
+    assert judged(settings, lines, surfaces.assign(points=1024)).measure.startswith("mean of kappa_carried in")
 
 
 def test_orders_have_second_rows_too():

@@ -73,11 +73,11 @@ def test_both_estimators_stand_side_by_side_with_their_verdicts(verdicts):
 def test_a_block_tells_its_condition_its_cases_and_other_bands(verdicts):
     condition = {"condition": "H = 0.2", "condition_share": 0.5, "condition_value": 2.95}
     errors = {"condition_ensemble_error": 0.01, "condition_grid_error": 0.02}
-    cases = {"cases": "first: reproduced (2.9); heavy: not reproduced (2.1)", "deciding_case": "heavy"}
+    cases = {"cases": "light: reproduced (2.9); heavy: not reproduced (2.1)", "deciding_case": "heavy"}
     row = verdicts[verdicts.claim == "fails"].assign(**condition, **errors, **cases, verdict_double="reproduced")
     page = verdict_page(row)
     assert "- Holds for H = 0.2 (50% of all): 2.950 ± 0.010 ± 0.020." in page
-    assert "- Cases: first: reproduced (2.9); heavy: not reproduced (2.1).\n- The case that decides: heavy." in page
+    assert "- Cases: light: reproduced (2.9); heavy: not reproduced (2.1).\n- The case that decides: heavy." in page
     assert "- With half the band; with double: not reproduced; reproduced." in page
     assert "mean of κ: heavy |" in page
 

@@ -10,8 +10,6 @@ from contactsim.analysis.verdict import CONDITION, NOT_DECIDABLE, NOT_REPRODUCED
 
 WORST_FIRST = (NOT_REPRODUCED, NOT_DECIDABLE, CONDITION, REPRODUCED)
 """Verdicts on single cases, from the one that decides over all others on."""
-DEFAULT = "first"
-"""Name of the case of the claim itself."""
 
 
 def join_cases(rows: Mapping[str, Mapping[str, object]]) -> dict[str, object]:

@@ -13,10 +13,10 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.analysis.admissible import Choice, candidate_choices, candidate_entries, choice_entries, read_candidates
-from contactsim.analysis.cases import DEFAULT as DEFAULT_CASE
 from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
 from contactsim.analysis.cell_rules import cell_texts
+from contactsim.analysis.carried import carried_name
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
 from contactsim.analysis.formulas import FORMULAS
@@ -91,10 +91,10 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
 def counted_row(claim: Mapping, data: Sequence[xr.Dataset]) -> Mapping:
     """Return the claim with the row that counts as its quantity, and the other one beside it.
 
-    A number that the thesis states is compared on the thesis's own grid, or with the corrected quantity on another.
+    A number that the thesis states is compared on the thesis's own grid. Counted on another, it is carried there.
     """
     if claim["grid"] == "thesis" and claim["beside"] and not all(map(is_on_thesis_grid, data)):
-        return {**claim, "quantity": claim["beside"], "beside": claim["quantity"], "grid": None}
+        return {**claim, "quantity": carried_name(claim["quantity"]), "grid": None}
     return claim
 
 
@@ -169,9 +169,10 @@ def judge_choices(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[Choice
 def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, object]:
     """Return the row of a claim that holds if it holds in all its cases; data: dataset of each study."""
     rows = {}
-    for name, settings in {DEFAULT_CASE: claim, **(claim["cases"] or {})}.items():
+    for name, settings in {claim["case"]: claim, **(claim["cases"] or {})}.items():
         studied = _studied(settings, data)
-        rows[name] = judge(counted_row(settings, studied), studied)
+        counted = counted_row(settings, studied)
+        rows[name] = {"expected": band_text(counted), "beside": counted["beside"] or ""} | judge(counted, studied)
     return join_cases(rows)
 
 
@@ -209,8 +210,6 @@ def judge_claims(
                 "claim": name,
                 **{key: claim[key] for key in ("source", "statement")},
                 "measure": comparison_text(claim),
-                "expected": band_text(claim),
-                "beside": claim["beside"] or "",
                 **row,
                 "cause": cause_text(cause, row, cells),
                 "rationale": claim["rationale"],

@@ -77,14 +77,15 @@ def _is_within(part: Comparison, low: float, high: float) -> bool:
 def narrower_blocks(comparison: Comparison) -> Iterator[tuple[Block, float]]:
     """Yield the contiguous blocks of a selection that are smaller than it, with their shares; the largest first.
 
-    A dimension along which a claim compares values keeps at least two. It keeps all if the ends are compared.
+    A dimension along which a claim compares values keeps at least two. It keeps all if the ends are compared, or if the
+    claim says so, as another clause of its sentence is about that dimension.
     """
     choices = []
     claim = comparison.claim
     compares_ends = claim["reduce"] in REDUCTIONS and REDUCTIONS[claim["reduce"]].compares_ends
     for dim, values in comparison.varied_dimensions().items():
         is_compared = dim in (claim["along"], claim["across"])
-        least = (len(values) if compares_ends else 2) if is_compared else 1
+        least = len(values) if dim in (claim["whole"] or ()) or (is_compared and compares_ends) else 1 + is_compared
         ranges = [
             (dim, [float(values[first]), float(values[last])], (last - first + 1) / len(values))
             for first, last in itertools.combinations_with_replacement(range(len(values)), 2)

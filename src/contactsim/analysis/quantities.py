@@ -12,12 +12,14 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.analysis.carried import CARRIED, carried_quantity, grid_share
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.fits import fit_line_area
 from contactsim.observables.contact_readings import CRITERIA
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
 from contactsim.reference import adhesion, hard_wall
 from contactsim.status import is_solved
+from contactsim.variables import GRID_CHANGE
 
 FITTED: dict[str, tuple[str, bool]] = {
     "kappa_fit": ("area", False),
@@ -60,6 +62,10 @@ RESOLVED_WAVELENGTH = 16
 """Points per shortest wavelength from which edges can be placed between points."""
 READ_BY_ALL = ("status", "points", "length", "length_y", "contact_modulus", "rms_gradient")
 """Variables from which quantities are computed, or by which they are known to be unknown."""
+PATH_ERRORS = ("increment", "approach")
+"""Errors of a path, and of what is fitted to several; those of two paths are independent."""
+READ_BESIDE = (GRID_CHANGE, *(f"_{kind}_error" for kind in PATH_ERRORS))
+"""Ends of the names of the changes and errors of a quantity that are read with it."""
 
 
 def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
@@ -68,10 +74,12 @@ def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     Members are left out of a dataset again and again, which takes as long as it has variables.
     """
     sources = {computed_from(name) for name in names}
+    carried = {name: carried_quantity(data, name) for name in sources & {*CARRIED}}
+    sources |= {name for counted in map(CARRIED.get, carried) for name in (counted, f"{counted}_corrected")}
     sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
-    starts = tuple(f"{source}_" for source in sources)
-    sources |= {*READ_BY_ALL}
-    return data[[name for name in data.data_vars if name in sources or str(name).startswith(starts)]]
+    read = {f"{source}{suffix}" for source in sources for suffix in ("", *READ_BESIDE)} | {*READ_BY_ALL}
+    part = data[[name for name in data.data_vars if name in read]]
+    return part.assign({key: values for parts in carried.values() for key, values in parts.items()})
 
 
 def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:
@@ -168,9 +176,12 @@ def second_estimate(data: xr.Dataset, name: str, suffix: str = "") -> xr.DataArr
 
     suffix: of the variable, as of a mean
     """
+    if name in CARRIED:
+        counted, share = CARRIED[name], grid_share(data)
+        return (1 - share) * second_estimate(data, f"{counted}_corrected") + share * data[counted]
     other = SECOND_ESTIMATORS[name]
     is_rough_surface = "length_y" in data and dataset.settings_of(data)["surface"]["kind"] == "self_affine"
-    return data[f"{other}{suffix}"] + (data[f"{other}_grid_change"] / 3 if is_rough_surface else 0.0)
+    return data[f"{other}{suffix}"] + (data[f"{other}{GRID_CHANGE}"] / 3 if is_rough_surface else 0.0)
 
 
 def computed_from(name: str) -> str:
@@ -182,10 +193,10 @@ def computed_from(name: str) -> str:
 def source_quantity(name: str) -> str | None:
     """Return the averaged quantity that another is computed from; None for an exact one, which has no grid error."""
     source = computed_from(name)
-    return source if source in (*AVERAGED, *PATH_SUMMARIES) else None
+    return source if source in (*AVERAGED, *CARRIED, *PATH_SUMMARIES) else None
 
 
 def grid_change_name(name: str) -> str | None:
     """Return the variable that holds the change of a quantity's source on halving the grid; None if it is exact."""
     source = source_quantity(name)
-    return None if source is None else f"{source}_grid_change"
+    return None if source is None else f"{source}{GRID_CHANGE}"

@@ -12,8 +12,10 @@ import xarray as xr
 from scipy.special import stdtrit
 
 from contactsim import dataset
+from contactsim.analysis.carried import CARRIED
 from contactsim.analysis.comparison import Comparison, Datasets, members_left_out
 from contactsim.analysis.quantities import (
+    PATH_ERRORS,
     SCATTERS,
     SECOND_ESTIMATORS,
     grid_change_name,
@@ -27,8 +29,6 @@ from contactsim.observables.dataset_forms import EXACT_SUMMARIES, PATH_SUMMARIES
 NAN = float("nan")
 MIN_MARGIN = 2.0
 """Least distance from the edge of a band, in errors, at which a claim is decided."""
-PATH_ERRORS = ("increment", "approach")
-"""Errors of a path, and of what is fitted to several; those of two paths are independent."""
 Number = Callable[[Datasets], Any]
 """Function of datasets: one number, or an array of numbers that each have an error."""
 
@@ -135,7 +135,7 @@ def _grid_error(number: Number, comparison: Comparison) -> Any:
     is_scatter = claim["quantity"] in SCATTERS
     coarse = [study.assign({name: _on_coarser_grid(study, name, is_scatter) for name in changes}) for study in data]
     change = abs(number(coarse) - fine)
-    corrected = [name for name in changes if name in SECOND_ESTIMATORS]
+    corrected = [name for name in changes if name in (*SECOND_ESTIMATORS, *CARRIED)]
     if corrected and all(resolves_edges(study) for study in data):
         second = [study.assign({name: second_estimate(study, name) for name in corrected}) for study in data]
         change = np.maximum(change, abs(number(second) - fine))

@@ -12,6 +12,7 @@ import xarray as xr
 
 from contactsim import dataset, status, variables
 from contactsim.analysis import ensemble
+from contactsim.analysis.carried import CARRIED
 from contactsim.analysis.rounding import FORMULA, number_text, short_number
 
 FACTORS = ("kappa", "kappa_corrected", "kappa_r", "kappa_r_corrected")
@@ -97,6 +98,8 @@ def quantity_text(name: str) -> str:
     for suffix, words in errors.items():
         if name.endswith(suffix):
             return words + quantity_text(name.removesuffix(suffix))
+    if name in CARRIED:
+        return f"{quantity_text(CARRIED[name])} carried to the thesis's grid"
     return REDUCTION_PHRASES.get(name) or variables.find_variable(name).phrase or name
 
 

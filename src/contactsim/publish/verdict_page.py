@@ -10,7 +10,6 @@ from pathlib import Path
 import pandas as pd
 
 from contactsim.analysis.admissible import choices_table
-from contactsim.analysis.cases import DEFAULT
 from contactsim.analysis.causes import FAILING, UNKNOWN
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_number
@@ -194,7 +193,7 @@ def _is_at_edge(row: Mapping) -> bool:
 
 def _reading_text(row: Mapping) -> str:
     """Return what is computed for a statement, and the case that decides where there are several."""
-    case = _text(row, "deciding_case").replace(DEFAULT, f"the {DEFAULT}")
+    case = _text(row, "deciding_case")
     return measure_text(_text(row, "measure")) + (f": {case}" if case else "")
 
 

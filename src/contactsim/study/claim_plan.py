@@ -19,7 +19,7 @@ from contactsim.study.claim_checks import (
     check_without_study,
     study_dimensions,
 )
-from contactsim.study.reading import Key, choice, mapping, number, positive, read, text
+from contactsim.study.reading import Key, choice, listed, mapping, number, positive, read, text
 from contactsim.study.study import Study
 
 
@@ -68,6 +68,8 @@ CLAIM_KEYS = {
     "neutral": Key(number, "the value that the statement names, or that would mean no change", None),
     "absent": Key(text, "what a variant lacks that has no such number", None),
     "grid": Key(choice(GRIDS), f"one of {', '.join(GRIDS)}", None),
+    "whole": Key(listed(text), "dimensions that a condition does not narrow", None),
+    "case": Key(text, "the name of the claim's own case, with `cases`", None),
     "cases": Key(mapping, "a mapping from the name of a case to the keys that it replaces", None),
     "admissible": Key(mapping, "a mapping from what the text leaves open to its alternatives", None),
     "cause": Key(mapping, "a mapping with `kind` and `text`, and `cell` where one separates candidates", None),
@@ -139,11 +141,17 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     alternatives, settings["admissible"] = settings["admissible"] or {}, None
     given = dict(settings)
     cases, settings["cases"] = settings["cases"] or {}, None
+    if cases and settings["case"] is None:
+        raise InputError(f"{prefix}.case", None, "the name of the claim's own case, beside `cases`", file)
     check_one_of(settings, "study", studies, file, prefix)
     claim = Claim(name, settings)
     dims = list(dict.fromkeys(dim for study in claim.studies for dim in study_dimensions(studies, study)))
     check_quantities(settings, studies, dims, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
+    known = list(dict.fromkeys(dim for study in studies for dim in study_dimensions(studies, study)))
+    for dim in settings["whole"] or ():
+        if dim not in known:  # of any study: another reading may be answered by one that lacks it
+            raise InputError(f"{prefix}.whole", dim, f"one of {', '.join(known)}", file)
     check_band(settings, file, prefix)
     if settings["absent"] is not None and settings["reduce"] not in WITHOUT_INPUTS:
         raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)

@@ -11,7 +11,7 @@ import pandas as pd
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.cases import DEFAULT, join_cases
+from contactsim.analysis.cases import join_cases
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import estimate
@@ -32,7 +32,7 @@ def judge_statement(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str,
 
     claim: settings; data: dataset of each interface
     """
-    cases = {DEFAULT: claim, **(claim["cases"] or {})}
+    cases = {claim["case"]: claim, **(claim["cases"] or {})}
     return join_cases({name: _judge_case(case, data) for name, case in cases.items()})
 
 
