@@ -111,14 +111,18 @@ class Grid:
 
     def of_wavenumber(self, function: Callable[[Array], Array]) -> Array:
         """Return a function of the angular wavenumber |q| (rad/nm) at each coefficient, shape `half_shape`."""
-        last = np.fft.rfftfreq(self.shape[-1], self.spacing[-1] / (2 * np.pi))
         if len(self.shape) == 1:
-            return function(last)
-        first = np.fft.fftfreq(self.shape[0], self.spacing[0] / (2 * np.pi))[:, None]
+            return function(np.fft.rfftfreq(self.shape[0], self.spacing[0] / (2 * np.pi)))
         values = np.empty(self.half_shape)
         for low, high in blocks(self.shape):
-            values[low:high] = function(np.sqrt(first[low:high] ** 2 + last**2))
+            values[low:high] = function(self.wavenumber_at(*np.ogrid[low:high, : self.half_shape[1]]))
         return values
+
+    def wavenumber_at(self, rows: Array, columns: Array) -> Array:
+        """Return |q| (rad/nm) of the coefficients of a surface at some rows and columns, which are broadcast."""
+        last = np.fft.rfftfreq(self.shape[1], self.spacing[1] / (2 * np.pi))
+        first = np.fft.fftfreq(self.shape[0], self.spacing[0] / (2 * np.pi))
+        return np.sqrt(first[rows] ** 2 + last[columns] ** 2)
 
     def forward(self, field: Array, out: Array | None = None) -> Array:
         """Return the Fourier coefficients of a real field over all axes; the entry q = 0 is the mean.
@@ -156,6 +160,40 @@ class TransformCounter:
         self.transforms += count * size / self.finest
 
 
+@dataclass(frozen=True)
+class RadialSymbol:
+    """Function of |q| at the coefficients of a surface; it is computed where it is read, so that no array is held.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the surface.
+    function : callable
+        Function of |q| (rad/nm).
+    uniform : float
+        Value at q = 0.
+    """
+
+    grid: Grid
+    function: Callable[[Array], Array]
+    uniform: float
+
+    def __getitem__(self, places: tuple[Array, Array]) -> Array:
+        """Return the values at rows and columns of the coefficients, which are broadcast."""
+        values = self.function(self.grid.wavenumber_at(*places))
+        values[np.logical_and(*(place == 0 for place in places))] = self.uniform
+        return values
+
+    def rows(self, low: int, high: int) -> Array:
+        """Return the values at the rows from `low` to before `high`."""
+        row, column = np.ogrid[low:high, : self.grid.half_shape[1]]
+        return self[row, column]
+
+    def scaled(self, grid: Grid, factor: float) -> RadialSymbol:
+        """Return the symbol times a factor on a grid with the same periods."""
+        return RadialSymbol(grid, lambda q: self.function(q) * factor, self.uniform * factor)
+
+
 @dataclass
 class FourierOperator:
     """Multiplication of the Fourier coefficients of a field by a symbol.
@@ -167,19 +205,19 @@ class FourierOperator:
     ----------
     grid : Grid
         Grid of the field.
-    symbol : array, shape `grid.half_shape`
-        Factor of each coefficient.
+    symbol : array, shape `grid.half_shape`, or RadialSymbol
+        Factor of each coefficient; of a surface one that is computed by rows.
     counter : TransformCounter
         Counts the transforms.
     """
 
     grid: Grid
-    symbol: Array
+    symbol: Any
     counter: TransformCounter
     _half: Array | None = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        self._half = np.empty(self.symbol.shape, complex) if self.symbol.ndim == 1 else None
+        self._half = np.empty(self.grid.half_shape, complex) if len(self.grid.shape) == 1 else None
 
     def __call__(self, values: Array, out: Array | None = None) -> Array:
         """Apply the operator to a real field.
@@ -212,7 +250,8 @@ class FourierOperator:
         for low, high in rows:
             half[low:high] = ducc0.fft.r2c(values[low:high], inorm=2, **along)
         ducc0.fft.c2c(half, inorm=2, out=half, **across)
-        half *= self.symbol
+        for low, high in rows:
+            half[low:high] *= self.symbol.rows(low, high)
         ducc0.fft.c2c(half, forward=False, out=half, **across)
         for low, high in rows:
             result[low:high] = ducc0.fft.c2r(half[low:high], lastsize=columns, forward=False, **along)

@@ -5,18 +5,23 @@ import pytest
 
 import contactsim as cs
 from contactsim.observables.contact import contact_edges, touching
-from contactsim.observables.edge_correction import EDGE_EXCESS, corrected_area, edge_points, gradient_within
+from contactsim.observables.edge_correction import EDGE_EXCESS, ContactGradient, corrected_area, edge_points
 from contactsim.reference import hard_wall
-from contactsim.surfaces.statistics import squared_gradient
+from contactsim.surfaces.squared_gradient import squared_gradient
+
+
+def gradient_of(slopes, contact, area):
+    """The rms gradient of squared slopes over a contact of a line."""
+    return ContactGradient.of([(slice(0, 1), slopes[None])], contact).within(area)
 
 
 def test_a_full_and_an_empty_contact_have_no_edges():
     slopes = np.full(16, 4.0)
     assert corrected_area(np.ones(16, bool)) == 1
-    assert gradient_within(slopes, np.ones(16, bool), 1.0) == 2
+    assert gradient_of(slopes, np.ones(16, bool), 1.0) == 2
     assert corrected_area(np.zeros(16, bool)) == 0
-    assert gradient_within(0 * slopes, np.ones(16, bool), 1.0) == 0  # flat
-    assert np.isnan(gradient_within(slopes, np.zeros(16, bool), 0.0))
+    assert gradient_of(0 * slopes, np.ones(16, bool), 1.0) == 0  # flat
+    assert np.isnan(gradient_of(slopes, np.zeros(16, bool), 0.0))
 
 
 def test_edge_points_touch_a_neighbour_without_contact():
@@ -32,7 +37,7 @@ def test_what_the_area_lacks_is_taken_from_the_edges():
     slopes = np.where(np.arange(10) % 5 == 0, 9.0, 1.0)  # steep at both edges
     lost = 2 * EDGE_EXCESS[1]
     expected = (4 * 1.0 + (2 - lost) * 9.0) / (6 - lost)
-    assert gradient_within(slopes, contact, corrected_area(contact)) == pytest.approx(np.sqrt(expected), rel=1e-14)
+    assert gradient_of(slopes, contact, corrected_area(contact)) == pytest.approx(np.sqrt(expected), rel=1e-14)
 
 
 @pytest.mark.parametrize("shape", [(256,), (64, 64)])

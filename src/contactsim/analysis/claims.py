@@ -13,10 +13,10 @@ import pandas as pd
 import xarray as xr
 
 from contactsim.analysis.admissible import Choice, candidate_choices, candidate_entries, choice_entries, read_candidates
+from contactsim.analysis.carried import carried_name
 from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
 from contactsim.analysis.cell_rules import cell_texts
-from contactsim.analysis.carried import carried_name
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import find_condition
 from contactsim.analysis.formulas import FORMULAS

@@ -75,7 +75,7 @@ def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     """
     sources = {computed_from(name) for name in names}
     carried = {name: carried_quantity(data, name) for name in sources & {*CARRIED}}
-    sources |= {name for counted in map(CARRIED.get, carried) for name in (counted, f"{counted}_corrected")}
+    sources |= {name for counted in (CARRIED[key] for key in carried) for name in (counted, f"{counted}_corrected")}
     sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
     read = {f"{source}{suffix}" for source in sources for suffix in ("", *READ_BESIDE)} | {*READ_BY_ALL}
     part = data[[name for name in data.data_vars if name in read]]

@@ -15,11 +15,13 @@ afterwards.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from contactsim.errors import InputError
-from contactsim.grid import Array, FourierOperator, TransformCounter
+from contactsim.grid import Array, FourierOperator, TransformCounter, blocks
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,39 @@ class Scale:
 
 
 @dataclass(frozen=True)
+class Profile:
+    """Heights below the highest, in grid steps; computed by rows where they are read, so that no second array is held.
+
+    Parameters
+    ----------
+    heights
+        Heights (n,) or (ny, nx), nm.
+    highest
+        Largest height, nm.
+    step
+        Length of a grid step, nm.
+    """
+
+    heights: Array
+    highest: float
+    step: float
+
+    def __getitem__(self, places: Any) -> Array:
+        """Return the heights at some places."""
+        values = self.heights[places] - self.highest
+        values /= self.step
+        return values
+
+    def subtract_from(self, field: Array) -> None:
+        """Subtract the heights from a field, in place."""
+        if field.ndim == 1:
+            field -= self[:]
+            return
+        for low, high in blocks(field.shape):
+            field[low:high] -= self[low:high]
+
+
+@dataclass(frozen=True)
 class WarmStart:
     """A solution on fewer points, from which a cascade of grids can start.
 
@@ -66,7 +101,7 @@ class HardWallProblem:
 
     Parameters
     ----------
-    heights
+    profile
         Heights (n,) or (ny, nx), at most 0.
     compliance
         S.
@@ -80,13 +115,28 @@ class HardWallProblem:
         Solution on fewer points, if there is one.
     """
 
-    heights: Array
+    profile: Profile
     compliance: FourierOperator
     tolerance: float
     load: float | None
     approach: float | None
     counter: TransformCounter
     warm_start: WarmStart | None = None
+
+    @cached_property
+    def heights(self) -> Array:
+        """Heights at all points; solvers of surfaces, where memory is short, read the profile instead."""
+        return self.profile[...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points in each direction."""
+        return self.profile.heights.shape
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return self.profile.heights.size
 
     @property
     def is_separated(self) -> bool:
@@ -102,18 +152,21 @@ class HardWallProblem:
 
     def coarser(self, tolerance: float) -> HardWallProblem:
         """Return the problem on half of the points in each direction, in grid steps of its own; heights are sampled."""
-        shape = tuple(size // 2 for size in self.heights.shape)
-        places = [np.arange(half) * size // half for half, size in zip(shape, self.heights.shape, strict=True)]
-        ratio = shape[-1] / self.heights.shape[-1]
-        sampled = self.heights[np.ix_(*places)] * ratio
-        highest = sampled.max()
-        sampled -= highest
-        grid = self.compliance.grid.coarser(shape)
-        symbol = self.compliance.symbol[grid.modes_of(self.compliance.grid)] * ratio
+        shape = tuple(size // 2 for size in self.shape)
+        places = [np.arange(half) * size // half for half, size in zip(shape, self.shape, strict=True)]
+        ratio = shape[-1] / self.shape[-1]
+        sampled = self.profile[np.ix_(*places)] * ratio
+        highest = float(sampled.max())
+        grid, fine = self.compliance.grid.coarser(shape), self.compliance
+        symbol: Any
+        if len(shape) == 1:
+            symbol = fine.symbol[grid.modes_of(fine.grid)] * ratio
+        else:
+            symbol = fine.symbol.scaled(grid, ratio)
         approach = None if self.approach is None else self.approach * ratio + highest
         warm_start = self.warm_start and replace(self.warm_start, gap=self.warm_start.gap * ratio)
         return HardWallProblem(
-            sampled,
+            Profile(sampled, highest, 1.0),
             FourierOperator(grid, symbol, self.counter),
             tolerance,
             self.load,
@@ -126,11 +179,11 @@ class HardWallProblem:
     def usable_start(self) -> WarmStart | None:
         """Warm start if this grid has at most twice as many points along x as that has; None elsewhere."""
         start = self.warm_start
-        return start if start is not None and self.heights.shape[-1] <= 2 * start.pressure.shape[-1] else None
+        return start if start is not None and self.shape[-1] <= 2 * start.pressure.shape[-1] else None
 
-    def project(self, pressure: Array) -> Array:
-        """Return a pressure cut at zero and scaled to the prescribed load, in memory of its own."""
-        result = np.maximum(pressure, 0.0)
+    def project(self, pressure: Array, out: Array | None = None) -> Array:
+        """Return a pressure cut at zero and scaled to the prescribed load, in memory of its own or in `out`."""
+        result = np.maximum(pressure, 0.0, out=out)
         if self.load is not None:
             mean = result.mean()
             if mean > 0:
@@ -142,7 +195,7 @@ class HardWallProblem:
     def certify(self, pressure: Array) -> tuple[Certificate, Array]:
         """Return the errors of a pressure, and its gap in grid steps, both computed from the pressure alone."""
         gap = self.compliance(pressure)
-        gap -= self.heights
+        self.profile.subtract_from(gap)
         contact = pressure > 0
         touching = gap[contact]
         approach = self.approach

@@ -3,34 +3,51 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from contactsim.contact.grid_step import grid_step
-from contactsim.contact.hard_wall import HardWallProblem, Scale
+from contactsim.contact.hard_wall import HardWallProblem, Profile, Scale
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError, is_number
-from contactsim.grid import Array, FourierOperator, Grid, TransformCounter
+from contactsim.grid import Array, FourierOperator, Grid, RadialSymbol, TransformCounter, blocks
 from contactsim.traits import Trait
 
 MIN_GRID_STEP = 1e-10
 """Smallest grid step that is no rounding, over p·spacing/E* or the approach; below it, these times it are the unit."""
 
 
-def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressure: float) -> Array:
-    """Return the compliance over spacing/E*; refuse units that leave the range of floating point."""
+def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressure: float) -> tuple[Any, float]:
+    """Return the compliance over spacing/E* and that of the uniform mode; refuse units out of the range of numbers."""
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         flexibility = grid.spacing[-1] / np.float64(scene.contact_modulus)
-        symbol = grid.of_wavenumber(lambda q: scene.compliance(q) / flexibility)
+
+        def relative_compliance(wavenumber: Array) -> Array:
+            """Return the compliance over spacing/E* at each |q|."""
+            return scene.compliance(wavenumber) / flexibility
+
+        uniform = float(relative_compliance(np.zeros(1))[0])
+        if len(grid.shape) == 1:
+            symbol: Any = grid.of_wavenumber(relative_compliance)
+            positive = np.isfinite(symbol).all() and (symbol[1:] > 0).all()
+        else:
+            symbol = RadialSymbol(grid, relative_compliance, uniform)
+            positive = np.isfinite(uniform) and _is_positive(symbol)
         largest = np.float64(heights.size) * max(unit / flexibility, pressure)
         extents = flexibility, largest, (heights.max() - heights.min()) / unit
-    positive = np.isfinite(symbol).all() and (symbol.ravel()[1:] > 0).all()
     if not (np.isfinite(extents).all() and flexibility > 0 and positive):
         values = f"{grid.spacing[-1]:g}, {scene.contact_modulus:g}, {np.abs(heights).max():g}, {pressure:g}"
         allowed = "units in which heights, pressures and their ratios stay within the range of floating point"
         raise InputError("spacing, contact_modulus, heights, mean_pressure", values, allowed)
-    return symbol
+    return symbol, uniform
+
+
+def _is_positive(symbol: RadialSymbol) -> bool:
+    """Return True if a symbol is finite and positive at all |q| but zero."""
+    parts = (replace(symbol, uniform=1.0).rows(low, high) for low, high in blocks(symbol.grid.shape))
+    return all(np.isfinite(part).all() and (part > 0).all() for part in parts)
 
 
 def _zero_mean_reason(scene: Scene) -> str:
@@ -76,20 +93,22 @@ def pose_hard_wall(
         flexibility = float(grid.spacing[-1] / np.float64(scene.contact_modulus))
         displacement = max(overlap, 0.0) if pressure is None else pressure * flexibility
         unit = max(grid_step(heights), MIN_GRID_STEP * displacement) or flexibility
-    symbol = _without_units(scene, grid, heights, unit, pressure or 0.0)
+    symbol, uniform = _without_units(scene, grid, heights, unit, pressure or 0.0)
     scale = Scale(unit, unit / flexibility, highest)
     load, approach = None, None
     if pressure is None:
-        _check_full_contact(scene, heights, value, overlap, float(symbol.flat[0]))
+        _check_full_contact(scene, heights, value, overlap, uniform)
         approach = overlap / unit
     else:  # a uniform displacement does not change the gaps, and would only add rounding to them
-        scale = replace(scale, mean_displacement=float(symbol.flat[0]) * flexibility * pressure)
+        scale = replace(scale, mean_displacement=uniform * flexibility * pressure)
         load = pressure / scale.pressure
-        symbol.flat[0] = 0.0
+        if heights.ndim == 1:
+            symbol[0] = 0.0
+        else:
+            symbol = replace(symbol, uniform=0.0)
     counter = TransformCounter(heights.size)
-    below = heights - highest
-    below /= unit
-    return HardWallProblem(below, FourierOperator(grid, symbol, counter), tolerance, load, approach, counter), scale
+    compliance = FourierOperator(grid, symbol, counter)
+    return HardWallProblem(Profile(heights, highest, unit), compliance, tolerance, load, approach, counter), scale
 
 
 def _check_full_contact(scene: Scene, heights: Array, value: float, overlap: float, uniform: float) -> None:

@@ -7,6 +7,10 @@ which one is in contact. The factor follows from the discrete elasticity, if edg
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
 import numpy as np
 
 from contactsim.grid import Array
@@ -36,19 +40,41 @@ def edge_points(contact: Array) -> Array:
     return contact & ~inside
 
 
-def gradient_within(squared_gradient: Array, contact: Array, area: float) -> float:
-    """Return the rms gradient over a contact whose edges lie between points; NaN without contact.
+@dataclass(frozen=True)
+class ContactGradient:
+    """Squared gradient summed over a contact and over its edges, whose points have a neighbour that is not in contact.
 
-    Parameters
+    Attributes
     ----------
-    squared_gradient : array, shape (n,) or (ny, nx)
-        At each point.
-    contact : bool array of the same shape
-        Points in contact.
-    area : float
-        Relative contact area. What it lacks of the counted area is taken from the points at the edges, in equal parts.
+    size
+        Points of the grid.
+    points, edge_points
+        Points in contact, and of these at its edges.
+    total, edge_total
+        Sums of the squared gradient over both.
     """
-    edge = edge_points(contact)
-    lost = (np.count_nonzero(contact) - area * contact.size) / max(int(np.count_nonzero(edge)), 1)
-    total = squared_gradient[contact].sum() - lost * squared_gradient[edge].sum()
-    return float(np.sqrt(total / (area * contact.size))) if area > 0 and total >= 0 else float("nan")
+
+    size: int
+    points: int
+    edge_points: int
+    total: float
+    edge_total: float
+
+    @classmethod
+    def of(cls, squared_gradient: Iterable[tuple[slice, Array]], contact: Array) -> ContactGradient:
+        """Return the sums over a contact, bool (n,) or (ny, nx), of a squared gradient that comes by blocks of rows."""
+        edge, columns = edge_points(contact), contact.shape[-1]
+        inside, at_edge = contact.reshape(-1, columns), edge.reshape(-1, columns)
+        sums = [(values[inside[rows]].sum(), values[at_edge[rows]].sum()) for rows, values in squared_gradient]
+        total, edge_total = (math.fsum(part) for part in zip(*sums, strict=True))
+        return cls(contact.size, int(np.count_nonzero(contact)), int(np.count_nonzero(edge)), total, edge_total)
+
+    def within(self, area: float) -> float:
+        """Return the rms gradient over a contact whose edges lie between points; NaN without contact.
+
+        area: relative contact area. What it lacks of the counted area is taken from the points at the edges, in equal
+        parts.
+        """
+        lost = (self.points - area * self.size) / max(self.edge_points, 1)
+        total = self.total - lost * self.edge_total
+        return float(np.sqrt(total / (area * self.size))) if area > 0 and total >= 0 else float("nan")

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from contactsim.grid import Array
 from contactsim.observables.contact import contact_edges, relative_contact_area_subgrid, touching
-from contactsim.observables.edge_correction import corrected_area, gradient_within
+from contactsim.observables.edge_correction import ContactGradient, corrected_area
 from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
 
 
 def wall_observables(
-    heights: Array, squared_gradient: Array, spacing: Sequence[float], pressure: Array, gap: Array
+    heights: Array,
+    squared_gradient: Iterable[tuple[slice, Array]],
+    spacing: Sequence[float],
+    pressure: Array,
+    gap: Array,
 ) -> dict[str, float]:
     """Return the numbers of one hard-wall state.
 
@@ -19,8 +23,8 @@ def wall_observables(
     ----------
     heights, pressure, gap : array, shape (n,) or (ny, nx)
         In nm, GPa and nm.
-    squared_gradient : array of the same shape
-        Squared gradient of the heights.
+    squared_gradient : iterable of (slice, array)
+        Squared gradient of the heights, by blocks of rows.
     spacing : sequence of float
         Distance between points in each direction, nm.
 
@@ -33,6 +37,7 @@ def wall_observables(
     """
     contact = touching(pressure)
     corrected, subgrid = corrected_area(contact), relative_contact_area_subgrid(pressure, gap)
+    gradient = ContactGradient.of(squared_gradient, contact)
     return {
         "relative_contact_area": float(contact.mean()),
         "relative_contact_area_corrected": corrected,
@@ -40,8 +45,8 @@ def wall_observables(
         "contact_edges": contact_edges(contact),
         "rms_gradient_contact": rms_gradient(heights, spacing, contact),
         "rms_gradient_contact_pairs": rms_gradient_pairs(heights, spacing, contact),
-        "rms_gradient_contact_corrected": gradient_within(squared_gradient, contact, corrected),
-        "rms_gradient_contact_subgrid": gradient_within(squared_gradient, contact, subgrid),
+        "rms_gradient_contact_corrected": gradient.within(corrected),
+        "rms_gradient_contact_subgrid": gradient.within(subgrid),
         "mean_gap": float(gap.mean()),
         "mean_pressure": float(pressure.mean()),
     }

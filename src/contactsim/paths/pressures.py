@@ -30,7 +30,8 @@ from contactsim.observables.contact import KEPT
 from contactsim.observables.hard_wall import wall_observables
 from contactsim.solvers.base import HardWallSolver, Result, solve
 from contactsim.status import status_sentence
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height, squared_gradient
+from contactsim.surfaces.squared_gradient import squared_gradient_blocks
+from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
 
 logger = logging.getLogger(__name__)
 
@@ -136,7 +137,7 @@ def _read_point(scene: Scene, result: Result, heights: Array, keep: Sequence[str
     certificate = result.record.certificate
     contact = result.contact
     spacing = Grid(heights.shape, scene.lengths).spacing
-    slopes = squared_gradient(heights, scene.lengths, scene.modes)  # for each load: no field is held while solving
+    slopes = squared_gradient_blocks(heights, scene.lengths, scene.modes)
     numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap) | {
         "approach": result.approach,
         "iterations": result.record.iterations,

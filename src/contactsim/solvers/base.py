@@ -9,7 +9,7 @@ operators.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -136,7 +136,7 @@ def check_solver(solver: Solver, scene: Scene) -> None:
 
 def coarser_level(problem: HardWallProblem, coarsest: int, tolerance: float) -> HardWallProblem | None:
     """Return the next level of a cascade of grids; None if it has too few points a side, or no contact."""
-    if min(problem.heights.shape) // 2 < coarsest:
+    if min(problem.shape) // 2 < coarsest:
         return None
     coarse = problem.coarser(tolerance)
     return None if coarse.is_separated else coarse
@@ -161,6 +161,8 @@ def iterate(solver: HardWallSolver, problem: HardWallProblem, state: State, budg
     for count in range(1, budget + 1):
         following = solver.step(problem, state)
         if not (np.isfinite(following.pressure.sum()) or np.isfinite(following.pressure).all()):
+            if following.pressure is state.pressure:  # where memory is short a step works in place
+                state = replace(state, pressure=problem.project(np.zeros(problem.shape)))
             return state, count, False
         state = following
         if state.done:
@@ -185,7 +187,7 @@ def solve(solver: HardWallSolver, problem: HardWallProblem, scale: Scale) -> Res
     """
     begin = time.process_time()
     if problem.is_separated:
-        pressure, spent, status = np.zeros_like(problem.heights), 0, Status.CONVERGED
+        pressure, spent, status = np.zeros(problem.shape), 0, Status.CONVERGED
         certificate, gap = problem.certify(pressure)
     else:
         pressure, gap, certificate, spent, status = _solve_contact(solver, problem)

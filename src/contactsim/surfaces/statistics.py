@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from contactsim.grid import Array, Grid, blocks
+from contactsim.grid import Array, blocks
 
 
 def rms_height(heights: Array, where: Array | None = None) -> float:
@@ -67,43 +67,6 @@ def local_squares(heights: Array, spacing: float) -> Array:
     """Mean of the two squared slopes at each point of a line (Eq. 3.8), (n,); heights and spacing in one unit."""
     ((strip,),) = _strips([heights])
     return _squares(strip, 1, spacing)[0]
-
-
-def squared_gradient(heights: Array, lengths: Sequence[float], modes: int | None = None) -> Array:
-    """Return the squared gradient at each point, over a surface the sum of both squared slopes; shape of `heights`.
-
-    Parameters
-    ----------
-    heights : array, shape (n,) or (ny, nx)
-        Periodic heights.
-    lengths : sequence of float
-        Period in each direction, in the unit of heights.
-    modes : int, optional
-        Highest number of waves in a period. The slopes are then those of the waves. Without a limit they are central
-        differences, which are exact for a parabola.
-    """
-    grid = Grid(heights.shape, tuple(lengths))
-    total = np.zeros(heights.shape)
-    if modes is None:
-        for axis, spacing in enumerate(grid.spacing):
-            slope = np.roll(heights, -1, axis)
-            slope -= np.roll(heights, 1, axis)
-            slope /= 2 * spacing
-            total += np.square(slope, out=slope)
-            del slope
-        return total
-    low = grid.low_modes(modes)
-    waves = grid.forward(heights)[low]
-    for axis, (points, spacing) in enumerate(zip(heights.shape, grid.spacing, strict=True)):
-        frequency = np.fft.fftfreq if axis < heights.ndim - 1 else np.fft.rfftfreq
-        along = [1] * heights.ndim
-        along[axis] = -1
-        half = np.zeros(grid.half_shape, complex)
-        half[low] = 2j * np.pi * frequency(points, spacing)[low[axis].ravel()].reshape(along) * waves
-        slope = grid.backward(half)
-        total += np.square(slope, out=slope)
-        del half, slope  # before the next axis: memory is short on large surfaces
-    return total
 
 
 def rms_gradient_pairs(heights: Array, spacing: float | Sequence[float], where: Array) -> float:

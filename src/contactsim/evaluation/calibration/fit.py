@@ -50,6 +50,8 @@ OPTION_FEATURES = ("one", "tolerance", "loose", "tight", "every", "steps", "grid
 """Features that follow from a user's options: they do not put a scene outside the measured ranges."""
 FITTED_ORDER = ("pull_off_load_loading", "static_friction", "final_load", "onset_contact_length")
 """Quantities whose order of convergence in the grid is fitted: it depends on the resolution of the process zone."""
+INCREMENT_ORDERS = {"pull_off_load_loading": 1.0}
+"""Powers of the increment that are prescribed: where jumps are found to some width, a fit sees little of it."""
 NOISE, WRONG = {"points": 5e-4}, 0.15
 """Relative errors below and above which a setting is left out of the fit: noise, and the pre-asymptotic range."""
 FAINT = 1e-6
@@ -98,7 +100,8 @@ def _fit_family(kind: str, rows: pd.DataFrame) -> dict[str, Any]:
         order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
         prescribed = {} if name in FITTED_ORDER else {"grid": order}
         fits["points"][name] = fit_power_law(grids, column, ERROR_FEATURES[kind], prescribed)
-        fits[other][name] = fit_power_law(others, column, ("one", other), {})
+        of_knob = {other: INCREMENT_ORDERS[name]} if name in INCREMENT_ORDERS else {}
+        fits[other][name] = fit_power_law(others, column, ("one", other), of_knob)
         if wall:
             features = ("one", "resolved", "pressure", *ROUGH)
             fits["resolved"][name] = fit_power_law(grids, column, features, {"resolved": order})

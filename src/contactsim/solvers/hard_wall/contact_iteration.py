@@ -6,11 +6,13 @@ solver can be named and checked without it.
 
 from __future__ import annotations
 
+import math
+
 import ducc0
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.grid import Array, FourierOperator
+from contactsim.grid import Array, FourierOperator, blocks
 from contactsim.solvers.hard_wall import kernels, prolongation
 from contactsim.solvers.hard_wall.contact_preconditioner import LastStep, Preconditioner
 
@@ -29,7 +31,7 @@ class Iterate:
     """
 
     def __init__(self, problem: HardWallProblem, pressure: Array, gap: Array, wavelength: float) -> None:
-        shape = problem.heights.shape
+        shape = problem.shape
         self.problem, self.pressure, self.gap = problem, pressure, gap
         self._rows = kernels.Rows(shape, problem.compliance.grid.threads)
         self._preconditioner = Preconditioner(problem.compliance, wavelength)
@@ -37,7 +39,7 @@ class Iterate:
         self._spread.compute_gap(problem, pressure, pressure > 0, gap)
         self._direction = np.zeros(shape, np.float32)
         self._contact = kernels.contact_of((pressure > 0) | (gap < -problem.tolerance / 2))
-        self._load = None if problem.load is None else problem.load * problem.heights.size
+        self._load = None if problem.load is None else problem.load * problem.size
         self._overlap = np.float32(problem.tolerance / 2)
         zero = np.float32(0)
         moved = self._advance(zero, zero)
@@ -139,8 +141,13 @@ class _Spread:
 
     def __init__(self, compliance: FourierOperator) -> None:
         self._grid, self._counter, self._columns = compliance.grid, compliance.counter, compliance.grid.shape[1]
-        self._symbol = compliance.symbol.astype(np.float32)
-        shape = compliance.grid.wide_shape
+        grid, rows = compliance.grid, compliance.grid.shape[0]
+        half = rows // 2 + 1  # the other rows have the same |q|
+        self._symbol = np.empty((half, grid.half_shape[1]), np.float32)
+        for low, high in blocks((half, grid.shape[1])):
+            self._symbol[low:high] = compliance.symbol.rows(low, high)
+        self._parts = [(slice(half), self._symbol), (slice(half, None), self._symbol[rows - half : 0 : -1])]
+        shape = grid.wide_shape
         self._double = np.zeros(shape)
         self.change, self.scratch = self._double.view(np.float32).reshape(2, *shape)
         self._half = self.scratch.view(np.complex64)[:, : self._columns // 2 + 1]
@@ -149,7 +156,8 @@ class _Spread:
     def apply(self) -> None:
         """Compute out = S change; the change stays."""
         self._grid.forward(self.change[:, : self._columns], out=self._half)
-        self._half *= self._symbol
+        for rows, symbol in self._parts:
+            self._half[rows] *= symbol
         ducc0.fft.c2r(
             self._half,
             lastsize=self._columns,
@@ -163,12 +171,13 @@ class _Spread:
     def compute_gap(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
         """Write the gap, computed in double precision, less its level on the contact (bool); the change turns zero."""
         gap = problem.compliance(pressure, out=self._double)
-        gap -= problem.heights
+        problem.profile.subtract_from(gap)
         if problem.approach is not None:
             level = problem.approach
         else:
-            touching = gap[contact]
-            level = float(touching.mean() if touching.size else gap.min())
+            count = np.count_nonzero(contact)
+            total = math.fsum(gap[low:high][contact[low:high]].sum() for low, high in blocks(gap.shape))
+            level = total / count if count else float(gap.min())
         np.subtract(gap, level, out=out, casting="same_kind")
         self.change[:] = 0
 
