@@ -158,11 +158,8 @@ class HardWallProblem:
         sampled = self.profile[np.ix_(*places)] * ratio
         highest = float(sampled.max())
         grid, fine = self.compliance.grid.coarser(shape), self.compliance
-        symbol: Any
-        if len(shape) == 1:
-            symbol = fine.symbol[grid.modes_of(fine.grid)] * ratio
-        else:
-            symbol = fine.symbol.scaled(grid, ratio)
+        on_line = len(shape) == 1
+        symbol = fine.symbol[grid.modes_of(fine.grid)] * ratio if on_line else fine.symbol.scaled(grid, ratio)
         approach = None if self.approach is None else self.approach * ratio + highest
         warm_start = self.warm_start and replace(self.warm_start, gap=self.warm_start.gap * ratio)
         return HardWallProblem(
