@@ -126,6 +126,13 @@ def test_a_quarter_of_the_error_takes_twice_the_points_where_errors_are_of_secon
     assert fine / coarse == pytest.approx(2.0, rel=0.25)
 
 
+def test_increments_are_at_most_as_much_shorter_as_the_error_is_smaller():
+    setup = setup_of(ASPERITY)
+    coarse, fine = (choose_options(setup, error).scene.path.increment for error in (0.02, 0.005))
+    assert 1 <= coarse / fine <= 4.1  # two digits
+    assert fine > 0.05  # of 1 nm, the law's length: relations that a fit gave no power had asked for 0.0003
+
+
 @pytest.mark.parametrize("family", [PATH, ROUGH_PATH, SLIDE])
 def test_the_expected_error_of_a_path_is_within_the_requested_one_and_that_of_its_coarse_run_is_larger(family):
     for error in (0.01, 0.05):

@@ -55,7 +55,7 @@ class ConjugateGradients:
     inner_budget: int = 200
     wavelength: float = 16.0
     budget: int = 60
-    fields = 8
+    fields = 5
     accepts = frozenset({Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
 
     def __post_init__(self) -> None:

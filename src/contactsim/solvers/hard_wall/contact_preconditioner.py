@@ -205,7 +205,9 @@ class Preconditioner:
         """
         self.cells[:] = 0
         rows(factor, gap, level, *contact, self.table, self._code, scratch, self.cells)
-        smooth = self._grid.backward(self._grid.forward(self.cells) * self._excess)
+        half = self._grid.forward(self.cells)
+        half *= self._excess
+        smooth = self._grid.backward(half, out=self.cells)
         self.counter.add(2, self.cells.size)
         now, then, total, *_ = rows(adjoint, gap, level, *last, *contact, self.table, self._code, scratch, smooth, out)
         return now, then, total
