@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -17,6 +19,7 @@ from contactsim.interface.hard_wall import HardWall
 from contactsim.reference import hard_wall
 from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
+from contactsim.solvers.hard_wall.tamaas import Tamaas, TamaasState
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
@@ -269,3 +272,23 @@ def test_tamaas_is_refused_where_its_wavenumbers_are_wrong():
     pytest.importorskip("tamaas")
     with pytest.raises(InputError, match="an even number of rows"):
         contactsim.press(rough(64)[:45], spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, solver="tamaas")
+
+
+class FailingMethod:
+    """A solver of tamaas that fails as it does on a contact of a single point."""
+
+    def solve(self, load):
+        raise FloatingPointError("division by zero")
+
+
+class FailingTamaas(Tamaas):
+    """Our solver around it, without tamaas itself."""
+
+    def start(self, problem, guess=None):
+        return TamaasState(np.zeros(problem.shape), False, FailingMethod(), SimpleNamespace(iterations=0), 1e-2)
+
+
+def test_an_error_of_tamaas_is_a_solution_that_is_not_finite():
+    result = contactsim.press(rough(64), spacing=UNIT, contact_modulus=2.0, mean_pressure=0.1, solver=FailingTamaas())
+    assert result.status is Status.NON_FINITE
+    assert np.isfinite(result.pressure).all()
