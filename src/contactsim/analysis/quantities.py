@@ -71,7 +71,8 @@ READ_BESIDE = (GRID_CHANGE, *(f"_{kind}_error" for kind in PATH_ERRORS))
 def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     """Return a dataset with what some quantities are computed from, with their errors and changes, and nothing else.
 
-    Members are left out of a dataset again and again, which takes as long as it has variables.
+    Numbers of states that were not solved are NaN there. Members are left out of a dataset again and again, which takes
+    as long as it has variables.
     """
     sources = {computed_from(name) for name in names}
     carried = {name: carried_quantity(data, name) for name in sources & {*CARRIED}}
@@ -79,6 +80,8 @@ def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
     read = {f"{source}{suffix}" for source in sources for suffix in ("", *READ_BESIDE)} | {*READ_BY_ALL}
     part = data[[name for name in data.data_vars if name in read]]
+    own = {"member", *data.status.dims}
+    part = part.assign({name: converged(part[name], data) for name in sources & {*part} if own <= {*part[name].dims}})
     return part.assign({key: values for parts in carried.values() for key, values in parts.items()})
 
 
@@ -88,7 +91,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     Parameters
     ----------
     data
-        Dataset of a study.
+        Dataset of a study, of `with_quantities`.
     name
         A variable, `CRACK_DEPARTURE`, or one of `FITTED`, `SIZES`, `GRADIENT_DEFICITS`, `ERROR_BARS` and `BAR_SHARES`.
     leave_out_absent
@@ -113,13 +116,11 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     if name in ERROR_BARS:
         return _standard_error(data, data[ERROR_BARS[name]])
     if name in BAR_SHARES:
-        area = converged(data[BAR_SHARES[name]], data)
+        area = data[BAR_SHARES[name]]
         return _standard_error(data, area) / area.mean("member", skipna=False).max()
     values = data[name]
     if "member" not in values.dims:
         return values
-    if set(data.status.dims) <= set(values.dims):  # numbers of a state
-        values = converged(values, data)
     if not leave_out_absent:
         return values.mean("member", skipna=False)
     return values.mean("member").where(~unknown(data, name).any("member"))
@@ -152,7 +153,7 @@ def _standard_error(data: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
 
 def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
     """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure)."""
-    area = converged(data.relative_contact_area, data)
+    area = data.relative_contact_area
     samples = area.transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
     parts = [samples] * len(samples) if together else samples
