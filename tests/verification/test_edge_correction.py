@@ -40,13 +40,14 @@ def test_what_the_area_lacks_is_taken_from_the_edges():
     assert gradient_of(slopes, contact, corrected_area(contact)) == pytest.approx(np.sqrt(expected), rel=1e-14)
 
 
-@pytest.mark.parametrize("shape", [(256,), (64, 64)])
+@pytest.mark.parametrize("shape", [(256,), (64, 64), (49, 64), (98, 64)])
 def test_the_squared_gradient_of_waves_is_exact(shape):
     phase = 2 * np.pi * np.arange(shape[-1]) / shape[-1]
-    heights = np.sin(5 * phase) if len(shape) == 1 else np.sin(5 * phase) * np.cos(3 * phase)[:, None]
+    across = 2 * np.pi * np.arange(shape[0])[:, None] / shape[0]
+    heights = np.sin(5 * phase) if len(shape) == 1 else np.sin(5 * phase) * np.cos(5 * across)
     exact = (5 * np.cos(5 * phase)) ** 2
     if len(shape) == 2:
-        exact = exact * np.cos(3 * phase)[:, None] ** 2 + (3 * np.sin(5 * phase) * np.sin(3 * phase)[:, None]) ** 2
+        exact = exact * np.cos(5 * across) ** 2 + (5 * np.sin(5 * phase) * np.sin(5 * across)) ** 2
     lengths = (2 * np.pi,) * len(shape)
     assert np.allclose(squared_gradient(heights, lengths, 5), exact, atol=1e-11)
     assert not np.allclose(squared_gradient(heights, lengths), exact, atol=1e-3)  # differences

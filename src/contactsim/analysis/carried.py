@@ -1,4 +1,4 @@
-"""Counted areas and gradients carried from a coarser grid to the thesis's own.
+"""Counted areas and gradients carried from another grid to the thesis's own.
 
 What counting points adds to the corrected number is of first order in the spacing of the grid (docs/continuum.md). So n
 points in place of the thesis's N leave the part n/N of it on the thesis's grid.
@@ -36,7 +36,8 @@ def carried_quantity(data: xr.Dataset, name: str) -> dict[str, xr.DataArray]:
     excess = data[counted] - data[corrected]
     carried = {name: data[corrected] + share * excess}
     if f"{counted}{GRID_CHANGE}" not in data:
-        return carried
+        on_thesis_grid = bool((share == 1).all())
+        return carried | ({f"{name}{GRID_CHANGE}": 0 * excess.mean("member")} if on_thesis_grid else {})
     change, change_corrected = (data[f"{part}{GRID_CHANGE}"] for part in (counted, corrected))
     carried_change = share / 2 * (excess.mean("member") + change) + (1 - share / 2) * change_corrected
-    return carried | {f"{name}{GRID_CHANGE}": carried_change.where(share < 1, 0.0)}
+    return carried | {f"{name}{GRID_CHANGE}": carried_change.where(share != 1, 0.0)}

@@ -75,14 +75,14 @@ def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     as long as it has variables.
     """
     sources = {computed_from(name) for name in names}
-    carried = {name: carried_quantity(data, name) for name in sources & {*CARRIED}}
+    carried = sources & {*CARRIED}
     sources |= {name for counted in (CARRIED[key] for key in carried) for name in (counted, f"{counted}_corrected")}
     sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
     read = {f"{source}{suffix}" for source in sources for suffix in ("", *READ_BESIDE)} | {*READ_BY_ALL}
     part = data[[name for name in data.data_vars if name in read]]
     own = {"member", *data.status.dims}
     part = part.assign({name: converged(part[name], data) for name in sources & {*part} if own <= {*part[name].dims}})
-    return part.assign({key: values for parts in carried.values() for key, values in parts.items()})
+    return part.assign({key: values for name in carried for key, values in carried_quantity(part, name).items()})
 
 
 def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -> xr.DataArray:

@@ -156,7 +156,8 @@ def iterate(solver: HardWallSolver, problem: HardWallProblem, state: State, budg
     Returns
     -------
     state, steps, finite
-        The last state with finite values, the number of steps, and whether all values were finite.
+        The last state with finite values (where a step works in place, one of no or of uniform pressure), the number of
+        steps, and whether all values were finite.
     """
     for count in range(1, budget + 1):
         following = solver.step(problem, state)

@@ -70,7 +70,8 @@ class _Waves:
             part[low:high] = ducc0.fft.r2c(heights[low:high], axes=(1,), inorm=2)[:, : modes + 1]
         self._slopes = [part]
         if len(grid.shape) == 2:
-            across = np.fft.fftfreq(rows, 1 / rows)[:, None]
+            across = np.arange(rows)[:, None]
+            across[across > rows // 2] -= rows
             ducc0.fft.c2c(part, axes=(0,), inorm=2, out=part)
             part[np.abs(across[:, 0]) > modes] = 0
             self._slopes.append(2j * np.pi / grid.lengths[0] * across * part)

@@ -6,8 +6,6 @@ solver can be named and checked without it.
 
 from __future__ import annotations
 
-import math
-
 import ducc0
 import numpy as np
 
@@ -176,7 +174,7 @@ class _Spread:
             level = problem.approach
         else:
             count = np.count_nonzero(contact)
-            total = math.fsum(gap[low:high][contact[low:high]].sum() for low, high in blocks(gap.shape))
+            total = sum(gap[low:high][contact[low:high]].sum() for low, high in blocks(gap.shape))
             level = total / count if count else float(gap.min())
         np.subtract(gap, level, out=out, casting="same_kind")
         self.change[:] = 0
