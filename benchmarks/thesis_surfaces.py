@@ -17,9 +17,10 @@ from pathlib import Path
 import pandas as pd
 from measure import run_in_child
 from records import Table, on_one_thread
-from report import insert
+from report import insert, markdown
 
 from contactsim import simulate
+from contactsim.analysis.carried import carry
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import build_scene
 
@@ -33,6 +34,9 @@ THESIS_POINTS = max(MEMBERS)
 ENDS = ("", "_corrected", "_subgrid")
 """Ends of the names of the three estimators."""
 FACTORS = tuple(f"{name}{end}" for end in ENDS for name in ("kappa", "kappa_r"))
+PLACE = ["hurst_exponent", "reduced_pressure"]
+ENDS_OF_MEANS = ("carried", "corrected")
+"""Ends of the names of the numbers whose means over members are given."""
 COSTS = ("transforms", "seconds", "bytes_per_point", "certificate")
 
 logger = logging.getLogger("thesis_surfaces")
@@ -71,37 +75,58 @@ def solve_case(plan: Plan, case: dict) -> dict:
     return result
 
 
-def carried(rows: pd.DataFrame, name: str) -> pd.Series:
-    """Return a counted number carried to the thesis's grid, as statements have it."""
-    corrected = rows[f"{name}_corrected"]
-    return corrected + (rows[name] - corrected) * rows.points / THESIS_POINTS
-
-
 def tables(rows: pd.DataFrame) -> str:
-    """Return the tables of the page: both numbers of the first member on all grids, and what they cost."""
-    place = ["hurst_exponent", "reduced_pressure"]
-    parts = []
-    for name, symbol in {"kappa": "κ", "kappa_r": "κ_r"}.items():
-        first = rows[rows.member == 0].assign(carried=lambda part, name=name: carried(part, name))
-        counted, moved, corrected = (
-            first.pivot_table(index=place, columns="points", values=column)
-            for column in (name, "carried", f"{name}_corrected")
-        )
-        grids = [points for points in MEMBERS if points < THESIS_POINTS]
-        head = [f"counted, {THESIS_POINTS}", *(f"carried from {points}" for points in grids)]
-        head += [f"corrected, {points}" for points in MEMBERS]
-        lines = [f"| {symbol}: H | p* | " + " | ".join(head) + " |", "|---" * (2 + len(head)) + "|"]
-        for key in counted.index:
-            values = [counted.loc[key, THESIS_POINTS], *moved.loc[key, grids], *corrected.loc[key, list(MEMBERS)]]
-            lines.append(f"| {key[0]:g} | {key[1]:g} | " + " | ".join(f"{value:.4f}" for value in values) + " |")
-        parts.append("\n".join(lines))
+    """Return the tables of the page: κ and κ_r of the first member and of all, and what they cost."""
+    factors = {"kappa": "κ", "kappa_r": "κ_r"}
+    rows = rows.assign(
+        **{
+            f"{name}_carried": carry(rows[name], rows[f"{name}_corrected"], rows.points / THESIS_POINTS)
+            for name in factors
+        }
+    )
+    first = [first_member_table(rows[rows.member == 0], name, symbol) for name, symbol in factors.items()]
+    return "\n\n".join([*first, member_table(rows, factors), cost_table(rows)])
+
+
+def first_member_table(rows: pd.DataFrame, name: str, symbol: str) -> str:
+    """Return the table of the first member: counted on the thesis's grid, carried there, and corrected on each grid."""
+    counted, carried, corrected = (
+        rows.pivot_table(index=PLACE, columns="points", values=column).reindex(columns=list(MEMBERS))
+        for column in (name, f"{name}_carried", f"{name}_corrected")
+    )
+    grids = [points for points in MEMBERS if points < THESIS_POINTS]
+    header = [f"{symbol}: H", "p*", f"counted, {THESIS_POINTS}", *(f"carried from {points}" for points in grids)]
+    header += [f"corrected, {points}" for points in MEMBERS]
+    lines = []
+    for place in counted.index:
+        values = [counted.loc[place, THESIS_POINTS], *carried.loc[place, grids], *corrected.loc[place]]
+        lines.append([f"{key:g}" for key in place] + [f"{value:.4f}" for value in values])
+    return markdown(header, lines)
+
+
+def member_table(rows: pd.DataFrame, factors: dict[str, str]) -> str:
+    """Return the means over members on the finest grid that several have, each with its standard error."""
+    several = max(points for points, members in MEMBERS.items() if members > 1)
+    groups = rows[rows.points == several].groupby(PLACE)
+    columns = {f"{symbol} {end}": f"{name}_{end}" for name, symbol in factors.items() for end in ENDS_OF_MEANS}
+    means, errors = groups[list(columns.values())].mean(), groups[list(columns.values())].sem()
+    lines = [
+        [f"{key:g}" for key in place]
+        + [f"{means.loc[place, name]:.4f} ± {errors.loc[place, name]:.4f}" for name in columns.values()]
+        for place in means.index
+    ]
+    return markdown([f"{MEMBERS[several]} members, {several}²: H", "p*", *columns], lines)
+
+
+def cost_table(rows: pd.DataFrame) -> str:
+    """Return the mean costs of a load on each grid."""
     costs = rows.groupby("points")[["transforms", "seconds", "bytes_per_point"]].mean()
-    lines = ["| points | transforms of a load | CPU s of a load | bytes a point | GB |", "|---|---|---|---|---|"]
-    for points, row in costs.iterrows():
-        memory = row.bytes_per_point * points**2 / 1e9
-        numbers = f"{row.transforms:.0f} | {row.seconds:.0f} | {row.bytes_per_point:.1f} | {memory:.1f}"
-        lines.append(f"| {points}² | {numbers} |")
-    return "\n\n".join([*parts, "\n".join(lines)])
+    lines = [
+        [f"{points}²", f"{row.transforms:.0f}", f"{row.seconds:.0f}", f"{row.bytes_per_point:.1f}"]
+        + [f"{row.bytes_per_point * points**2 / 1e9:.1f}"]
+        for points, row in costs.iterrows()
+    ]
+    return markdown(["points", "transforms of a load", "CPU s of a load", "bytes a point", "GB"], lines)
 
 
 def main() -> None:

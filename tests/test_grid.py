@@ -3,8 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from contactsim.elasticity.fourier_operator import FourierOperator, RadialSymbol
 from contactsim.errors import InputError
-from contactsim.grid import FourierOperator, Grid, TransformCounter
+from contactsim.grid import Grid, TransformCounter
 
 SIZES = (2, 3, 8, 101, 1024)
 
@@ -65,3 +66,22 @@ def test_an_impossible_grid_is_refused_by_key(shape, lengths, threads, key):
     with pytest.raises(InputError) as caught:
         Grid(shape, lengths, threads)
     assert caught.value.key == key
+
+
+@pytest.mark.parametrize("shape", [(2, 6), (3, 8), (8, 7), (9, 5)])
+def test_a_radial_symbol_by_rows_folded_and_held_is_the_whole_one(shape):
+    grid = Grid(shape, (2.0, 3.0))
+    symbol = RadialSymbol(grid, lambda q: 1 / (1 + q), 0.25)
+    whole = grid.of_wavenumber(lambda q: 1 / (1 + q))
+    whole[0, 0] = 0.25
+    np.testing.assert_array_equal(symbol.rows(0, shape[0]), whole)
+    folded = np.empty_like(whole)
+    for place, values in symbol.folded():
+        folded[place] = values
+    np.testing.assert_array_equal(folded, whole)
+    field = np.random.default_rng(3).standard_normal(shape)
+    operator = FourierOperator(grid, symbol, TransformCounter(grid.size))
+    before = operator(field)
+    operator.hold_symbol()
+    np.testing.assert_array_equal(operator(field), before)
+    np.testing.assert_allclose(before, grid.backward(grid.forward(field) * whole), atol=1e-14)

@@ -61,13 +61,16 @@ def test_a_case_that_changes_nothing_or_names_nothing_is_refused(case, key):
 
 
 def test_the_claim_s_own_case_has_a_name():
-    with pytest.raises(InputError, match=r"claims\.test\.case: got None; allowed: the name"):
+    with pytest.raises(InputError, match=r"claims\.test\.case: got None; allowed: a name"):
         read_claim("test", VALUE | {"cases": CASES}, "ch3.yaml", STUDIES)
+    with pytest.raises(InputError, match=r"claims\.test\.case: got 'coarse'"):
+        read_claim("test", VALUE | {"case": "coarse", "cases": CASES}, "ch3.yaml", STUDIES)
 
 
 def test_the_row_has_the_band_of_the_case_that_decides():
     data = {"rough_line": made_up(2.0, grid=0.01), "rough_line_many": made_up(2.3, grid=0.01)}
-    settings = claim(case="fine", cases={"coarse": {"study": "rough_line_many", "expect": 2.2}})
+    settings = claim(case="fine", cases={"coarse": {"study": "rough_line_many", "reduce": "largest", "expect": 2.2}})
     judged = judge_claims({"test": settings}, data).iloc[0]
     assert (judged.deciding_case, judged.expected) == ("coarse", "2.2 ± 0.1")
+    assert judged.measure == "largest of kappa, worst of 2 cases"
     assert judged.cases.startswith("fine: reproduced (2); coarse: ")

@@ -11,7 +11,7 @@ from contactsim.analysis.claims import judge
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.conditions import narrower_blocks
 from contactsim.analysis.reductions import ORDERS
-from contactsim.analysis.uncertainty import Estimate
+from contactsim.analysis.uncertainty import Estimate, estimate
 from contactsim.analysis.verdict import (
     CONDITION,
     FINDING,
@@ -23,6 +23,7 @@ from contactsim.analysis.verdict import (
 )
 from contactsim.errors import InputError
 from contactsim.figures.diagnostics.claims import COLOURS, claims_figure
+from contactsim.status import Status
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
 from support.claims import BANDLESS, PLAN, STUDIES, VALUE, claim, made_up, path_claim, paths, with_corrected
@@ -257,6 +258,31 @@ def test_the_error_of_a_carried_number_is_that_of_what_it_is_carried_from():
     assert row.grid_error == pytest.approx(0.04 * (1 - 1 / 8))
     row = judged(settings, with_corrected(made_up(2.2, grid=-0.2, points=262144 // 4), 2.0, change=0.0, subgrid=2.1))
     assert row.grid_error == pytest.approx(0.1 * (1 - 1 / 4))
+
+
+def test_a_carried_number_is_unknown_where_a_state_is_not_solved_and_needs_no_change_on_the_thesis_s_grid():
+    settings = claim() | {"quantity": "kappa_carried"}
+    data = with_corrected(made_up(2.2, points=262144 // 4), 2.0, change=0.0, subgrid=2.0)
+    whole = Comparison(settings, [data])
+    assert whole.number(whole.data) == pytest.approx(2.05)
+    data.status[0, 0, 0] = Status.MAX_ITERATIONS.value[0]
+    part = Comparison(settings, [data])
+    assert np.isnan(part.number(part.data))
+    alone = with_corrected(made_up(2.2), 2.0, change=0.0, subgrid=2.0).drop_vars("kappa_grid_change")
+    assert estimate(Comparison(settings, [alone])).grid_error == 0.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"quantity": "kappa_r_pairs", "beside": "kappa_corrected"}, "quantity"),
+        ({"study": "surface_resolution"}, "grid"),
+        (BANDLESS | {"beside": "kappa_corrected", "reduce": "ratio", "against": "kappa_r", "at_most": 1.0}, "against"),
+    ],
+)
+def test_a_number_that_cannot_be_on_the_thesis_s_grid_is_refused(changes, key):
+    with pytest.raises(InputError, match=rf"claims\.test\.{key}"):
+        claim(grid="thesis", **changes)
 
 
 def test_the_grid_of_the_thesis_is_that_of_both_studies():

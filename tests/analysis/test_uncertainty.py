@@ -17,6 +17,7 @@ from contactsim.analysis.uncertainty import (
     estimate_steps,
     student_factor,
 )
+from contactsim.analysis.unknown_places import unknown_places
 from contactsim.reference import hard_wall
 from support.claims import BANDLESS, claim, made_up, path_claim, paths, with_corrected
 
@@ -99,20 +100,20 @@ def test_one_unconverged_solution_makes_a_mean_unknown_and_is_named():
     data = made_up()
     data["status"][1, 2, 0] = 1
     assert np.isnan(number(claim(), data).value)
-    words = selected(claim(), data).unknown_places()
+    words = unknown_places(selected(claim(), data))
     assert words == "κ at H = 0.8, member = 2, p* = 0.001"
     elsewhere = claim(select={"reduced_pressure": [0.01, 0.1]})
     assert number(elsewhere, data).value == pytest.approx(2.0)
-    assert selected(elsewhere, data).unknown_places() == ""
+    assert unknown_places(selected(elsewhere, data)) == ""
 
 
 def test_what_does_not_exist_is_left_out_only_where_the_claim_says_so():
     data = paths([np.nan, 14.0, 16.0], work_ratio=[0.0, 0.5, 1.0])
     assert np.isnan(number(path_claim(), data).value)
-    assert "φt/φn = 0" in selected(path_claim(), data).unknown_places()
+    assert "φt/φn = 0" in unknown_places(selected(path_claim(), data))
     without = path_claim(absent="no pull-off")
     assert number(without, data).value == pytest.approx(15.0)
-    assert selected(without, data).unknown_places() == ""
+    assert unknown_places(selected(without, data)) == ""
 
 
 @pytest.mark.parametrize("reduce", ["mean", "least", "largest"])
@@ -126,7 +127,7 @@ def test_what_is_unknown_stays_so_where_something_may_be_absent():
     data["status"][0, 0, 3] = 1
     without = path_claim(absent="no pull-off")
     assert np.isnan(number(without, data).value)
-    assert "φt/φn = 0" in selected(without, data).unknown_places()
+    assert "φt/φn = 0" in unknown_places(selected(without, data))
 
 
 def test_an_empty_selection_has_no_number():

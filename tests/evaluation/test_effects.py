@@ -116,7 +116,7 @@ from contactsim.surfaces.shapes import Flat
 def peak():  # of this program alone: what getrusage tells begins with its parent's
     return float(open("/proc/self/status").read().partition("VmHWM:")[2].split()[0])
 
-for points in (256, 4096):  # the smaller one makes the threads and their buffers
+for points in (256, 2048):  # the smaller one makes the threads and their buffers
     rough = SelfAffine(points, 0.8, points / 4, 8.0, 1.0, seed=realisation_seed(1, 0.8), dimensions=2)
     path = loading.pressures([1e-3, 1e-2])
     scene = Scene(Body(Flat.facing(rough), HalfSpace(1.0)), Body(rough), (HardWall(),), path)
@@ -132,8 +132,8 @@ print((peak() - before) * 2**10 / points**2 / 8)
 def test_a_run_of_a_surface_never_holds_more_than_the_fields_that_are_explained(threads):
     command = [sys.executable, "-c", PRESS_A_SURFACE, str(threads)]
     peak = float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    told = make_solver("conjugate_gradients").fields
-    assert 0.8 * told < peak < told + 0.2  # doubles a point, of the whole process; libraries take 0.2 of this size
+    most = make_solver("conjugate_gradients").fields
+    assert 0.8 * most < peak < most  # doubles a point, of the whole process, the libraries' own memory included
 
 
 @pytest.mark.parametrize("name", ALL)

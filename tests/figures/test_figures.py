@@ -10,7 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from contactsim import dataset
-from contactsim.analysis import wording
+from contactsim.analysis import dataset_summary, wording
 from contactsim.analysis.mean_errors import estimate_trend, grid_error
 from contactsim.analysis.quantities import mean_quantity
 from contactsim.analysis.rounding import number_text, rounded_texts, short_number
@@ -85,23 +85,23 @@ def test_importing_figures_changes_no_setting_of_matplotlib():
 def test_a_footer_says_grid_members_losses_and_time(made):
     data = dataset.load_dataset(made / "results/quick/datasets/ch3_rough_line.nc")
     costs = pd.read_csv(made / "results/quick/costs/ch3_rough_line.csv")
-    text = wording.dataset_summary(data, costs)
+    text = dataset_summary.dataset_summary(data, costs)
     for part in (
         "quick tier",
         "131072 points, 32 per shortest wavelength (thesis 64)",
         "3 members",
         "0 of 45 solutions unconverged",
         "grid error up to: κ ",
-        f"study solved in {wording.seconds_text([costs])}",
+        f"study solved in {dataset_summary.seconds_text([costs])}",
     ):
         assert part in text
     data["status"][0, 0, 0] = 1
-    assert "1 of 45 solutions unconverged" in wording.dataset_summary(data, costs)
+    assert "1 of 45 solutions unconverged" in dataset_summary.dataset_summary(data, costs)
 
 
 @pytest.mark.parametrize(("seconds", "text"), [(0.123, "0.12 CPU s"), (99.7, "100 CPU s"), (1265.4, "1265 CPU s")])
 def test_a_footer_has_no_powers_of_ten_in_its_seconds(seconds: float, text: str):
-    assert wording.seconds_text([pd.DataFrame({"seconds": [seconds / 2]})] * 2) == text
+    assert dataset_summary.seconds_text([pd.DataFrame({"seconds": [seconds / 2]})] * 2) == text
 
 
 def test_a_short_footer_has_grids_and_members_of_all_studies_and_no_errors(made, tmp_path, monkeypatch):
@@ -294,7 +294,7 @@ def test_a_hurst_exponent_outside_the_thesis_is_drawn_too():
 
 def test_a_measured_surface_has_points_and_no_wavelength():
     settings = {"surface": {"kind": "measured"}, "thesis_points": None}
-    assert wording.grid_text(settings, 100) == "100 points"
+    assert dataset_summary.grid_text(settings, 100) == "100 points"
 
 
 @pytest.mark.parametrize(

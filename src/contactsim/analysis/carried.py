@@ -6,6 +6,8 @@ points in place of the thesis's N leave the part n/N of it on the thesis's grid.
 
 from __future__ import annotations
 
+from typing import Any
+
 import xarray as xr
 
 from contactsim import dataset
@@ -26,6 +28,11 @@ def grid_share(data: xr.Dataset) -> xr.DataArray:
     return data.points / dataset.settings_of(data)["thesis_points"]
 
 
+def carry(counted: Any, corrected: Any, share: Any) -> Any:
+    """Return a counted number on the thesis's grid; share: points of its own grid over those of the thesis."""
+    return corrected + share * (counted - corrected)
+
+
 def carried_quantity(data: xr.Dataset, name: str) -> dict[str, xr.DataArray]:
     """Return a carried quantity and the change of its mean on halving the grid, zero on the thesis's own grid.
 
@@ -33,11 +40,13 @@ def carried_quantity(data: xr.Dataset, name: str) -> dict[str, xr.DataArray]:
     """
     counted, corrected = CARRIED[name], f"{CARRIED[name]}_corrected"
     share = grid_share(data)
-    excess = data[counted] - data[corrected]
-    carried = {name: data[corrected] + share * excess}
-    if f"{counted}{GRID_CHANGE}" not in data:
-        on_thesis_grid = bool((share == 1).all())
-        return carried | ({f"{name}{GRID_CHANGE}": 0 * excess.mean("member")} if on_thesis_grid else {})
-    change, change_corrected = (data[f"{part}{GRID_CHANGE}"] for part in (counted, corrected))
-    carried_change = share / 2 * (excess.mean("member") + change) + (1 - share / 2) * change_corrected
-    return carried | {f"{name}{GRID_CHANGE}": carried_change.where(share != 1, 0.0)}
+    carried = carry(data[counted], data[corrected], share)
+    mean = carried.mean("member")
+    if (share == 1).all():
+        return {name: carried, f"{name}{GRID_CHANGE}": xr.zeros_like(mean)}
+    if not {f"{counted}{GRID_CHANGE}", f"{corrected}{GRID_CHANGE}"} <= {*data}:
+        return {name: carried}
+    coarse_counted, coarse_corrected = (
+        data[part].mean("member") - data[f"{part}{GRID_CHANGE}"] for part in (counted, corrected)
+    )
+    return {name: carried, f"{name}{GRID_CHANGE}": mean - carry(coarse_counted, coarse_corrected, share / 2)}

@@ -23,6 +23,7 @@ from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import NAN, Estimate, estimate, is_on_thesis_grid
+from contactsim.analysis.unknown_places import unknown_places
 from contactsim.analysis.verdict import (
     CONDITION,
     FINDING,
@@ -77,7 +78,7 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
     if not data:
         return row | _entries([Verdict()] * 3, Estimate())
     comparison = Comparison(claim, data).select(claim["select"])
-    row["unknown"] = comparison.unknown_places()
+    row["unknown"] = unknown_places(comparison)
     if claim["reduce"] in ORDERS:
         result, number = _judge_order(comparison)
         return row | _entries([result] * 3, number)
@@ -172,7 +173,9 @@ def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, obj
     for name, settings in {claim["case"]: claim, **(claim["cases"] or {})}.items():
         studied = _studied(settings, data)
         counted = counted_row(settings, studied)
-        rows[name] = {"expected": band_text(counted), "beside": counted["beside"] or ""} | judge(counted, studied)
+        measure = comparison_text({**counted, "cases": claim["cases"]})
+        words = {"measure": measure, "expected": band_text(counted), "beside": counted["beside"] or ""}
+        rows[name] = words | judge(counted, studied)
     return join_cases(rows)
 
 
@@ -198,21 +201,18 @@ def judge_claims(
     data = {name: part.drop_dims(FIELD_DIMENSIONS, errors="ignore") for name, part in data.items()}
     rows, candidates = [], read_candidates(None) if candidates is None else candidates
     for name, settings in claims.items():
-        studied = _studied(settings, data)
-        claim = counted_row(settings, studied)
         choices = judge_choices(settings, data)
         row = judge_cases(settings, data)
         row |= choice_entries(row, choices, candidate_choices(candidates, name)) | candidate_entries(candidates, name)
-        cause = None if claim["cause"] is None else Cause(**claim["cause"])
+        cause = None if settings["cause"] is None else Cause(**settings["cause"])
         cells = cell_texts(candidates, name, cause.cell) if cause else {}
         rows.append(
             {
                 "claim": name,
-                **{key: claim[key] for key in ("source", "statement")},
-                "measure": comparison_text(claim),
+                **{key: settings[key] for key in ("source", "statement")},
                 **row,
                 "cause": cause_text(cause, row, cells),
-                "rationale": claim["rationale"],
+                "rationale": settings["rationale"],
                 **{key: settings[key] or "" for key in ("study", *SECOND_STUDY)},
             }
         )

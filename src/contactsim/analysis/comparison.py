@@ -18,9 +18,8 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.analysis.cross_validation import joint_splits
 from contactsim.analysis.ensemble import widen_interval
-from contactsim.analysis.quantities import mean_quantity, number_exists, source_quantity, unknown, with_quantities
+from contactsim.analysis.quantities import mean_quantity, number_exists, with_quantities
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
-from contactsim.analysis.wording import quantity_text, range_text
 from contactsim.grid import Array
 
 Datasets = Sequence[xr.Dataset]
@@ -107,20 +106,6 @@ class Comparison:
         values = self._combine([mean_quantity(study, self.claim["quantity"]) for study in self.data])
         return {str(dim): values[dim].values for dim in values.dims if values.sizes[dim] > 1}
 
-    def unknown_places(self) -> str:
-        """Return in words where the quantities are unknown: the first place, and the number of others; else nothing."""
-        for study in self.data:
-            for name in filter(None, (self.claim["quantity"], self.claim["against"])):
-                source = source_quantity(name)
-                if source is None or "member" not in study[source].dims:
-                    continue
-                is_unknown = unknown(study, source)
-                if self.claim["absent"] is None:
-                    is_unknown = is_unknown | study[source].isnull()
-                if words := _places_text(study, is_unknown.transpose(*study[source].dims)):
-                    return f"{quantity_text(source)} at {words}"
-        return ""
-
     def _arguments(self, data: Datasets) -> tuple[xr.DataArray, dict[str, Any]]:
         """Return the quantity and the further inputs of the reduction."""
         inputs: dict[str, Any] = {name: self.claim[name] for name in REDUCTIONS[self.claim["reduce"]].inputs}
@@ -164,16 +149,6 @@ def _groups_of_members(data: Datasets) -> list[tuple[int, ...]]:
     shared = len(set(waves)) == 1 and len({study.member.size for study in data}) == 1
     indices = range(len(data))
     return [tuple(indices)] if shared else [(index,) for index in indices]
-
-
-def _places_text(data: xr.Dataset, marks: xr.DataArray) -> str:
-    """Return the first marked place in words, and the number of others; nothing without a mark."""
-    places = np.argwhere(marks.values)
-    if not len(places):
-        return ""
-    coordinates = ((str(dim), data[dim].values[index]) for dim, index in zip(marks.dims, places[0], strict=True))
-    words = ", ".join(range_text(dim, value, value) for dim, value in coordinates)
-    return words + (f" and {len(places) - 1} more" if len(places) > 1 else "")
 
 
 def members_left_out(data: Datasets, group: Sequence[int]) -> Iterator[list[xr.Dataset]]:

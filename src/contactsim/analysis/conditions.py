@@ -85,7 +85,8 @@ def narrower_blocks(comparison: Comparison) -> Iterator[tuple[Block, float]]:
     compares_ends = claim["reduce"] in REDUCTIONS and REDUCTIONS[claim["reduce"]].compares_ends
     for dim, values in comparison.varied_dimensions().items():
         is_compared = dim in (claim["along"], claim["across"])
-        least = len(values) if dim in (claim["whole"] or ()) or (is_compared and compares_ends) else 1 + is_compared
+        is_whole = dim in (claim["whole"] or ()) or (is_compared and compares_ends)
+        least = len(values) if is_whole else 2 if is_compared else 1
         ranges = [
             (dim, [float(values[first]), float(values[last])], (last - first + 1) / len(values))
             for first, last in itertools.combinations_with_replacement(range(len(values)), 2)

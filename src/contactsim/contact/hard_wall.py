@@ -20,8 +20,9 @@ from typing import Any
 
 import numpy as np
 
+from contactsim.elasticity.fourier_operator import FourierOperator
 from contactsim.errors import InputError
-from contactsim.grid import Array, FourierOperator, TransformCounter, blocks
+from contactsim.grid import Array, TransformCounter, blocks
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from contactsim.analysis.dataset_summary import dataset_summary, sources_summary
 from contactsim.analysis.ensemble import widen_interval
-from contactsim.analysis.wording import dataset_summary, sources_summary
 from contactsim.figures import style
 from contactsim.files import write_atomically
 

@@ -18,8 +18,8 @@ from PIL import Image
 from contactsim import dataset
 from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.claims import SCALES
+from contactsim.analysis.dataset_summary import error_texts
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import error_texts
 from contactsim.provenance import digest, source_digest
 from contactsim.study.plan import Plan
 

@@ -24,9 +24,10 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from contactsim import dataset
+from contactsim.analysis.dataset_summary import dataset_summary
 from contactsim.analysis.rounding import number_cells, number_text
 from contactsim.analysis.verdict import FINDING
-from contactsim.analysis.wording import beside_text, choices_text, dataset_summary, measure_text, printed
+from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch

@@ -30,7 +30,7 @@ class Solver(Protocol):
         """Traits of the scenes that it can solve."""
 
     @property
-    def fields(self) -> int:
+    def fields(self) -> float:
         """Memory at its peak, with that of the problem: doubles at each point and for each component."""
 
     def transforms(self, points: int) -> float:
@@ -56,7 +56,7 @@ class HardWallSolver(Solver, Protocol):
         """Return the first state, from a guess of the pressure if there is one."""
 
     def step(self, problem: HardWallProblem, state: Any) -> Any:
-        """Return a better state."""
+        """Return a better state; where memory is short, in the memory of the pressure of this one."""
 
 
 @dataclass(frozen=True)

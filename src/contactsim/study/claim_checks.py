@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from contactsim.analysis.carried import CARRIED
 from contactsim.analysis.comparison import SECOND_STUDY
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
@@ -77,6 +78,8 @@ def check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[st
         check_one_of(settings, key, allowed[key], file, prefix)
     if settings["beside"] is not None:
         check_one_of(settings, "beside", [name for name in shared if name != settings["quantity"]], file, prefix)
+    if settings["grid"] == "thesis":
+        check_thesis_grid(settings, [studies[settings[key]] for key in ("study", *seconds)], file, prefix)
     for key in INPUTS:
         if key not in inputs and settings[key] is not None:
             unused = f"left out: {settings['reduce']} does not use it"
@@ -85,6 +88,17 @@ def check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[st
         single = [name for name in (*REDUCTIONS, *ORDERS) if "against" not in reduction_inputs(name)]
         message = f"with `{seconds[0]}`, one of {', '.join(single)}"
         raise InputError(f"{prefix}.reduce", settings["reduce"], message, file)
+
+
+def check_thesis_grid(settings: dict, compared: Iterable[Study], file: object, prefix: str) -> None:
+    """Raise InputError for a number on the thesis's grid that a study lacks, or that cannot be carried to it."""
+    for study in compared:
+        if study.settings["thesis_points"] is None:
+            raise InputError(f"{prefix}.grid", settings["grid"], f"left out: {study.name} has no thesis_points", file)
+    if settings["beside"] is not None:
+        check_one_of(settings, "quantity", CARRIED.values(), file, prefix)
+        if settings["against"] is not None:
+            raise InputError(f"{prefix}.against", settings["against"], "left out with `grid` and `beside`", file)
 
 
 def _shared_quantities(settings: dict, key: str, studies: Mapping[str, Study], file: object, prefix: str) -> list[str]:

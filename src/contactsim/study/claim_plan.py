@@ -141,17 +141,17 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     alternatives, settings["admissible"] = settings["admissible"] or {}, None
     given = dict(settings)
     cases, settings["cases"] = settings["cases"] or {}, None
-    if cases and settings["case"] is None:
-        raise InputError(f"{prefix}.case", None, "the name of the claim's own case, beside `cases`", file)
+    if cases and (settings["case"] is None or settings["case"] in cases):
+        raise InputError(f"{prefix}.case", settings["case"], "a name of the claim's own case beside `cases`", file)
     check_one_of(settings, "study", studies, file, prefix)
     claim = Claim(name, settings)
     dims = list(dict.fromkeys(dim for study in claim.studies for dim in study_dimensions(studies, study)))
     check_quantities(settings, studies, dims, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
-    known = list(dict.fromkeys(dim for study in studies for dim in study_dimensions(studies, study)))
+    all_dims = list(dict.fromkeys(dim for study in studies for dim in study_dimensions(studies, study)))
     for dim in settings["whole"] or ():
-        if dim not in known:  # of any study: another reading may be answered by one that lacks it
-            raise InputError(f"{prefix}.whole", dim, f"one of {', '.join(known)}", file)
+        if dim not in all_dims:  # of any study: another reading may be answered by one that lacks it
+            raise InputError(f"{prefix}.whole", dim, f"one of {', '.join(all_dims)}", file)
     check_band(settings, file, prefix)
     if settings["absent"] is not None and settings["reduce"] not in WITHOUT_INPUTS:
         raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)

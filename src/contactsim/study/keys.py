@@ -113,7 +113,7 @@ STUDY_KEYS = {
     "vary": Key(mapping, "a mapping from keys of this study to lists of values", {}),
     "points": Key(whole(2), "a whole number of grid points, 2 or more; left out for a measured surface", None),
     "same_surfaces_as": Key(text, "the name of a study of this chapter with the same random surfaces", None),
-    "thesis_points": Key(whole(2), "grid points of the thesis, for the footer", None),
+    "thesis_points": Key(whole(2), "grid points of the thesis", None),
     "members": Key(whole(1), "a whole number, 1 or more", 1),
     "coarse_grid": Key(mapping, "a mapping with `points` and `members`", None),
     "tight_tolerance": Key(mapping, "a mapping with `tolerance` and `members`", None),

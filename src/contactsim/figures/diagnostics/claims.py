@@ -14,9 +14,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contactsim import dataset
+from contactsim.analysis.dataset_summary import sample_texts
 from contactsim.analysis.rounding import NUMBERS, number_cells, short_number
 from contactsim.analysis.verdict import CONDITION, DEPENDS, FINDING, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed, sample_texts
+from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed
 from contactsim.figures import style
 from contactsim.figures.layout import FOOTER_LETTERS, LINE_HEIGHT, save
 

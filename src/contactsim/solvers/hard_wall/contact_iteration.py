@@ -10,7 +10,8 @@ import ducc0
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.grid import Array, FourierOperator, blocks
+from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.grid import Array, blocks
 from contactsim.solvers.hard_wall import kernels, prolongation
 from contactsim.solvers.hard_wall.contact_preconditioner import LastStep, Preconditioner
 
@@ -139,13 +140,8 @@ class _Spread:
 
     def __init__(self, compliance: FourierOperator) -> None:
         self._grid, self._counter, self._columns = compliance.grid, compliance.counter, compliance.grid.shape[1]
-        grid, rows = compliance.grid, compliance.grid.shape[0]
-        half = rows // 2 + 1  # the other rows have the same |q|
-        self._symbol = np.empty((half, grid.half_shape[1]), np.float32)
-        for low, high in blocks((half, grid.shape[1])):
-            self._symbol[low:high] = compliance.symbol.rows(low, high)
-        self._parts = [(slice(half), self._symbol), (slice(half, None), self._symbol[rows - half : 0 : -1])]
-        shape = grid.wide_shape
+        self._symbol = compliance.symbol.folded(np.float32)
+        shape = compliance.grid.wide_shape
         self._double = np.zeros(shape)
         self.change, self.scratch = self._double.view(np.float32).reshape(2, *shape)
         self._half = self.scratch.view(np.complex64)[:, : self._columns // 2 + 1]
@@ -154,7 +150,7 @@ class _Spread:
     def apply(self) -> None:
         """Compute out = S change; the change stays."""
         self._grid.forward(self.change[:, : self._columns], out=self._half)
-        for rows, symbol in self._parts:
+        for rows, symbol in self._symbol:
             self._half[rows] *= symbol
         ducc0.fft.c2r(
             self._half,

@@ -15,7 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contactsim.grid import Array, FourierOperator
+from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.grid import Array
 from contactsim.solvers.hard_wall.kernels import WORD, Contact, Rows, compiled, run
 
 CELL = 4

@@ -23,7 +23,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.grid import Array, FourierOperator
+from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.grid import Array
 
 DECAY = 8.0
 """Rate of decay of an extension, per point, over the stiffness of the softest wave beyond the half-space's."""

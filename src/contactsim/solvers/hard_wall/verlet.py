@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
+from contactsim.elasticity.fourier_operator import FourierOperator
 from contactsim.errors import InputError
-from contactsim.grid import Array, FourierOperator
+from contactsim.grid import Array
 from contactsim.solvers.base import State
 from contactsim.traits import Trait
 

@@ -1,0 +1,126 @@
+"""Multiplication of Fourier coefficients by a symbol, as elasticity does: an operator that is diagonal there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import ducc0
+import numpy as np
+
+from contactsim.grid import Array, Grid, TransformCounter, blocks
+
+
+@dataclass(frozen=True)
+class RadialSymbol:
+    """Function of |q| at the coefficients of a surface; it is computed where it is read, so that no array is held.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the surface.
+    function : callable
+        Function of |q| (rad/nm).
+    uniform : float
+        Value at q = 0.
+    """
+
+    grid: Grid
+    function: Callable[[Array], Array]
+    uniform: float
+
+    def __getitem__(self, places: tuple[Array, Array]) -> Array:
+        """Return the values at rows and columns of the coefficients, which are broadcast."""
+        values = self.function(self.grid.wavenumber_at(*places))
+        values[np.logical_and(*(place == 0 for place in places))] = self.uniform
+        return values
+
+    def rows(self, low: int, high: int) -> Array:
+        """Return the values at the rows from `low` to before `high`."""
+        row, column = np.ogrid[low:high, : self.grid.half_shape[1]]
+        return self[row, column]
+
+    def folded(self, kind: type = float) -> list[tuple[slice, Array]]:
+        """Return slices of rows with their values: half of the rows, and the same in reverse, as |q| is the same."""
+        count = self.grid.shape[0]
+        half = count // 2 + 1
+        values: Array = np.empty((half, self.grid.half_shape[1]), kind)
+        for low, high in blocks((half, self.grid.shape[1])):
+            values[low:high] = self.rows(low, high)
+        return [(slice(half), values), (slice(half, None), values[count - half : 0 : -1])]
+
+    def scaled(self, grid: Grid, factor: float) -> RadialSymbol:
+        """Return the symbol times a factor on a grid with the same periods."""
+        return RadialSymbol(grid, lambda q: self.function(q) * factor, self.uniform * factor)
+
+
+@dataclass
+class FourierOperator:
+    """Multiplication of the Fourier coefficients of a field by a symbol.
+
+    One application costs two transforms. On a line the coefficients have memory of their own; on a surface, where
+    memory is short, they are computed in the memory of the result.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the field.
+    symbol : array, shape `grid.half_shape`, or RadialSymbol
+        Factor of each coefficient; of a surface one that is computed by rows.
+    counter : TransformCounter
+        Counts the transforms.
+    """
+
+    grid: Grid
+    symbol: Any
+    counter: TransformCounter
+    _half: Array | None = field(init=False, repr=False)
+    _held: list[tuple[slice, Array]] = field(init=False, repr=False, default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._half = np.empty(self.grid.half_shape, complex) if len(self.grid.shape) == 1 else None
+
+    def hold_symbol(self) -> None:
+        """Hold the symbol of a surface in memory, for methods that apply the operator in each iteration."""
+        if self._half is None and not self._held:
+            self._held = self.symbol.folded()
+
+    def __call__(self, values: Array, out: Array | None = None) -> Array:
+        """Apply the operator to a real field.
+
+        Parameters
+        ----------
+        values : array, shape `grid.shape`
+            The field.
+        out : array, optional
+            Receives the result. On a line it has the shape of `values` and may be `values`; on a surface it has the
+            grid's `wide_shape`.
+
+        Returns
+        -------
+        array, shape `grid.shape`
+            The result; on a surface the first columns of `out`.
+        """
+        self.counter.add(2, self.grid.size)
+        if self._half is None:
+            return self._in_place(values, np.empty(self.grid.wide_shape) if out is None else out)
+        half = self.grid.forward(values, out=self._half)
+        half *= self.symbol
+        overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
+        return ducc0.fft.c2r(half, lastsize=self.grid.shape[-1], out=out, **overwrite)
+
+    def _in_place(self, values: Array, wide: Array) -> Array:
+        columns, rows = self.grid.shape[-1], list(blocks(self.grid.shape))
+        result, half = wide[:, :columns], wide.view(complex)[:, : columns // 2 + 1]
+        along, across = ({"axes": (axis,), "nthreads": self.grid.threads} for axis in (1, 0))
+        for low, high in rows:
+            half[low:high] = ducc0.fft.r2c(values[low:high], inorm=2, **along)
+        ducc0.fft.c2c(half, inorm=2, out=half, **across)
+        parts = self._held or ((slice(low, high), self.symbol.rows(low, high)) for low, high in rows)
+        for place, values_there in parts:
+            half[place] *= values_there
+        ducc0.fft.c2c(half, forward=False, out=half, **across)
+        for low, high in rows:
+            result[low:high] = ducc0.fft.c2r(half[low:high], lastsize=columns, forward=False, **along)
+        return result
