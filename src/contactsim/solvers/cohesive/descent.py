@@ -1,11 +1,12 @@
 """Descent in energy from a state: the end of a slow motion, for laws that have a potential.
 
-A limited-memory quasi-Newton method in the metric of K + k, K the stiffness and k the laws' largest tangent. In it the
-curvature of the energy is at most about one in all directions, so that a step along the gradient is one of a slow flow
-and the number of steps does not depend on the grid. A few pairs of steps and changes of the gradient are remembered:
-there are few soft directions. The slope of the energy along a step is known from the laws at one gap, without a
-transform, and the search along a step stops as soon as the slope is small. Energies themselves, which lose half of the
-digits, are not compared.
+A limited-memory quasi-Newton method, at first in the metric of K + k, K the stiffness and k the laws' largest tangent.
+In it the curvature of the energy is at most about one in all directions, so that a step along the gradient is one of a
+slow flow and the number of steps does not depend on the grid. Near the minimum k gives way to the tangents at the
+state, where they are positive, since the long waves of a surface that hardly touches are far softer than K + k. A few
+pairs of steps and changes of the gradient are remembered: there are few soft directions. The slope of the energy along
+a step is known from the laws at one gap, without a transform, and the search along a step stops as soon as the slope is
+small. Energies themselves, which lose half of the digits, are not compared.
 
 References
 ----------
@@ -15,14 +16,15 @@ J. Nocedal, Math. Comp. 35, 773 (1980), doi:10.1090/S0025-5718-1980-0572855-7.
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.elasticity.symbol import Symbol
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import Equilibrium, are_pulled_apart, largest_change
+from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 
 PAIRS = 3
@@ -33,6 +35,9 @@ UPHILL = 0.3
 """Largest slope at the end of a step, uphill, over the slope downhill at its beginning."""
 MAX_SHORTENINGS, LEAST_SHORTENING = 20, 0.1
 """How often a step is shortened at most, and its smallest fraction."""
+NEAR_RESIDUAL, RENEWAL_RATIO = 0.03, 0.03
+"""Root mean square of the residual, over the strength, at which tangents first enter the metric; and the ratio of those
+at which they are renewed."""
 LEAST_CURVATURE = 1e-8
 """Smallest cosine between a step and the change of the gradient that is remembered."""
 
@@ -68,12 +73,14 @@ def descend(problem: CohesiveProblem, start: Array, budget: int) -> Equilibrium:
 
 
 class _Descent:
-    """The metric, and the pairs that are remembered."""
+    """The preconditioner, which is the inverse of the metric, and the pairs that are remembered."""
 
     def __init__(self, problem: CohesiveProblem) -> None:
         self._problem = problem
-        self._metric: Symbol = problem.regularised_stiffness.inverse(problem.law_stiffness)
         self._scale = np.sqrt(problem.mode_weights)
+        stiffened = problem.regularised_stiffness.inverse(problem.law_stiffness)
+        self._precondition: Callable[[Array], Array] = stiffened.apply
+        self._renewal_residual = NEAR_RESIDUAL
         self._pairs: deque[tuple[Array, Array, float]] = deque(maxlen=PAIRS)
 
     def run(self, start: Array, budget: int) -> Equilibrium:
@@ -82,7 +89,8 @@ class _Descent:
         here = self._place_at(start)
         while True:
             worst = self._worst(here.gradient)
-            if worst <= problem.tolerance and count:  # sums of many steps have their rounding
+            is_renewed = worst <= self._renewal_residual
+            if count and (is_renewed or worst <= problem.tolerance):  # sums of many steps have their rounding
                 here = self._place_at(here.displacement / self._scale)
                 worst = self._worst(here.gradient)
             if worst <= problem.tolerance:
@@ -93,6 +101,9 @@ class _Descent:
                 status = Status.NO_EQUILIBRIUM
             if status is not Status.MAX_ITERATIONS or count == budget:
                 break
+            if is_renewed:
+                self._renew_metric(here.gap)
+                self._renewal_residual = RENEWAL_RATIO * worst
             step, slope = self._direction(_numbers(here.gradient))
             after = self._search(here, step, slope) if slope < 0 else None
             if after is None:
@@ -131,6 +142,17 @@ class _Descent:
         mean = float(np.sqrt(numbers @ numbers)) / (problem.strength * np.sqrt(len(gradient)))
         return problem.norm(gradient / self._scale) if mean <= problem.tolerance else mean
 
+    def _renew_metric(self, gap: Array) -> None:
+        """Take the positive tangents at a gap into the metric; what was remembered in the old metric is forgotten."""
+        problem, scale = self._problem, self._scale
+        values = problem.tangent(gap)[1].values
+        stiffening = np.zeros_like(values)
+        for row in range(len(values)):
+            np.maximum(values[row, row], 0, out=stiffening[row, row])
+        inverse = ZonePreconditioner(problem, Tangent(problem, stiffening))
+        self._precondition = lambda gradient: scale * inverse(gradient / scale)
+        self._pairs.clear()
+
     def _direction(self, gradient: Array) -> tuple[Array, float]:
         """Return a step as real numbers and the slope along it; along the gradient where the pairs give none."""
         for pairs in (self._pairs, ()):
@@ -138,7 +160,7 @@ class _Descent:
             for moved, turned, product in reversed(pairs):
                 shares.append((moved @ step) / product)
                 step -= shares[-1] * turned
-            step = _numbers(self._metric.apply(self._coefficients(step)))
+            step = _numbers(self._precondition(self._coefficients(step)))
             for (moved, turned, product), share in zip(pairs, reversed(shares), strict=True):
                 step += (share - (turned @ step) / product) * moved
             slope = float(gradient @ step)

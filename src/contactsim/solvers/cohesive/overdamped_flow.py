@@ -22,7 +22,7 @@ from contactsim.solvers.cohesive.linearised import find_growth, newton_forcing, 
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 
-FLOW_FORCING = 3e-2
+FLOW_FORCING = 0.3
 """Relative residual of the linear solve in a step of the flow: its direction need not be exact."""
 INITIAL_SHIFT, MIN_REFUSED_SHIFT, NEGLIGIBLE_SHIFT = 0.03, 0.02, 1e-3
 """Shift over the laws' largest tangent: at first, at least after a refused step, and below which it is set to zero."""

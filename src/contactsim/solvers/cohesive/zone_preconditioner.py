@@ -1,12 +1,13 @@
 """Preconditioner of the stiffness plus the tangent of laws that act on a small part of a line.
 
 Long waves, those of a coarser grid, are solved for exactly: with C the compliance and D the tangent, (K + D) w = r is
-w = C (r - D w). As D is not zero on the process zone Z alone,
+w = C (r - t) with the tractions t = D w. As D is not zero on the process zone Z alone,
 
-    (1 + C_ZZ D_Z) w_Z = (C r)_Z,   w = C (r - D w_Z),
+    (1 + D_Z C_ZZ) t_Z = D_Z (C r)_Z,   w = C (r - t_Z),
 
-which is one dense factorisation of the size of the zone. Short waves have the stiffness plus a constant shift. A
-uniform mode that is free (its stiffness is zero, under a prescribed load) has the stiffness of the longest wave.
+which is one dense factorisation of the size of the zone, with the components that the laws exert. Short waves have the
+stiffness plus a constant shift. A uniform mode that is free (its stiffness is zero, under a prescribed load) has the
+stiffness of the longest wave.
 """
 
 from __future__ import annotations
@@ -22,10 +23,10 @@ from contactsim.grid import Array
 
 COARSENING, MIN_NODES = 8, 128
 """Points of the grid for each node of the coarse grid of long waves, and smallest number of nodes."""
-SHORT_WAVE_SHIFT, MIN_TANGENTIAL_SHIFT = 0.3, 0.01
-"""Shift of short waves, over the laws' largest tangent; smallest tangential part of it, over the normal one."""
+SHORT_WAVE_SHIFT, MIN_TANGENT = 0.3, (1.0, 0.01)
+"""Shift of short waves, over a state's largest tangent; least such tangent of both components, over the laws' own."""
 SHIFT_RATIO = 2.0
-"""Ratio of the largest tangential tangents of two states up to which they share the shift of short waves."""
+"""Ratio of the largest tangents of two states up to which they share the shift of short waves."""
 ZONE_THRESHOLD = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
 INVERSE_ITERATIONS, OUTSIDE_AMPLITUDE = 2, 0.1
@@ -34,7 +35,7 @@ MAX_EIGENVALUES = 160
 """Largest number of unknowns of a zone whose growing displacements are computed."""
 ROUNDING = 1e-9
 """Part of its diagonal that is added to the compliance of a zone, so that rounding does not make it indefinite."""
-MAX_UNKNOWNS = 400
+MAX_UNKNOWNS = 300
 """Unknowns of the zone above which its factorisation costs more than it saves: the coarse grid gets coarser."""
 
 
@@ -63,13 +64,15 @@ class ZonePreconditioner:
         self._problem = problem
         ratio = min(COARSENING, max(problem.grid.size // MIN_NODES, 1))
         values = _averages(tangent.values, ratio)
-        while np.count_nonzero(self._acting(values)) * len(problem.shape) > MAX_UNKNOWNS:
+        while np.count_nonzero(self._acting(values)) * len(values) > MAX_UNKNOWNS:
             ratio *= 2
             values = _averages(tangent.values, ratio)
         self._nodes = values.shape[-1]
         self._low = min(self._nodes // 2, problem.unknowns[1])
         before = before if before is not None and before._nodes == self._nodes else None
-        self._sideways = np.abs(tangent.values[1:, 1:]).max(initial=MIN_TANGENTIAL_SHIFT * problem.law_stiffness)
+        diagonal = tangent.values[range(len(values)), range(len(values))]
+        least = problem.law_stiffness * np.array(MIN_TANGENT[: len(values)])
+        self._largest = np.maximum(np.abs(diagonal).max(axis=1), least)
         self._high: Symbol
         self._compliance: Symbol
         self._responses: list[Array]
@@ -79,12 +82,11 @@ class ZonePreconditioner:
 
     def _set_short_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
         """Invert the stiffness of short waves plus a shift, or share it with another preconditioner."""
-        if before is not None and 1 / SHIFT_RATIO <= self._sideways / before._sideways <= SHIFT_RATIO:
-            self._high, self._sideways = before._high, before._sideways
+        if before is not None and np.abs(np.log(self._largest / before._largest)).max() <= np.log(SHIFT_RATIO):
+            self._high, self._largest = before._high, before._largest
             return
-        problem = self._problem
-        extra = shift + SHORT_WAVE_SHIFT * np.array([problem.law_stiffness, self._sideways][: problem.unknowns[0]])
-        self._high = problem.stiffness.modes(slice(self._low, None)).inverse(extra)
+        extra = shift + SHORT_WAVE_SHIFT * self._largest
+        self._high = self._problem.stiffness.modes(slice(self._low, None)).inverse(extra)
 
     def _set_long_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
         """Invert the stiffness of long waves, or share it with another preconditioner."""
@@ -114,43 +116,43 @@ class ZonePreconditioner:
         return self._field(self._compliance.apply(unit))
 
     def _factor(self, values: Array) -> None:
-        """Factorise 1 + C D on the process zone, for derivatives (exerted, read, nodes)."""
+        """Factorise 1 + D C on the process zone, for derivatives (exerted, read, nodes)."""
         from scipy.linalg.lapack import dgetrf
 
         self._zone = np.flatnonzero(self._acting(values))
         self._values = values[..., self._zone]
-        count, read = len(self._zone), len(self._problem.shape)
+        count, exerted = len(self._zone), len(values)
         if not count:
             return
         apart = (self._zone[:, None] - self._zone) % self._nodes
-        matrix = np.zeros((read, count, read, count))
-        for row, response in enumerate(self._responses):
-            for to in range(read):
-                kernel = response[to][apart]
-                for by in range(read):
-                    matrix[to, :, by] += kernel * self._values[row, by]
-        square = matrix.reshape(read * count, -1)
+        matrix = np.zeros((exerted, count, exerted, count))
+        for by, response in enumerate(self._responses):
+            for reads, kernel in enumerate(response):
+                spread = kernel[apart]
+                for to in range(exerted):
+                    matrix[to, :, by] += self._values[to, reads, :, None] * spread
+        square = matrix.reshape(exerted * count, -1)
         square[np.diag_indices(len(square))] += 1
         self._matrix = square
         self._lu = dgetrf(square)[:2]
 
     def softest(self, wave: Array | None) -> tuple[bool, Array | None]:
-        """Return whether K + D + shift may have negative eigenvalues, and the softest wave.
+        """Return whether K + D + shift may have negative eigenvalues, and the softest wave, by its tractions.
 
         An odd number of negative eigenvalues shows in the sign of the determinant. Of an even number, as equal
         asperities have, the one nearest zero is found by inverse iteration from the softest wave of the state before,
-        where it was the next to change sign: w' = (1 + C D)⁻¹ w, and w·w' is negative.
+        where it was the next to change sign: t' = (1 + D C)⁻¹ t, and t·t' is negative.
 
         Parameters
         ----------
         wave
-            Softest wave (read, nodes) of the state before; None at first.
+            Tractions (exerted, nodes) of the softest wave of the state before; None at first.
         """
         from scipy.linalg.lapack import dgetrs
 
         if not len(self._zone):
             return False, wave
-        softest = _asymmetric_wave(len(self._problem.shape), self._nodes).copy()
+        softest = _asymmetric_wave(len(self._values), self._nodes).copy()
         factors, swaps = self._lu
         negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
         here = (softest if wave is None or wave.shape != softest.shape else wave)[:, self._zone].ravel()
@@ -164,41 +166,43 @@ class ZonePreconditioner:
     def growing(self) -> Array | None:
         """Return the displacement (exerted, m) that would grow most on its own, in this approximation.
 
-        With w an eigenvector of 1 + C D and its eigenvalue μ < 0, (K + D) w = μ K w. None is returned if there is no
-        such eigenvalue, and for zones of more unknowns than `MAX_EIGENVALUES`, which would take long.
+        With t an eigenvector of 1 + D C, μ < 0 its eigenvalue and w = C t, (K + D) w = μ K w. None is returned if there
+        is no such eigenvalue, and for zones of more unknowns than `MAX_EIGENVALUES`, which would take long.
         """
-        if not 0 < len(self._zone) * len(self._values) <= MAX_EIGENVALUES:
+        if not 0 < self._values[:, 0].size <= MAX_EIGENVALUES:
             return None
-        value, vector = self._lowest()
-        if value >= 0:
+        traction = self._lowest()
+        if traction is None:
             return None
         wave = np.zeros(self._problem.unknowns, complex)
-        wave[:, : self._low] = self._spread(vector.reshape(self._values.shape[1], -1))
+        wave[:, : self._low] = self._spread(traction.reshape(len(self._values), -1))
         return wave
 
-    def _lowest(self) -> tuple[float, Array]:
-        """Return the lowest eigenvalue of 1 + C D, its real part, and the real part of its eigenvector.
+    def _lowest(self) -> Array | None:
+        """Return the real part of the eigenvector of 1 + D C of the lowest eigenvalue; None if that is not negative.
 
         With one component, C = L Lᵀ and 1 + Lᵀ D L is symmetric; it has the same eigenvalues, and eigenvectors L⁻¹ w.
         """
         from scipy.linalg import cholesky, eigh
 
         if self._values.shape[:2] == (1, 1):
+            tangent = self._values[0, 0]
             compliance = self._responses[0][0][(self._zone[:, None] - self._zone) % self._nodes]
             compliance[np.diag_indices(len(compliance))] *= 1 + ROUNDING  # C is singular where the zone is everywhere
             lower = cholesky(compliance, lower=True)
-            symmetric = lower.T @ (self._values[0, 0, :, None] * lower)
+            symmetric = lower.T @ (tangent[:, None] * lower)
             symmetric[np.diag_indices(len(symmetric))] += 1
             values, vectors = eigh(symmetric, subset_by_index=[0, 0])
-            return float(values[0]), lower @ vectors[:, 0]
+            return tangent * (lower @ vectors[:, 0]) if values[0] < 0 else None
+        if np.linalg.eigvals(self._matrix).real.min() >= 0:
+            return None
         values, vectors = np.linalg.eig(self._matrix)
-        lowest = int(np.argmin(values.real))
-        return float(values[lowest].real), vectors[:, lowest].real
+        return vectors[:, np.argmin(values.real)].real
 
-    def _spread(self, held: Array) -> Array:
-        """Return the displacement (exerted, low) under the tractions of a displacement in the zone (read, zone)."""
-        pull = np.zeros((len(self._values), self._nodes))
-        pull[:, self._zone] = contract(self._values, held)
+    def _spread(self, traction: Array) -> Array:
+        """Return the displacement (exerted, low) under tractions on the zone (exerted, zone)."""
+        pull = np.zeros((len(traction), self._nodes))
+        pull[:, self._zone] = traction
         return self._compliance.apply(ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low])
 
     def __call__(self, residual: Array) -> Array:
@@ -209,10 +213,9 @@ class ZonePreconditioner:
         out[:, self._low :] = self._high.apply(residual[:, self._low :])
         long = self._compliance.apply(residual[:, : self._low])
         if len(self._zone):
-            free = self._field(long)[:, self._zone]
-            held = dgetrs(*self._lu, free.ravel())[0].reshape(free.shape)
-            long -= self._spread(held)
-            self._problem.counter.add(len(free) + len(residual), self._nodes)
+            free = contract(self._values, self._field(long)[:, self._zone])
+            long -= self._spread(dgetrs(*self._lu, free.ravel())[0].reshape(free.shape))
+            self._problem.counter.add(len(self._problem.shape) + len(residual), self._nodes)
         out[:, : self._low] = long
         return out
 
