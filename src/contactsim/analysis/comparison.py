@@ -23,6 +23,8 @@ from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.grid import Array
 
 Datasets = Sequence[xr.Dataset]
+Arguments = tuple[xr.DataArray, dict[str, Any]]
+"""A quantity, and the further inputs of its reduction."""
 SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
     "relative_to": ("over", operator.truediv),
     "minus": ("minus", operator.sub),
@@ -71,11 +73,16 @@ class Comparison:
         searched
             Datasets in which extremes are located; None for the same.
         """
+        arguments = self._arguments(data)
+        return self._reduce(arguments, arguments if searched is None else self._arguments(searched))
+
+    def _reduce(self, arguments: Arguments, searched: Arguments) -> float:
+        """Return the number, with extremes where they are in others; NaN where nothing of what is selected exists."""
         reduction = REDUCTIONS[self.claim["reduce"]]
-        values, inputs = self._arguments(data)
-        if not values.size:  # nothing of what is selected exists
+        values, inputs = arguments
+        if not values.size:
             return float("nan")
-        where, where_inputs = (values, inputs) if searched is None else self._arguments(searched)
+        where, where_inputs = searched
         return reduction.measure_at(reduction.places(where, **where_inputs), values, **inputs)
 
     def unbiased_number(self, data: Datasets) -> float:
@@ -83,10 +90,10 @@ class Comparison:
         sizes = [data[group[0]].member.size for group in self.groups]
         if REDUCTIONS[self.claim["reduce"]].locate is None or max(sizes) == 1:
             return self.number(data)
-        numbers = [
-            self.number(self._with_members(data, measured), self._with_members(data, searched))
-            for searched, measured in joint_splits(sizes)
-        ]
+        numbers = []
+        for halves in joint_splits(sizes):
+            first, second = (self._arguments(self._with_members(data, half)) for half in halves)
+            numbers += [self._reduce(second, first), self._reduce(first, second)]
         return math.fsum(numbers) / len(numbers)
 
     def steps(self, data: Datasets) -> Array:
@@ -106,7 +113,7 @@ class Comparison:
         values = self._combine([mean_quantity(study, self.claim["quantity"]) for study in self.data])
         return {str(dim): values[dim].values for dim in values.dims if values.sizes[dim] > 1}
 
-    def _arguments(self, data: Datasets) -> tuple[xr.DataArray, dict[str, Any]]:
+    def _arguments(self, data: Datasets) -> Arguments:
         """Return the quantity and the further inputs of the reduction."""
         inputs: dict[str, Any] = {name: self.claim[name] for name in REDUCTIONS[self.claim["reduce"]].inputs}
         if "against" in inputs:

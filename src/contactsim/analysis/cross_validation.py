@@ -43,7 +43,7 @@ def half_splits(members: int) -> list[tuple[Array, Array]]:
 
 
 def joint_splits(sizes: Sequence[int]) -> Iterator[tuple[list[Array], list[Array]]]:
-    """Yield splits of independent ensembles at once: the halves to search and the halves to measure, in both roles.
+    """Yield splits of independent ensembles at once: the first halves of all, and the second ones.
 
     Parameters
     ----------
@@ -54,4 +54,3 @@ def joint_splits(sizes: Sequence[int]) -> Iterator[tuple[list[Array], list[Array
     for number in range(max(map(len, splits))):
         first, second = zip(*(own[number % len(own)] for own in splits), strict=True)
         yield list(first), list(second)
-        yield list(second), list(first)

@@ -173,9 +173,12 @@ def slopes(values: xr.DataArray, against: xr.DataArray, along: str) -> xr.DataAr
 
 def ranges(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
     """Return the difference between two places along a dimension over |mean|."""
-    low, high = ends
-    difference = values.isel({along: high}, drop=True) - values.isel({along: low}, drop=True)
-    return difference / abs(values.mean(along, skipna=False))
+    axis, others = values.get_axis_num(along), [dim for dim in values.dims if dim != along]
+    low, high = (
+        np.take_along_axis(values.values, np.expand_dims(end.transpose(*others).values, axis), axis).squeeze(axis)
+        for end in ends
+    )
+    return xr.DataArray((high - low) / abs(values.values.mean(axis)), dims=others)
 
 
 def ends_of_range(values: xr.DataArray, along: str) -> Places:

@@ -156,9 +156,10 @@ def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataAr
     area = data.relative_contact_area
     samples = area.transpose("hurst_exponent", "member", "reduced_pressure").values
     pressure = data.reduced_pressure.values
-    parts = [samples] * len(samples) if together else samples
+    parts = samples[None] if together else samples
     kappa = [hard_wall.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in parts]
-    return xr.DataArray(kappa, dims=("hurst_exponent", "reduced_pressure"))
+    shape = len(samples), len(pressure)
+    return xr.DataArray(np.broadcast_to(kappa, shape), dims=("hurst_exponent", "reduced_pressure"))
 
 
 def resolves_edges(data: xr.Dataset) -> bool:
