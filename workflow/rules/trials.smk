@@ -1,4 +1,4 @@
-# Error-controlled runs on random scenes: one timed job for each scene, at most two at once, and a figure; and the fit of the scaling relations.
+# Error-controlled runs on random scenes: one timed job for each scene, alone on the machine, and a figure; and the fit of the scaling relations.
 if PRODUCTS.trials:
 
     rule solve_trial:
@@ -8,7 +8,7 @@ if PRODUCTS.trials:
         wildcard_constraints: kind="|".join(PRODUCTS.trials.kinds), number=r"\d+"
         log: RESULTS / "logs/trials/{kind}_{number}.log"
         params: plan=EVALUATION_JOBS.trial_params
-        threads: timed_threads(PLAN, workflow.cores, at_once=2)
+        threads: timed_threads(PLAN, workflow.cores)
         group: group_on_cluster(workflow, "timed")
         message: "trial: {wildcards.kind} {wildcards.number}, solved to an accuracy, and its error measured"
         script: "../scripts/solve_trial.py"

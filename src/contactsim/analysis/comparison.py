@@ -77,7 +77,7 @@ class Comparison:
         return self._reduce(arguments, arguments if searched is None else self._arguments(searched))
 
     def _reduce(self, arguments: Arguments, searched: Arguments) -> float:
-        """Return the number, with extremes where they are in others; NaN where nothing of what is selected exists."""
+        """Return the number, with extremes at their places in `searched`; NaN where nothing that is selected exists."""
         reduction = REDUCTIONS[self.claim["reduce"]]
         values, inputs = arguments
         if not values.size:
@@ -86,10 +86,13 @@ class Comparison:
         return reduction.measure_at(reduction.places(where, **where_inputs), values, **inputs)
 
     def unbiased_number(self, data: Datasets) -> float:
-        """Return the number, with extremes located in one half of the members and measured in the other."""
-        sizes = [data[group[0]].member.size for group in self.groups]
-        if REDUCTIONS[self.claim["reduce"]].locate is None or max(sizes) == 1:
-            return self.number(data)
+        """Return the number, with extremes located in one half of the members and measured in the other, in both roles.
+
+        It is unknown where that of all members is, as an unknown value may hide in the half that is searched.
+        """
+        sizes, whole = [data[group[0]].member.size for group in self.groups], self.number(data)
+        if REDUCTIONS[self.claim["reduce"]].locate is None or max(sizes) == 1 or math.isnan(whole):
+            return whole
         numbers = []
         for halves in joint_splits(sizes):
             first, second = (self._arguments(self._with_members(data, half)) for half in halves)

@@ -45,6 +45,8 @@ def half_splits(members: int) -> list[tuple[Array, Array]]:
 def joint_splits(sizes: Sequence[int]) -> Iterator[tuple[list[Array], list[Array]]]:
     """Yield splits of independent ensembles at once: the first halves of all, and the second ones.
 
+    Callers use each half in both roles: to search in, and to measure.
+
     Parameters
     ----------
     sizes

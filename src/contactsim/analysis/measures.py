@@ -172,7 +172,10 @@ def slopes(values: xr.DataArray, against: xr.DataArray, along: str) -> xr.DataAr
 
 
 def ranges(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
-    """Return the difference between two places along a dimension over |mean|."""
+    """Return the difference between two places along a dimension over |mean|, without coordinates.
+
+    ends: as `ends_of_range` gives them, with all other dimensions of the values
+    """
     axis, others = values.get_axis_num(along), [dim for dim in values.dims if dim != along]
     low, high = (
         np.take_along_axis(values.values, np.expand_dims(end.transpose(*others).values, axis), axis).squeeze(axis)

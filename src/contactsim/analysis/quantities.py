@@ -15,6 +15,7 @@ from contactsim import dataset
 from contactsim.analysis.carried import CARRIED, carried_quantity, grid_share
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.fits import fit_line_area
+from contactsim.grid import Array
 from contactsim.observables.contact_readings import CRITERIA
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
 from contactsim.reference import adhesion, hard_wall
@@ -152,14 +153,18 @@ def _standard_error(data: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
 
 
 def _fitted_kappa(data: xr.Dataset, weighting: str, together: bool) -> xr.DataArray:
-    """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure)."""
-    area = data.relative_contact_area
-    samples = area.transpose("hurst_exponent", "member", "reduced_pressure").values
+    """Return κ of Eq. 3.11 fitted to the area, (hurst_exponent, reduced_pressure); NaN if an area is unknown."""
+    area = data.relative_contact_area.transpose("hurst_exponent", "member", "reduced_pressure")
     pressure = data.reduced_pressure.values
-    parts = samples[None] if together else samples
-    kappa = [hard_wall.line_area(pressure, *fit_line_area(pressure, rows, weighting)) / pressure for rows in parts]
-    shape = len(samples), len(pressure)
-    return xr.DataArray(np.broadcast_to(kappa, shape), dims=("hurst_exponent", "reduced_pressure"))
+
+    def kappa(samples: Array) -> Array:
+        """Return κ at all loads from areas (…, load)."""
+        if not np.isfinite(samples).all():
+            return np.full(len(pressure), np.nan)
+        return hard_wall.line_area(pressure, *fit_line_area(pressure, samples, weighting)) / pressure
+
+    values = [kappa(area.values)] * len(area) if together else [kappa(samples) for samples in area.values]
+    return area.isel(member=0, drop=True).copy(data=np.array(values))
 
 
 def resolves_edges(data: xr.Dataset) -> bool:

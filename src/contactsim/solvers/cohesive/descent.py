@@ -1,10 +1,11 @@
 """Descent in energy from a state: the end of a slow motion, for laws that have a potential.
 
-A limited-memory quasi-Newton method, at first in the metric of K + k, K the stiffness and k the laws' largest tangent.
-In it the curvature of the energy is at most about one in all directions, so that a step along the gradient is one of a
-slow flow and the number of steps does not depend on the grid. Near the minimum k gives way to the tangents at the
-state, where they are positive, since the long waves of a surface that hardly touches are far softer than K + k. A few
-pairs of steps and changes of the gradient are remembered: there are few soft directions. The slope of the energy along
+A limited-memory quasi-Newton method, at first in the metric of K + k, K the stiffness and k the laws' tangent at zero
+gap. In it a step along the gradient is one of a slow flow, and the number of steps does not depend on the grid. Where
+the residual is small, k gives way to the tangents at the state where they are positive, since the long waves of a
+surface that hardly touches are far softer than K + k. If the residual grows again, because the state was at the
+beginning of a jump, k is taken back. A few pairs of steps and changes of the gradient are remembered: there are few
+soft directions. The slope of the energy along
 a step is known from the laws at one gap, without a transform, and the search along a step stops as soon as the slope is
 small. Energies themselves, which lose half of the digits, are not compared.
 
@@ -36,8 +37,10 @@ UPHILL = 0.3
 MAX_SHORTENINGS, LEAST_SHORTENING = 20, 0.1
 """How often a step is shortened at most, and its smallest fraction."""
 NEAR_RESIDUAL, RENEWAL_RATIO = 0.03, 0.03
-"""Root mean square of the residual, over the strength, at which tangents first enter the metric; and the ratio of those
-at which they are renewed."""
+"""Root mean square of the residual, over the strength, at which tangents first enter the metric. Once they did at a
+residual r, they are renewed at RENEWAL_RATIO times r."""
+RETURN_RATIO = 10.0
+"""Residual over that at which tangents entered the metric, beyond which they are left out again."""
 LEAST_CURVATURE = 1e-8
 """Smallest cosine between a step and the change of the gradient that is remembered."""
 
@@ -78,9 +81,9 @@ class _Descent:
     def __init__(self, problem: CohesiveProblem) -> None:
         self._problem = problem
         self._scale = np.sqrt(problem.mode_weights)
-        stiffened = problem.regularised_stiffness.inverse(problem.law_stiffness)
-        self._precondition: Callable[[Array], Array] = stiffened.apply
-        self._renewal_residual = NEAR_RESIDUAL
+        self._stiffened = problem.regularised_stiffness.inverse(problem.law_stiffness)
+        self._precondition: Callable[[Array], Array] = self._stiffened.apply
+        self._renewal_residual, self._return_residual = NEAR_RESIDUAL, np.inf
         self._pairs: deque[tuple[Array, Array, float]] = deque(maxlen=PAIRS)
 
     def run(self, start: Array, budget: int) -> Equilibrium:
@@ -89,8 +92,8 @@ class _Descent:
         here = self._place_at(start)
         while True:
             worst = self._worst(here.gradient)
-            is_renewed = worst <= self._renewal_residual
-            if count and (is_renewed or worst <= problem.tolerance):  # sums of many steps have their rounding
+            needs_renewal = worst <= self._renewal_residual
+            if count and (needs_renewal or worst <= problem.tolerance):  # sums of many steps have their rounding
                 here = self._place_at(here.displacement / self._scale)
                 worst = self._worst(here.gradient)
             if worst <= problem.tolerance:
@@ -101,9 +104,10 @@ class _Descent:
                 status = Status.NO_EQUILIBRIUM
             if status is not Status.MAX_ITERATIONS or count == budget:
                 break
-            if is_renewed:
-                self._renew_metric(here.gap)
-                self._renewal_residual = RENEWAL_RATIO * worst
+            if needs_renewal:
+                self._renew_metric(here.gap, worst)
+            elif worst > self._return_residual:
+                self._leave_tangents_out(worst)
             step, slope = self._direction(_numbers(here.gradient))
             after = self._search(here, step, slope) if slope < 0 else None
             if after is None:
@@ -142,7 +146,7 @@ class _Descent:
         mean = float(np.sqrt(numbers @ numbers)) / (problem.strength * np.sqrt(len(gradient)))
         return problem.norm(gradient / self._scale) if mean <= problem.tolerance else mean
 
-    def _renew_metric(self, gap: Array) -> None:
+    def _renew_metric(self, gap: Array, residual: float) -> None:
         """Take the positive tangents at a gap into the metric; what was remembered in the old metric is forgotten."""
         problem, scale = self._problem, self._scale
         values = problem.tangent(gap)[1].values
@@ -151,6 +155,14 @@ class _Descent:
             np.maximum(values[row, row], 0, out=stiffening[row, row])
         inverse = ZonePreconditioner(problem, Tangent(problem, stiffening))
         self._precondition = lambda gradient: scale * inverse(gradient / scale)
+        self._renewal_residual = RENEWAL_RATIO * residual
+        self._return_residual = max(RETURN_RATIO * residual, NEAR_RESIDUAL)
+        self._pairs.clear()
+
+    def _leave_tangents_out(self, residual: float) -> None:
+        """Return to the metric of K + k."""
+        self._precondition = self._stiffened.apply
+        self._renewal_residual, self._return_residual = min(NEAR_RESIDUAL, residual / RETURN_RATIO), np.inf
         self._pairs.clear()
 
     def _direction(self, gradient: Array) -> tuple[Array, float]:

@@ -5,10 +5,10 @@ The flow du/dt = -(K u + T) is what a slow experiment follows from the end of a 
     (K + T' + s) du = -r,
 
 with a shift s, the inverse of the time step, that adapts to the change of the displacement in a step. Steps that go
-uphill or too far are refused. Once s is small against the laws' tangent it is set to zero, and the last steps are
-Newton's. An unstable state is left along a growing displacement. Laws without a potential have tangents that are not
-symmetric, and there such a displacement may yet decay. A state to which the flow returns, in steps in which growth
-would double, is stable.
+uphill or too far are refused; after an uphill one the shift follows from the rate of growth. Once s is
+small against the laws' tangent it is set to zero, and the last steps are Newton's. An unstable state is left along a
+growing displacement. Laws without a potential have tangents that are not symmetric, and there such a displacement may
+yet decay. A state to which the flow returns, in steps in which growth would about double, is stable.
 """
 
 from __future__ import annotations
@@ -24,10 +24,13 @@ from contactsim.status import Status
 
 FLOW_FORCING = 0.3
 """Relative residual of the linear solve in a step of the flow: its direction need not be exact."""
-INITIAL_SHIFT, MIN_REFUSED_SHIFT, NEGLIGIBLE_SHIFT = 0.03, 0.02, 1e-3
-"""Shift over the laws' largest tangent: at first, at least after a refused step, and below which it is set to zero."""
+INITIAL_SHIFT, MIN_LONG_SHIFT, MIN_UPHILL_SHIFT, NEGLIGIBLE_SHIFT = 0.03, 0.02, 1e-5, 1e-3
+"""Shift over the laws' tangent at zero gap: at first, at least after a step that is too long or uphill, and below which
+it is set to zero."""
+REFUSAL_RATIO = 3.0
+"""Least ratio of the shift after a refused step to the one before."""
 GROWTH_SHIFT, GROWTH_STEPS = 2.0, 12
-"""Least shift over the rate of growth, and for how many steps, after an unstable state: growth doubles in each step."""
+"""Least shift over the rate of growth, and for how many steps, where a displacement grows: it about doubles in each."""
 NUDGE, MAX_NUDGES = 0.03, 5
 """Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
 
@@ -80,8 +83,9 @@ def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: in
             continue
         forcing = FLOW_FORCING if shift else newton_forcing(problem, worst)
         change, _ = solve_linearised(tangent, precondition, residual, forcing, krylov_budget, shift)
-        accepted, shift = _judge_step(problem, change, residual, shift, largest_step)
-        growth_steps -= accepted
+        accepted, shift, growth = _judge_step(problem, change, residual, shift, largest_step)
+        growing_on = least_shift, growth_steps - accepted
+        least_shift, growth_steps = (GROWTH_SHIFT * growth, GROWTH_STEPS) if growth else growing_on
         shift = max(shift, least_shift) if growth_steps > 0 else shift
         displacement = displacement + change if accepted else displacement
     distance = largest_change(problem, displacement - start)
@@ -90,12 +94,18 @@ def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: in
 
 def _judge_step(
     problem: CohesiveProblem, change: Array, residual: Array, shift: float, largest_step: float
-) -> tuple[bool, float]:
-    """Return whether a step of the flow is accepted, and the shift of the next step."""
+) -> tuple[bool, float, float]:
+    """Return whether a step of the flow is accepted, the shift of the next step, and a rate of growth.
+
+    A step that goes uphill shows that displacements along it grow, and at which rate; elsewhere the rate is zero.
+    """
     size = float(np.abs(problem.field(change)[: len(change)]).max())
     largest, stiffness = largest_step * problem.interaction_range, problem.law_stiffness
-    downhill = float(np.vdot(change, residual).real) < 0
-    if not (downhill and size <= 2 * largest):
-        return False, max(3 * shift, MIN_REFUSED_SHIFT * stiffness)
+    uphill, square = float(np.vdot(change, residual).real), float(np.vdot(change, change).real)
+    if not size <= 2 * largest:
+        return False, max(REFUSAL_RATIO * shift, MIN_LONG_SHIFT * stiffness), 0.0
+    if uphill >= 0:
+        growth = shift + (uphill / square if square else 0.0)
+        return False, max(GROWTH_SHIFT * growth, REFUSAL_RATIO * shift, MIN_UPHILL_SHIFT * stiffness), growth
     shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1
-    return True, shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0
+    return True, shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0, 0.0

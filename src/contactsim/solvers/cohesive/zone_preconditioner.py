@@ -24,7 +24,8 @@ from contactsim.grid import Array
 COARSENING, MIN_NODES = 8, 128
 """Points of the grid for each node of the coarse grid of long waves, and smallest number of nodes."""
 SHORT_WAVE_SHIFT, MIN_TANGENT = 0.3, (1.0, 0.01)
-"""Shift of short waves, over a state's largest tangent; least such tangent of both components, over the laws' own."""
+"""Shift of short waves, over the largest tangent of a component; smallest value taken for that, normal and tangential,
+over the laws' tangent at zero gap."""
 SHIFT_RATIO = 2.0
 """Ratio of the largest tangents of two states up to which they share the shift of short waves."""
 ZONE_THRESHOLD = 1e-3
@@ -72,7 +73,7 @@ class ZonePreconditioner:
         before = before if before is not None and before._nodes == self._nodes else None
         diagonal = tangent.values[range(len(values)), range(len(values))]
         least = problem.law_stiffness * np.array(MIN_TANGENT[: len(values)])
-        self._largest = np.maximum(np.abs(diagonal).max(axis=1), least)
+        self._largest_tangents = np.maximum(np.abs(diagonal).max(axis=1), least)
         self._high: Symbol
         self._compliance: Symbol
         self._responses: list[Array]
@@ -82,10 +83,12 @@ class ZonePreconditioner:
 
     def _set_short_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
         """Invert the stiffness of short waves plus a shift, or share it with another preconditioner."""
-        if before is not None and np.abs(np.log(self._largest / before._largest)).max() <= np.log(SHIFT_RATIO):
-            self._high, self._largest = before._high, before._largest
+        if before is not None and np.abs(np.log(self._largest_tangents / before._largest_tangents)).max() <= np.log(
+            SHIFT_RATIO
+        ):
+            self._high, self._largest_tangents = before._high, before._largest_tangents
             return
-        extra = shift + SHORT_WAVE_SHIFT * self._largest
+        extra = shift + SHORT_WAVE_SHIFT * self._largest_tangents
         self._high = self._problem.stiffness.modes(slice(self._low, None)).inverse(extra)
 
     def _set_long_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
@@ -126,18 +129,18 @@ class ZonePreconditioner:
             return
         apart = (self._zone[:, None] - self._zone) % self._nodes
         matrix = np.zeros((exerted, count, exerted, count))
-        for by, response in enumerate(self._responses):
-            for reads, kernel in enumerate(response):
-                spread = kernel[apart]
-                for to in range(exerted):
-                    matrix[to, :, by] += self._values[to, reads, :, None] * spread
+        for column, response in enumerate(self._responses):
+            for component, kernel in enumerate(response):
+                compliance = kernel[apart]
+                for row in range(exerted):
+                    matrix[row, :, column] += self._values[row, component, :, None] * compliance
         square = matrix.reshape(exerted * count, -1)
         square[np.diag_indices(len(square))] += 1
         self._matrix = square
         self._lu = dgetrf(square)[:2]
 
     def softest(self, wave: Array | None) -> tuple[bool, Array | None]:
-        """Return whether K + D + shift may have negative eigenvalues, and the softest wave, by its tractions.
+        """Return whether K + D + shift may have negative eigenvalues, and the tractions of the softest wave.
 
         An odd number of negative eigenvalues shows in the sign of the determinant. Of an even number, as equal
         asperities have, the one nearest zero is found by inverse iteration from the softest wave of the state before,
@@ -194,7 +197,7 @@ class ZonePreconditioner:
             symmetric[np.diag_indices(len(symmetric))] += 1
             values, vectors = eigh(symmetric, subset_by_index=[0, 0])
             return tangent * (lower @ vectors[:, 0]) if values[0] < 0 else None
-        if np.linalg.eigvals(self._matrix).real.min() >= 0:
+        if np.linalg.eigvals(self._matrix).real.min() >= 0:  # most states are stable: no eigenvectors are needed
             return None
         values, vectors = np.linalg.eig(self._matrix)
         return vectors[:, np.argmin(values.real)].real
