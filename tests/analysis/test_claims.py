@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 
 from contactsim.analysis import claims
 from contactsim.analysis.claims import judge
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.conditions import narrower_blocks
-from contactsim.analysis.reductions import ORDERS
+from contactsim.analysis.quantities import FITTED, mean_quantity, with_quantities
+from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.analysis.uncertainty import Estimate, estimate
 from contactsim.analysis.verdict import (
     CONDITION,
@@ -23,10 +25,11 @@ from contactsim.analysis.verdict import (
 )
 from contactsim.errors import InputError
 from contactsim.figures.diagnostics.claims import COLOURS, claims_figure
+from contactsim.reference.hard_wall import line_area
 from contactsim.status import Status
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.plan import Plan
-from support.claims import BANDLESS, PLAN, STUDIES, VALUE, claim, made_up, path_claim, paths, with_corrected
+from support.claims import BANDLESS, PLAN, PRESSURES, STUDIES, VALUE, claim, made_up, path_claim, paths, with_corrected
 from support.places import ROOT
 
 RATIO = {"relative_to": "rough_surface", "expect": 0.9, "tolerance": 0.05}
@@ -270,6 +273,36 @@ def test_a_carried_number_is_unknown_where_a_state_is_not_solved_and_needs_no_ch
     assert np.isnan(part.number(part.data))
     alone = with_corrected(made_up(2.2), 2.0, change=0.0, subgrid=2.0).drop_vars("kappa_grid_change")
     assert estimate(Comparison(settings, [alone])).grid_error == 0.0
+
+
+@pytest.mark.parametrize("name", sorted(name for name, reduction in REDUCTIONS.items() if reduction.locate))
+@pytest.mark.parametrize("member", range(4))
+def test_one_unsolved_state_makes_an_extreme_unknown_whichever_half_it_is_in(name, member):
+    settings = claim() | {
+        "reduce": name,
+        "along": "reduced_pressure",
+        "across": "hurst_exponent",
+        "against": "relative_contact_area",
+    }
+    data = made_up(2.0, scatter=0.1, tilt=0.3)
+    whole = Comparison(settings, [data])
+    assert np.isfinite(whole.unbiased_number(whole.data))
+    data.status[1, member, -1] = Status.MAX_ITERATIONS.value[0]
+    part = Comparison(settings, [data])
+    assert np.isnan(part.unbiased_number(part.data))
+
+
+@pytest.mark.parametrize("name", FITTED)
+def test_a_fit_to_areas_of_which_one_is_unknown_is_unknown_and_has_the_places_of_the_areas(name):
+    data = made_up(1.8)
+    data["relative_contact_area"] = xr.apply_ufunc(line_area, data.reduced_pressure, 0.6, 2.0) + 0 * data.kappa
+    whole = mean_quantity(with_quantities(data, [name]), name)
+    assert whole.reduced_pressure.values.tolist() == PRESSURES
+    assert np.allclose(whole * data.reduced_pressure, line_area(np.array(PRESSURES), 0.6, 2.0), rtol=1e-6)
+    data.status[0, 0, 0] = Status.MAX_ITERATIONS.value[0]
+    part = mean_quantity(with_quantities(data, [name]), name)
+    assert np.isnan(part[0]).all()
+    assert np.isnan(part[1]).all() == FITTED[name][1]  # all exponents together
 
 
 @pytest.mark.parametrize(

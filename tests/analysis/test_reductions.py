@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from contactsim.analysis import measures
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 
 LOADS = [0.001, 0.01, 0.1]
@@ -102,3 +103,11 @@ def test_places_of_extremes_can_come_from_other_data():
     places = spread.places(array([1.0, 2.0, 3.0], reduced_pressure=LOADS), along="reduced_pressure")
     measured = spread.measure_at(places, array([3.0, 2.0, 1.0], reduced_pressure=LOADS), along="reduced_pressure")
     assert measured == pytest.approx(-1.0)  # a range whose order does not repeat is negative
+
+
+def test_ranges_do_not_depend_on_the_order_of_dimensions_of_values_and_places():
+    low, high = measures.ends_of_range(CUBE, "work_ratio")
+    turned = CUBE.transpose("work_ratio", "work_of_separation", "poisson_ratio")
+    found = measures.ranges(turned, (low, high), "work_ratio")
+    expected = [[1 / 10.5, 10 / 25], [2 / 11, 6 / 23]]
+    assert np.allclose(found.transpose("poisson_ratio", "work_of_separation"), expected)

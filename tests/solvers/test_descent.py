@@ -15,6 +15,7 @@ from contactsim.solvers.cohesive.descent import descend
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.shapes import Cylinder
 from support.smooth import LAWS, along, residual_of, scene_of, walk
 
 BUDGET = 4000
@@ -59,6 +60,29 @@ def test_the_number_of_steps_does_not_depend_on_the_grid():
         problem = rough_problem(0.8, 10.5, points=points)[1].at(approaches([0.0]).steps[0])
         counts.append(descend(problem, np.zeros(problem.unknowns, complex), BUDGET).iterations)
     assert max(counts) <= 1.3 * min(counts)
+
+
+@pytest.mark.parametrize(("modulus", "work", "most"), [(7.0, 2.0, 500), (20.0, 10.0, 900)])
+def test_a_jump_that_begins_near_equilibrium_costs_no_more_steps_than_others(modulus, work, most):
+    scene = Scene(
+        HalfSpace(modulus), Cylinder(2e4, 25000.0), NormalCohesiveZone(work), approaches(np.arange(-14.0, -5))
+    )
+    posed, state = pose_cohesive(scene, scene.heights(2048), 1e-5), np.zeros((1, 1025), complex)
+    jumps = []
+    for step in scene.path.steps:
+        found = descend(posed.at(step), state, BUDGET)
+        assert found.status is Status.CONVERGED
+        jumps += [found.iterations] if found.largest_change > 5.0 else []
+        state = found.displacement
+    assert len(jumps) == 1 and jumps[0] <= most  # measured: 325 and 605; 801 and 2110 with tangents kept
+
+
+def test_the_last_digits_cost_few_steps():
+    counts = []
+    for tolerance in (1e-3, 1e-7):
+        problem = rough_problem(0.8, 10.5, tolerance)[1].at(approaches([0.0]).steps[0])
+        counts.append(descend(problem, np.zeros(problem.unknowns, complex), BUDGET).iterations)
+    assert counts[1] <= 1.3 * counts[0]  # measured: 207 and 246 steps
 
 
 def test_a_budget_that_is_too_small_is_told():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact.cohesive import Tangent
-from contactsim.contact.loading import approaches
+from contactsim.contact.loading import approaches, pressures
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
@@ -84,6 +84,38 @@ def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_w
     assert np.abs(residual[:, low:]).max() < 1e-12 * np.abs(residual).max()
     residual[:, low:] = 0
     assert np.allclose(precondition(residual), change, rtol=0, atol=1e-9 * np.abs(change).max())
+
+
+def matrix_of(product, problem, waves):
+    """A linear map of coefficients as a matrix of the real and imaginary parts of so many long waves."""
+    rows, held = problem.unknowns[0], problem.regularised_stiffness.held[:, 0]
+    uniform = [(row, 0, 1.0) for row in range(rows) if not held[row]]
+    places = uniform + [(row, wave, phase) for row in range(rows) for wave in range(1, waves) for phase in (1.0, 1j)]
+    columns = []
+    for row, wave, phase in places:
+        unit = np.zeros(problem.unknowns, complex)
+        unit[row, wave] = phase
+        found = product(unit)
+        columns.append([(found[r, w] * np.conj(p)).real for r, w, p in places])
+    return np.array(columns).T
+
+
+@pytest.mark.parametrize("lower", [HalfSpace(77.0, 0.3), Layer(70.0, 0.3, 5000.0)])
+@pytest.mark.parametrize("path", [approaches([0.0]), pressures([0.01])])
+@pytest.mark.parametrize("name", LAWS)
+def test_the_preconditioner_is_the_inverse_for_long_waves_whatever_tangents_a_zone_has(name, path, lower):
+    scene = scene_of(LAWS[name], path, lower)
+    problem = pose_cohesive(scene, scene.heights(128), 1e-7).at(scene.path.steps[0])
+    shape = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1].values.shape[:2]
+    values = np.zeros((*shape, 128))
+    scattered = np.random.default_rng(0).uniform(-0.3, 0.3, (*shape, 20))
+    values[..., 50:70] = problem.law_stiffness * (scattered + 0.5 * np.eye(*shape)[..., None])
+    tangent = Tangent(problem, values)
+    stiffness = matrix_of(lambda u: problem.regularised_stiffness.apply(u) + tangent(u), problem, 64)
+    for shift in (0.0, 0.7):
+        forward = stiffness + shift * np.eye(len(stiffness))
+        inverse = matrix_of(ZonePreconditioner(problem, tangent, shift), problem, 64)
+        assert np.abs(inverse @ forward - np.eye(len(forward))).max() <= 1e-11
 
 
 def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
