@@ -133,7 +133,7 @@ def test_an_extreme_scene_is_refused_or_every_state_is_finite_or_told(name, fact
 
 def test_a_pressure_that_laws_cannot_bear_and_lengths_that_rounding_hides_are_refused():
     body, cylinder = HalfSpace(70.0, 0.3), Cylinder(1000.0, 5000.0)
-    with pytest.raises(InputError, match=r"mean_pressure: got 0\.01; allowed: at most .* of their lengths"):
+    with pytest.raises(InputError, match=r"mean_pressure: got 0\.01; allowed: at most .* overlap by 100 lengths"):
         Scene(body, cylinder, NormalCohesiveZone(1e-12), pressures([0.01]))
     with pytest.raises(InputError, match=r"tangential_length: got 1e-12; allowed: 1e-06 to 1e\+12 nm"):
         Scene(body, cylinder, CohesiveZone(0.5, 0.3, tangential_length=1e-12), PATH)

@@ -19,7 +19,7 @@ LARGEST, SMALLEST = 1e100, 1e-100
 """Largest size of a number, and smallest positive number."""
 POSITIVE = f"a positive number, {SMALLEST:g} to {LARGEST:g}"
 """What is allowed, in words."""
-NUMBER = f"a number of a size up to {LARGEST:g}"
+NUMBER = f"a finite number, in size up to {LARGEST:g}"
 """The same for numbers of either sign."""
 
 

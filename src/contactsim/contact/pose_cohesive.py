@@ -21,7 +21,8 @@ solution."""
 def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
     """Refuse a tolerance that rounding hides, or that the undeformed state would meet."""
     if not (is_number(tolerance) and MIN_TOLERANCE <= tolerance <= MAX_TOLERANCE):
-        raise InputError(name, tolerance, f"{MIN_TOLERANCE:g} to {MAX_TOLERANCE:g}, in parts of the laws' strength")
+        allowed = f"at least {MIN_TOLERANCE:g}, at most {MAX_TOLERANCE:g}, in parts of the laws' strength"
+        raise InputError(name, tolerance, allowed)
 
 
 def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:

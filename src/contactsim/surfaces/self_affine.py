@@ -107,7 +107,7 @@ class SelfAffine(Smooth):
         if (self.rms_gradient is None) == (self.rms_height is None):
             given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
             raise InputError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
-        for name, unit in (("rms_gradient", ""), ("rms_height", " in nm")):
+        for name, unit in (("rms_gradient", ""), ("rms_height", ", in nm")):
             value = getattr(self, name)
             if value is not None and not is_positive(value):
                 raise InputError(name, value, f"{POSITIVE}{unit}")
