@@ -68,7 +68,7 @@ def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed)
 def test_a_bad_spacing_of_a_surface_is_named_in_plain_numbers(spacing, value):
     with pytest.raises(InputError) as caught:
         contactsim.press(np.eye(4), spacing=spacing, contact_modulus=1.0, mean_pressure=0.1)
-    assert str(caught.value).startswith(f"spacing: got {value}; allowed: a positive finite number")
+    assert str(caught.value).startswith(f"spacing: got {value}; allowed: a positive number")
 
 
 def test_messages_show_numbers_of_numpy_as_plain_numbers():
@@ -115,7 +115,7 @@ def test_what_is_no_solver_is_refused(method):
 )
 def test_units_beyond_floating_point_are_refused(change):
     given = {"heights": [0.0, 1.0, 0.5], "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1} | change
-    with pytest.raises(InputError, match="range of floating point"):
+    with pytest.raises(InputError, match=r"range of floating point|to 1e\+100"):
         contactsim.press(given.pop("heights"), **given)
 
 

@@ -6,13 +6,11 @@ error: it is a `Status`, stored with the result.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import wraps
 from inspect import signature
-from numbers import Real
 from pathlib import PurePath
-from typing import ParamSpec, TypeGuard, TypeVar
+from typing import ParamSpec, TypeVar
 
 import numpy as np
 
@@ -69,13 +67,6 @@ def check_option_names(function: Callable[P, R]) -> Callable[P, R]:
         return function(*args, **kwargs)
 
     return call
-
-
-def is_number(value: object) -> TypeGuard[float]:
-    """Return True for one finite real number; text, booleans and arrays are none."""
-    if type(value) is float or type(value) is int:  # the usual case: the abstract class is slow to ask
-        return math.isfinite(value)
-    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _value_text(value: object) -> str:

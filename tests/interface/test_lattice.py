@@ -222,7 +222,7 @@ def test_what_cannot_be_joined_or_slid_is_refused(change, key):
     + [{"lattice_constant": 2.0, "weight": float("nan")}, {"lattice_constant": True}],
 )
 def test_options_of_a_lattice_are_checked(options):
-    with pytest.raises(InputError, match="finite number"):
+    with pytest.raises(InputError, match="a positive number"):
         Lattice(**options)
 
 

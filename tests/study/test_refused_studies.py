@@ -72,7 +72,7 @@ ALSO_REFUSED = [
         {"surface/rms_gradient": GONE, "surface/rms_height": 0.0},
         "surface.rms_height",
         0.0,
-        "positive, finite number in nm",
+        "positive number, 1e-100 to 1e+100, in nm",
     ),
     ({"vary": {"surface.rms_height": [10.0]}}, "surface.rms_gradient", [0.01, 10.0], "exactly one of"),
     ({"points": 30, "coarse_grid": GONE}, "points", 30, "more than 30: two points per shortest"),

@@ -19,7 +19,11 @@ import numpy as np
 from contactsim.contact.steps import LoadStep, PathPart, Slide, Sweep
 from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import read_numbers
 from contactsim.traits import Trait
+
+PARTS = LoadStep, Sweep, Slide
+"""Kinds of parts of a path."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,8 @@ class LoadPath:
     from_touch: bool = False
 
     def __post_init__(self) -> None:
+        if not (isinstance(self.parts, tuple) and self.parts and all(isinstance(part, PARTS) for part in self.parts)):
+            raise InputError("parts", self.parts, "a tuple of one or more steps, sweeps and slides")
         sliding = [part.slides for part in self.parts]
         if sliding != sorted(sliding):
             raise InputError("path", "pressed after sliding", "a path that presses first, then slides")
@@ -140,7 +146,11 @@ def pressures(
     """
     if increment is not None:
         return sweep(Trait.MEAN_PRESSURE, values, increment, from_touch)
-    pairs = zip(values, labels or [""] * len(values), strict=True)
+    numbers = read_numbers("mean_pressure", values)
+    names = [labels] if isinstance(labels, str) or not isinstance(labels, Sequence) else list(labels)
+    if names and len(names) != len(numbers):
+        raise InputError("labels", labels, f"a name for each of the {len(numbers)} mean pressures, or none")
+    pairs = zip(numbers, names or [""] * len(numbers), strict=True)
     return LoadPath(tuple(LoadStep(Trait.MEAN_PRESSURE, value, label) for value, label in pairs), from_touch)
 
 
@@ -158,7 +168,8 @@ def approaches(values: Sequence[float], increment: float | None = None, *, from_
     """
     if increment is not None:
         return sweep(Trait.APPROACH, values, increment, from_touch)
-    return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in values), from_touch)
+    numbers = read_numbers("approach", values)
+    return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in numbers), from_touch)
 
 
 def sliding(
@@ -182,7 +193,8 @@ def sliding(
     from_touch : bool
         True where approaches count from first touch instead of the mean planes.
     """
-    return LoadPath((Slide(tuple(turning_points), increment, load_step(approach, mean_pressure, "held")),), from_touch)
+    ends, held = read_numbers("turning_points", turning_points, least=2), load_step(approach, mean_pressure, "held")
+    return LoadPath((Slide(ends, increment, held),), from_touch)
 
 
 def load_step(approach: float | None, mean_pressure: float | None, key: str) -> LoadStep:
@@ -203,4 +215,4 @@ def load_step(approach: float | None, mean_pressure: float | None, key: str) -> 
 
 def sweep(control: Trait, turning_points: Sequence[float], increment: float, from_touch: bool = False) -> LoadPath:
     """Return a path through turning points of an approach or a mean pressure; see `Sweep`."""
-    return LoadPath((Sweep(control, tuple(turning_points), increment),), from_touch)
+    return LoadPath((Sweep(control, read_numbers("turning_points", turning_points, least=2), increment),), from_touch)

@@ -8,18 +8,21 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.base import relative_compliance, relative_coupled_compliance
 from contactsim.elasticity.symbol import Symbol
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.superposition import superpose
+from contactsim.numeric_input import is_number
 
-MAX_TOLERANCE = 0.1
-"""Largest tolerance: with a larger one, the undeformed state would soon be a solution."""
+MIN_TOLERANCE, MAX_TOLERANCE = 1e-13, 0.1
+"""Smallest tolerance, which rounding hides, and the largest: with a larger one, the undeformed state would soon be a
+solution."""
 
 
 def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
-    """Refuse a tolerance that is no positive number, or so large that the undeformed state would meet it."""
-    if not (is_number(tolerance) and 0 < tolerance <= MAX_TOLERANCE):
-        raise InputError(name, tolerance, f"a number above 0, at most {MAX_TOLERANCE}, in parts of the laws' strength")
+    """Refuse a tolerance that rounding hides, or that the undeformed state would meet."""
+    if not (is_number(tolerance) and MIN_TOLERANCE <= tolerance <= MAX_TOLERANCE):
+        allowed = f"at least {MIN_TOLERANCE:g}, at most {MAX_TOLERANCE:g}, in parts of the laws' strength"
+        raise InputError(name, tolerance, allowed)
 
 
 def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int = 1) -> CohesiveProblem:

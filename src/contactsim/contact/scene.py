@@ -8,6 +8,7 @@ half-spaces that keep their volume: there a law that reads the tangential gap ha
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property, reduce
@@ -39,6 +40,10 @@ class ProblemKind(Enum):
     """Traction is a smooth function of the gap; states follow one another along a path."""
 
 
+LAW_LENGTHS = 1e-9, 1e9
+"""Smallest and largest length of a law, over the period."""
+DEEPEST_OVERLAP = 100.0
+"""Overlap, in the laws' lengths, under which they bear any pressure that a scene may have."""
 RIGID = None
 """Elasticity of a rigid body: absent, not stiff."""
 
@@ -105,6 +110,8 @@ class Scene:
         self._check_parts()
         self._check_sliding()
         self._check_surfaces()
+        self._check_lengths()
+        self._check_loads()
 
     def _check_parts(self) -> None:
         """Raise InputError for bodies, effects or loads that are missing or impossible."""
@@ -132,6 +139,27 @@ class Scene:
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise InputError("length", lengths, "the same periods for both surfaces")
+
+    def _check_lengths(self) -> None:
+        """Raise InputError for a law's length that rounding would hide beside the period, or the period beside it."""
+        for law in self.laws:
+            for name in ("normal_length", "tangential_length"):
+                length = getattr(law, name, self.length)
+                if not (LAW_LENGTHS[0] <= length / self.length <= LAW_LENGTHS[1] or length == math.inf):
+                    ends = " to ".join(f"{end * self.length:g}" for end in LAW_LENGTHS)
+                    raise InputError(name, length, f"{ends} nm, for a period of {self.length:g} nm")
+
+    def _check_loads(self) -> None:
+        """Raise InputError for a mean pressure that the laws could bear under a very deep overlap alone."""
+        if not self.laws or self.kind is not ProblemKind.COHESIVE:
+            return
+        bearable = sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in self.acting_laws)
+        for step in (step.normal for step in self.path.steps):
+            if step.control is Trait.MEAN_PRESSURE and step.value > bearable:
+                allowed = (
+                    f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
+                )
+                raise InputError("mean_pressure", step.value, allowed)
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:
@@ -232,3 +260,10 @@ class Scene:
 def _is_law(effect: Effect) -> TypeGuard[Law]:
     """Return True if an effect is a smooth function of the gap."""
     return Trait.SMOOTH in effect.traits
+
+
+def _repulsion(law: Law, overlap: float) -> float:
+    """Return the normal traction (GPa) with which a law resists an overlap (nm) without slip."""
+    gap = np.zeros((len(law.reads), 1))
+    gap[0] = -overlap
+    return -float(law.traction(gap)[0, 0])

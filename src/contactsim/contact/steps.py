@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Protocol
 
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
+from contactsim.numeric_input import NUMBER, POSITIVE, is_number, is_positive, keep_floats
 from contactsim.traits import Trait
 
 MAX_STEPS = 1_000_000
@@ -70,7 +71,10 @@ class LoadStep:
 
     def __post_init__(self) -> None:
         if not is_number(self.value):
-            raise InputError(self.control.name.lower(), self.value, "a finite number")
+            raise InputError(self.control.name.lower(), self.value, NUMBER)
+        if not isinstance(self.label, str):
+            raise InputError("labels", self.label, "text")
+        keep_floats(self)
         if (self.held is not None) != (self.control is Trait.SLIDE):
             raise InputError("held", self.held, "an approach or a mean pressure while sliding, and only then")
 
@@ -133,6 +137,11 @@ class Sweep:
     increment: float
     slides = False
 
+    def __post_init__(self) -> None:
+        if not is_positive(self.increment):
+            raise InputError("increment", self.increment, POSITIVE)
+        keep_floats(self)
+
     @property
     def steps(self) -> tuple[LoadStep, ...]:
         """Load steps in their order."""
@@ -161,6 +170,11 @@ class Slide:
     increment: float
     held: LoadStep
     slides = True
+
+    def __post_init__(self) -> None:
+        if not is_positive(self.increment):
+            raise InputError("increment", self.increment, POSITIVE)
+        keep_floats(self)
 
     @property
     def steps(self) -> tuple[LoadStep, ...]:

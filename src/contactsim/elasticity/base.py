@@ -7,8 +7,9 @@ from functools import reduce
 from typing import Protocol
 
 from contactsim.elasticity.symbol import CoupledSymbol, NormalSymbol, Symbol
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
+from contactsim.numeric_input import POSITIVE, is_number, is_positive
 from contactsim.traits import Trait
 
 
@@ -78,8 +79,8 @@ class Elasticity(Protocol):
 
 def check_contact_modulus(contact_modulus: object) -> None:
     """Raise an InputError unless a contact modulus is positive and finite."""
-    if not (is_number(contact_modulus) and contact_modulus > 0):
-        raise InputError("contact_modulus", contact_modulus, "a positive, finite number in GPa")
+    if not is_positive(contact_modulus):
+        raise InputError("contact_modulus", contact_modulus, f"{POSITIVE}, in GPa")
 
 
 def check_poisson_ratio(poisson_ratio: object) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from contactsim.elasticity.base import check_contact_modulus, check_poisson_ratio, known_poisson_ratio
 from contactsim.elasticity.symbol import CoupledSymbol
 from contactsim.grid import Array
+from contactsim.numeric_input import keep_floats
 from contactsim.traits import Trait
 
 
@@ -43,6 +44,7 @@ class HalfSpace:
         check_contact_modulus(self.contact_modulus)
         if self.poisson_ratio is not None:
             check_poisson_ratio(self.poisson_ratio)
+        keep_floats(self)
 
     @property
     def youngs_modulus(self) -> float | None:

@@ -16,8 +16,9 @@ from contactsim.elasticity.plane_strain import (
     sinh_less_argument,
 )
 from contactsim.elasticity.symbol import CoupledSymbol
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import POSITIVE, is_positive, keep_floats
 from contactsim.traits import Trait
 
 UNIFORM_LIMIT = 1e-60
@@ -66,8 +67,9 @@ class Layer:
     def __post_init__(self) -> None:
         check_contact_modulus(self.contact_modulus)
         check_poisson_ratio(self.poisson_ratio)
-        if not (is_number(self.thickness) and self.thickness > 0):
-            raise InputError("thickness", self.thickness, "a positive, finite number in nm")
+        if not is_positive(self.thickness):
+            raise InputError("thickness", self.thickness, f"{POSITIVE}, in nm")
+        keep_floats(self)
 
     @property
     def youngs_modulus(self) -> float:

@@ -6,6 +6,7 @@ from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
+from contactsim.numeric_input import POSITIVE, is_positive
 
 ELASTICITIES = {"half_space": HalfSpace, "layer": Layer}
 
@@ -42,7 +43,7 @@ def make_elasticity(
     if youngs_modulus is not None:
         if poisson_ratio is None:
             raise InputError("poisson_ratio", None, "a number, where Young's modulus is given")
-        if not youngs_modulus > 0:
-            raise InputError("youngs_modulus", youngs_modulus, "a positive, finite number in GPa")
+        if not is_positive(youngs_modulus):
+            raise InputError("youngs_modulus", youngs_modulus, f"{POSITIVE}, in GPa")
         contact_modulus = youngs_modulus / (1 - poisson_ratio**2)
     return ELASTICITIES[kind](contact_modulus=contact_modulus, poisson_ratio=poisson_ratio, **options)

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from typing import Protocol, TypeGuard, cast
 
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import POSITIVE, is_positive
 from contactsim.traits import Trait
 
 
@@ -97,5 +98,5 @@ def potential(law: Law, gap: Array) -> Array:
 def check_positive(unit: str, **values: float) -> None:
     """Refuse parameters of a law that are not positive, finite numbers; the unit is quoted."""
     for name, value in values.items():
-        if not (is_number(value) and value > 0):
-            raise InputError(name, value, f"a positive, finite number in {unit}")
+        if not is_positive(value):
+            raise InputError(name, value, f"{POSITIVE}, in {unit}")

@@ -20,10 +20,11 @@ from math import inf
 
 import numpy as np
 
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.exponentials import MAX_OVERLAP, MAX_SLIP, decay, pull
+from contactsim.numeric_input import POSITIVE, is_number, is_positive, keep_floats
 from contactsim.traits import Trait
 
 
@@ -58,6 +59,7 @@ class CohesiveZone:
         _check_parameters(self)
         if not (is_number(self.work_ratio) and self.work_ratio >= 0):
             raise InputError("work_ratio", self.work_ratio, "0 or a positive number")
+        keep_floats(self)
 
     @property
     def tangential_work(self) -> float:
@@ -158,6 +160,7 @@ class NormalCohesiveZone:
     def __post_init__(self) -> None:
         check_positive("N/m", work_of_separation=self.work_of_separation)
         check_positive("nm", normal_length=self.normal_length)
+        keep_floats(self)
 
     @property
     def strength(self) -> float:
@@ -218,9 +221,10 @@ class UncoupledCohesiveZone:
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
 
     def __post_init__(self) -> None:
-        if not (is_number(self.work_ratio) and self.work_ratio > 0):
-            raise InputError("work_ratio", self.work_ratio, "a positive number; without friction, normal_cohesive_zone")
+        if not is_positive(self.work_ratio):
+            raise InputError("work_ratio", self.work_ratio, f"{POSITIVE}; without friction, normal_cohesive_zone")
         _check_parameters(self)
+        keep_floats(self)
 
     @cached_property
     def _normal(self) -> NormalCohesiveZone:

@@ -7,12 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.exponentials import MAX_SLIP
 from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
+from contactsim.numeric_input import is_number, keep_floats
 from contactsim.traits import Trait
 
 
@@ -50,6 +51,7 @@ class FrictionalRepulsiveZone:
         if not (is_number(self.friction_coefficient) and self.friction_coefficient >= 0):
             raise InputError("friction_coefficient", self.friction_coefficient, "0 or a positive number")
         check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
+        keep_floats(self)
 
     @cached_property
     def _wall(self) -> RepulsiveZone:
@@ -138,6 +140,7 @@ class StiffMixedZone:
     def __post_init__(self) -> None:
         check_positive("GPa/nm", contact_stiffness=self.contact_stiffness)
         CohesiveZone.__post_init__(self._open)
+        keep_floats(self)
 
     @cached_property
     def _open(self) -> CohesiveZone:

@@ -19,9 +19,10 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.elasticity.base import Elasticity
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Law, potential
+from contactsim.numeric_input import POSITIVE, is_number, is_positive, keep_floats
 from contactsim.traits import Trait
 
 MAX_SITES = 100000
@@ -203,13 +204,14 @@ class Lattice:
 
     def __post_init__(self) -> None:
         if not (is_number(self.tangential_cutoff) and self.tangential_cutoff >= 0):
-            allowed = "a finite number 0 or more, in tangential lengths"
+            allowed = f"0 or {POSITIVE}, in tangential lengths"
             raise InputError("tangential_cutoff", self.tangential_cutoff, allowed)
         units = {"lattice_constant": "nm", "normal_cutoff": "normal lengths", "weight": "parts"}
         values = {name: value for name, value in vars(self).items() if name in units}
         for name, value in values.items():
-            if not (is_number(value) and value > 0):
-                raise InputError(name, value, f"a finite number above 0, in {units[name]}")
+            if not is_positive(value):
+                raise InputError(name, value, f"{POSITIVE}, in {units[name]}")
+        keep_floats(self)
 
     def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
         """Raise a `InputError` unless the lower body is rigid, the contact a line and the laws smooth."""

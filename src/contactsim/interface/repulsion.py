@@ -15,6 +15,7 @@ import numpy as np
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.numeric_input import keep_floats
 from contactsim.traits import Trait
 
 
@@ -43,6 +44,7 @@ class RepulsiveZone:
     def __post_init__(self) -> None:
         check_positive("N/m", work_of_separation=self.work_of_separation)
         check_positive("nm", normal_length=self.normal_length)
+        keep_floats(self)
 
     @cached_property
     def _whole(self) -> NormalCohesiveZone:
@@ -108,6 +110,7 @@ class StiffCohesiveZone:
         check_positive("N/m", work_of_separation=self.work_of_separation)
         check_positive("GPa/nm", contact_stiffness=self.contact_stiffness)
         check_positive("nm", normal_length=self.normal_length)
+        keep_floats(self)
 
     @cached_property
     def _pull(self) -> NormalCohesiveZone:

@@ -14,7 +14,8 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
+from contactsim.numeric_input import POSITIVE, is_positive, keep_floats
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.increment_control import ROUNDING, IncrementController
 from contactsim.paths.jumps import FOLD_WIDTH, Jump
@@ -26,6 +27,8 @@ from contactsim.traits import Trait
 
 DEFAULT_ERROR, DEFAULT_MIN, DEFAULT_MAX = 0.005, 0.01, 1.0
 """Error of a prediction, and smallest and largest increment of an approach, in the laws' length."""
+MIN_SHARE = 1e-9
+"""Smallest increment that may be asked for, over the range of the path."""
 
 
 @dataclass(frozen=True)
@@ -56,10 +59,11 @@ class Adaptive:
     def __post_init__(self) -> None:
         for name in ("error", "least", "most", "fold_width"):
             value = getattr(self, name)
-            if value is not None and not (is_number(value) and value > 0):
-                raise InputError(name, value, "a positive number")
+            if value is not None and not is_positive(value):
+                raise InputError(name, value, POSITIVE)
         if self.least is not None and self.most is not None and self.least > self.most:
             raise InputError("least", self.least, f"at most the longest increment, {self.most:g}")
+        keep_floats(self)
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Raise InputError for a solver without predictions, and for a mean pressure without bounds."""
@@ -68,6 +72,9 @@ class Adaptive:
         bounds = {"least": self.least, "most": self.most}
         if None in bounds.values() and any(step.control is Trait.MEAN_PRESSURE for step in steps):
             raise InputError("least", bounds, "least and most in GPa, where a mean pressure is prescribed")
+        reach = np.ptp([step.value for step in steps])
+        if self.least is not None and self.least < MIN_SHARE * reach:
+            raise InputError("least", self.least, f"at least {MIN_SHARE:g} of the path's {reach:g}")
 
     def coarsened(self, factor: int) -> Adaptive:
         """Return the same increments: they do not depend on the grid."""

@@ -8,7 +8,8 @@ from typing import Protocol
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
+from contactsim.numeric_input import POSITIVE, is_positive, keep_floats
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.jumps import FOLD_WIDTH
@@ -54,8 +55,9 @@ class Requested:
     fold_width: float = FOLD_WIDTH
 
     def __post_init__(self) -> None:
-        if not (is_number(self.fold_width) and self.fold_width > 0):
-            raise InputError("fold_width", self.fold_width, "a positive number")
+        if not is_positive(self.fold_width):
+            raise InputError("fold_width", self.fold_width, POSITIVE)
+        keep_floats(self)
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Accept any path."""

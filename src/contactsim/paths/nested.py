@@ -16,6 +16,7 @@ from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import is_whole, keep_floats, read_numbers
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
@@ -53,15 +54,17 @@ class Nested:
     intermediate_tolerance: float = 1e-4
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "full_grid_at", read_numbers("full_grid_at", self.full_grid_at, least=0))
         for name in ("coarse_tolerance", "intermediate_tolerance"):
             check_tolerance(getattr(self, name), name)
         for name in ("coarse_ratio", "intermediate_ratio"):
             value = getattr(self, name)
-            if value < 1 or value & (value - 1):
+            if not is_whole(value) or int(value) & (int(value) - 1):
                 raise InputError(name, value, "a power of two")
         if self.intermediate_ratio > self.coarse_ratio:
             allowed = f"at most the ratio of the coarse grid, {self.coarse_ratio}"
             raise InputError("intermediate_ratio", self.intermediate_ratio, allowed)
+        keep_floats(self)
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Raise InputError for slides, for a grid that cannot be coarsened, and for values that are no steps."""

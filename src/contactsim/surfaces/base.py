@@ -8,6 +8,7 @@ import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
+from contactsim.numeric_input import POSITIVE, is_positive, is_whole
 
 
 class Surface(Protocol):
@@ -55,13 +56,13 @@ class Surface(Protocol):
 
 def check_length(length: float) -> None:
     """Raise an InputError unless a period in nm is positive and finite."""
-    if not (np.isfinite(length) and length > 0):
-        raise InputError("length", length, "a positive, finite period in nm")
+    if not is_positive(length):
+        raise InputError("length", length, f"{POSITIVE}, in nm: a period")
 
 
 def check_dimensions(dimensions: int) -> None:
     """Raise an InputError unless there are one or two dimensions."""
-    if dimensions not in (1, 2):
+    if not (is_whole(dimensions) and dimensions <= 2):
         raise InputError("dimensions", dimensions, "1, a line, or 2, a surface")
 
 

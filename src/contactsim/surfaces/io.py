@@ -5,7 +5,6 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import POSITIVE, is_positive
 
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
 TEXT = (".csv", ".txt", ".xyz", ".dat")
@@ -53,9 +53,9 @@ def report_unreadable(file: Path, *more: type[Exception]) -> Iterator[None]:
 
 def positive_spacing(spacing: object, file: object) -> float:
     """Return a spacing as a float; InputError unless it is a positive finite number."""
-    if isinstance(spacing, Real) and not isinstance(spacing, bool) and 0 < float(spacing) < np.inf:
+    if is_positive(spacing):
         return float(spacing)
-    raise InputError("spacing", spacing, "a positive finite number, in nm", file)
+    raise InputError("spacing", spacing, f"{POSITIVE}, in nm", file)
 
 
 def finite_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:

@@ -19,9 +19,12 @@ import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
+from contactsim.numeric_input import POSITIVE, is_number, is_positive, keep_floats
 from contactsim.surfaces.base import Smooth, check_dimensions, check_length
 
 AMPLITUDES = ("gaussian", "fixed")
+MAX_WAVES = 2**28
+"""Most waves in a period along each direction."""
 CUTOFF_RATIO = 512
 """Long over short cut-off where none is chosen: that of the thesis's rough lines."""
 
@@ -90,29 +93,33 @@ class SelfAffine(Smooth):
         check_length(self.length)
         if self.long_cutoff is None:
             object.__setattr__(self, "long_cutoff", self.length)
+        check_dimensions(self.dimensions)
+        if not (is_number(self.hurst_exponent) and 0 <= self.hurst_exponent <= 1):
+            raise InputError("hurst_exponent", self.hurst_exponent, "a number from 0 to 1")
+        if not (is_positive(self.long_cutoff) and self.long_cutoff <= self.length):
+            raise InputError("long_cutoff", self.long_cutoff, f"above 0 nm, at most {self.length} nm")
         if self.short_cutoff is None:
             object.__setattr__(self, "short_cutoff", self.long_cutoff / CUTOFF_RATIO)
-        check_dimensions(self.dimensions)
-        if not 0 <= self.hurst_exponent <= 1:
-            raise InputError("hurst_exponent", self.hurst_exponent, "a number from 0 to 1")
-        if not 0 < self.long_cutoff <= self.length:
-            raise InputError("long_cutoff", self.long_cutoff, f"above 0 nm, at most {self.length} nm")
-        if not 0 < self.short_cutoff < self.long_cutoff:
-            allowed = f"above 0 nm, below the long cut-off {self.long_cutoff} nm"
+        shortest = self.length / MAX_WAVES
+        if not (is_positive(self.short_cutoff) and shortest <= self.short_cutoff < self.long_cutoff):
+            allowed = f"at least {shortest:g} nm, below the long cut-off {self.long_cutoff} nm"
             raise InputError("short_cutoff", self.short_cutoff, allowed)
         if (self.rms_gradient is None) == (self.rms_height is None):
             given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
             raise InputError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
-        for name, unit in (("rms_gradient", ""), ("rms_height", " in nm")):
+        for name, unit in (("rms_gradient", ""), ("rms_height", ", in nm")):
             value = getattr(self, name)
-            if value is not None and not (np.isfinite(value) and value > 0):
-                raise InputError(name, value, f"a positive, finite number{unit}")
-        if self.low_pass_cutoff is not None and not self.short_cutoff < self.low_pass_cutoff < self.long_cutoff:
+            if value is not None and not is_positive(value):
+                raise InputError(name, value, f"{POSITIVE}{unit}")
+        low_pass = self.low_pass_cutoff
+        if low_pass is not None and not (is_number(low_pass) and self.short_cutoff < low_pass < self.long_cutoff):
             ends = f"above the short cut-off {self.short_cutoff} nm, below the long cut-off"
             allowed = f"{ends} {self.long_cutoff} nm, or left out"
             raise InputError("low_pass_cutoff", self.low_pass_cutoff, allowed)
-        if self.amplitudes not in AMPLITUDES:
+        if not isinstance(self.amplitudes, str) or self.amplitudes not in AMPLITUDES:
             raise InputError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
+        _check_seed(self.seed)
+        keep_floats(self)
 
     def __repr__(self) -> str:
         """Return the exact fields that differ from their defaults: equal texts mean equal surfaces."""
@@ -198,6 +205,13 @@ class SelfAffine(Smooth):
         half = np.zeros(grid.half_shape, complex)
         half[grid.low_modes(self.modes)] = self.coefficients
         return grid.backward(half)
+
+
+def _check_seed(seed: object) -> None:
+    """Raise InputError unless a seed is a whole number or a tuple of them."""
+    parts = seed if isinstance(seed, tuple | list) else (seed,)
+    if not parts or not all(isinstance(part, int | np.integer) and part >= 0 for part in parts):
+        raise InputError("seed", seed, "a whole number, 0 or more, or a tuple of them")
 
 
 def _waves(length: float, cutoff: float) -> int:

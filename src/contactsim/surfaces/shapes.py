@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
+from contactsim.numeric_input import NUMBER, POSITIVE, is_number, is_positive, is_whole, keep_floats
 from contactsim.surfaces.base import Smooth, Surface, check_dimensions, check_length
 
 
@@ -32,6 +33,9 @@ class Flat(Smooth):
     def __post_init__(self) -> None:
         for period in self.lengths:
             check_length(period)
+        if not is_number(self.height):
+            raise InputError("height", self.height, f"{NUMBER}, in nm")
+        keep_floats(self)
 
     @classmethod
     def facing(cls, surface: Surface) -> Flat:
@@ -54,6 +58,10 @@ class Flat(Smooth):
         return np.full((1,) * (len(self.lengths) - 1) + (points,), float(self.height))
 
 
+MIN_RADIUS = 1e-6
+"""Smallest radius, over the period: the foot of a sharper shape is too deep to be told from its crest."""
+
+
 @dataclass(frozen=True)
 class _Round(Smooth):
     """Heights -ρ²/2R, ρ the distance from the middle of the period."""
@@ -63,8 +71,11 @@ class _Round(Smooth):
 
     def __post_init__(self) -> None:
         check_length(self.length)
-        if not (np.isfinite(self.radius) and self.radius > 0):
-            raise InputError("radius", self.radius, "a positive, finite number in nm")
+        if not is_positive(self.radius):
+            raise InputError("radius", self.radius, f"{POSITIVE}, in nm")
+        if self.radius < MIN_RADIUS * self.length:
+            raise InputError("radius", self.radius, f"at least {MIN_RADIUS:g} of the period, {self.length:g} nm")
+        keep_floats(self)
 
     def heights(self, points: int) -> Array:
         """Return the heights -ρ²/2R in nm, at most 0, shape (points,) or (points, points)."""
@@ -125,10 +136,11 @@ class Sinusoid(Smooth):
     def __post_init__(self) -> None:
         check_length(self.length)
         check_dimensions(self.dimensions)
-        if not (np.isfinite(self.amplitude) and self.amplitude > 0):
-            raise InputError("amplitude", self.amplitude, "a positive, finite number in nm")
-        if not (is_number(self.periods) and self.periods >= 1 and self.periods == int(self.periods)):
+        if not is_positive(self.amplitude):
+            raise InputError("amplitude", self.amplitude, f"{POSITIVE}, in nm")
+        if not is_whole(self.periods):
             raise InputError("periods", self.periods, "a whole number, 1 or more")
+        keep_floats(self)
 
     def heights(self, points: int) -> Array:
         """Return the heights in nm, a crest at the origin, shape (points,) or (points, points)."""

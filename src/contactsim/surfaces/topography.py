@@ -14,6 +14,7 @@ import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import POSITIVE
 from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
 from contactsim.surfaces.io import SUFFIXES, TEXT, RawHeights
@@ -170,6 +171,6 @@ def _read_spacing(spacing: object, dimensions: int, file: object) -> tuple[float
     values = list(spacing) if isinstance(spacing, list | tuple | np.ndarray) and np.ndim(spacing) == 1 else None
     values = [spacing] * dimensions if values is None else values
     if len(values) != dimensions:
-        allowed = "a positive finite number, in nm" + ", or a pair (dy, dx) of them" * (dimensions == 2)
+        allowed = f"{POSITIVE}, in nm" + ", or a pair (dy, dx) of them" * (dimensions == 2)
         raise InputError("spacing", spacing, allowed, file)
     return tuple(io.positive_spacing(value, file) for value in values)

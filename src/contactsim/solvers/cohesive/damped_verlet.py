@@ -20,8 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError
 from contactsim.grid import Array
+from contactsim.numeric_input import POSITIVE, is_positive
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -182,5 +183,5 @@ def _check_positive(method: object, *names: str) -> None:
     """Raise a `InputError` for an option that is not a positive, finite number."""
     for name in names:
         value = getattr(method, name)
-        if not (is_number(value) and value > 0):
-            raise InputError(name, value, "a positive, finite number")
+        if not is_positive(value):
+            raise InputError(name, value, POSITIVE)
