@@ -222,7 +222,7 @@ def test_dynamics_that_diverge_are_reported():
 
 def test_work_is_counted_in_transforms():
     scene = scene_of(LAWS["frictional"])
-    problem = pose_cohesive(scene, scene.heights(64), 1e-30).at(LoadStep(Trait.APPROACH, -8.0))
+    problem = pose_cohesive(scene, scene.heights(64), 1e-13).at(LoadStep(Trait.APPROACH, -8.0))
     found = make_solver("damped_verlet", batch=10, budget=3).flow_from(problem, np.zeros(problem.unknowns, complex))
     assert found.iterations == 30
     # four for each of 30 steps, for each of 4 checks and their 2, and 2 for how far it moved

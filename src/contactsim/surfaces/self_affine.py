@@ -208,9 +208,11 @@ class SelfAffine(Smooth):
 
 
 def _check_seed(seed: object) -> None:
-    """Raise InputError unless a seed is a whole number or a tuple of them."""
-    parts = seed if isinstance(seed, tuple | list) else (seed,)
-    if not parts or not all(isinstance(part, int | np.integer) and part >= 0 for part in parts):
+    """Raise InputError unless a seed is a whole number or a tuple of seeds."""
+    if isinstance(seed, tuple | list) and seed:
+        for part in seed:
+            _check_seed(part)
+    elif not (isinstance(seed, int | np.integer) and seed >= 0):
         raise InputError("seed", seed, "a whole number, 0 or more, or a tuple of them")
 
 
