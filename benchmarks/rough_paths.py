@@ -1,6 +1,6 @@
 """What paths of rough adhesive lines cost: the default solver beside mass-weighted Verlet, at equal error.
 
-    python benchmarks/rough_paths.py    # about a quarter of an hour
+    python benchmarks/rough_paths.py    # three minutes
 
 Thirty-one approaches in steps of 1 nm, each state from the one before, in turns in one process on one thread. An error
 is the largest difference of the mean pressure over the largest one, or of the length in contact over the longest one,
