@@ -25,7 +25,7 @@ from contactsim import (
     simulate,
     sliding,
 )
-from contactsim.numeric_input import LARGEST, SMALLEST, is_number, is_positive, is_whole, read_numbers
+from contactsim.errors import LARGEST, SMALLEST, is_number, is_positive, is_whole, read_numbers
 
 STRANGE = [
     "x", "", None, fractions.Fraction(1, 3), decimal.Decimal("0.5"), np.float16(0.5), np.float32(0.5), [], [1.0, 2.0],

@@ -13,7 +13,6 @@ ROOT = Path(__file__).parents[1]
 FLOORS = (
     (
         "errors",
-        "numeric_input",
         "grid",
         "traits",
         "threads",

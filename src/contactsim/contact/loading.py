@@ -17,9 +17,8 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.contact.steps import LoadStep, PathPart, Slide, Sweep
-from contactsim.errors import InputError
+from contactsim.errors import InputError, read_numbers
 from contactsim.grid import Array
-from contactsim.numeric_input import read_numbers
 from contactsim.traits import Trait
 
 PARTS = LoadStep, Sweep, Slide

@@ -8,10 +8,9 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.base import relative_compliance, relative_coupled_compliance
 from contactsim.elasticity.symbol import Symbol
-from contactsim.errors import InputError
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.superposition import superpose
-from contactsim.numeric_input import is_number
 
 MIN_TOLERANCE, MAX_TOLERANCE = 1e-13, 0.1
 """Smallest tolerance, which rounding hides, and the largest: with a larger one, the undeformed state would soon be a

@@ -12,9 +12,8 @@ from contactsim.contact.hard_wall import HardWallProblem, Profile, Scale
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.fourier_operator import FourierOperator, RadialSymbol
-from contactsim.errors import InputError
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter, blocks
-from contactsim.numeric_input import is_number
 from contactsim.traits import Trait
 
 MIN_GRID_STEP = 1e-10

@@ -151,7 +151,7 @@ class Scene:
 
     def _check_loads(self) -> None:
         """Raise InputError for a mean pressure that the laws could bear under a very deep overlap alone."""
-        if not self.laws or self.kind is not ProblemKind.COHESIVE:
+        if self.kind is not ProblemKind.COHESIVE:
             return
         bearable = sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in self.acting_laws)
         for step in (step.normal for step in self.path.steps):

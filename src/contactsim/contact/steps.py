@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Protocol
 
-from contactsim.errors import InputError
-from contactsim.numeric_input import NUMBER, POSITIVE, is_number, is_positive, keep_floats
+from contactsim.errors import NUMBER, POSITIVE, InputError, is_number, is_positive, keep_floats
 from contactsim.traits import Trait
 
 MAX_STEPS = 1_000_000
@@ -138,9 +137,7 @@ class Sweep:
     slides = False
 
     def __post_init__(self) -> None:
-        if not is_positive(self.increment):
-            raise InputError("increment", self.increment, POSITIVE)
-        keep_floats(self)
+        _check_increment(self)
 
     @property
     def steps(self) -> tuple[LoadStep, ...]:
@@ -172,9 +169,7 @@ class Slide:
     slides = True
 
     def __post_init__(self) -> None:
-        if not is_positive(self.increment):
-            raise InputError("increment", self.increment, POSITIVE)
-        keep_floats(self)
+        _check_increment(self)
 
     @property
     def steps(self) -> tuple[LoadStep, ...]:
@@ -184,6 +179,13 @@ class Slide:
     def with_increment(self, increment: float) -> Slide:
         """Return the same slide in increments of about that size."""
         return replace(self, increment=increment)
+
+
+def _check_increment(part: Sweep | Slide) -> None:
+    """Raise InputError for an increment that is no positive number; keep it as a float."""
+    if not is_positive(part.increment):
+        raise InputError("increment", part.increment, POSITIVE)
+    keep_floats(part)
 
 
 @lru_cache(maxsize=64)

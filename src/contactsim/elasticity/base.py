@@ -7,9 +7,8 @@ from functools import reduce
 from typing import Protocol
 
 from contactsim.elasticity.symbol import CoupledSymbol, NormalSymbol, Symbol
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_number, is_positive
 from contactsim.grid import Array, Grid
-from contactsim.numeric_input import POSITIVE, is_number, is_positive
 from contactsim.traits import Trait
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from contactsim.elasticity.base import check_contact_modulus, check_poisson_ratio, known_poisson_ratio
 from contactsim.elasticity.symbol import CoupledSymbol
+from contactsim.errors import keep_floats
 from contactsim.grid import Array
-from contactsim.numeric_input import keep_floats
 from contactsim.traits import Trait
 
 

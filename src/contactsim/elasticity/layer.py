@@ -16,9 +16,8 @@ from contactsim.elasticity.plane_strain import (
     sinh_less_argument,
 )
 from contactsim.elasticity.symbol import CoupledSymbol
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
 from contactsim.grid import Array
-from contactsim.numeric_input import POSITIVE, is_positive, keep_floats
 from contactsim.traits import Trait
 
 UNIFORM_LIMIT = 1e-60

@@ -5,8 +5,7 @@ from __future__ import annotations
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.errors import InputError
-from contactsim.numeric_input import POSITIVE, is_positive
+from contactsim.errors import POSITIVE, InputError, is_positive
 
 ELASTICITIES = {"half_space": HalfSpace, "layer": Layer}
 

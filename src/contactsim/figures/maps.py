@@ -18,11 +18,10 @@ from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from contactsim.errors import InputError
+from contactsim.errors import InputError, is_number
 from contactsim.figures import style
 from contactsim.figures.parts.scale_bar import add_scale_bar, fitting_unit
 from contactsim.grid import Array
-from contactsim.numeric_input import is_number
 from contactsim.observables.contact import touching
 from contactsim.status import Status
 

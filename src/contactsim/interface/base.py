@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from typing import Protocol, TypeGuard, cast
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
-from contactsim.numeric_input import POSITIVE, is_positive
 from contactsim.traits import Trait
 
 

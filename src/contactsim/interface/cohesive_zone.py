@@ -20,11 +20,10 @@ from math import inf
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep_floats
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.exponentials import MAX_OVERLAP, MAX_SLIP, decay, pull
-from contactsim.numeric_input import POSITIVE, is_number, is_positive, keep_floats
 from contactsim.traits import Trait
 
 

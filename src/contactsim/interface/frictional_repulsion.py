@@ -7,13 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import InputError, is_number, keep_floats
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.exponentials import MAX_SLIP
 from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
-from contactsim.numeric_input import is_number, keep_floats
 from contactsim.traits import Trait
 
 

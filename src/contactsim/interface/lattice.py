@@ -19,10 +19,9 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.elasticity.base import Elasticity
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep_floats
 from contactsim.grid import Array
 from contactsim.interface.base import Law, potential
-from contactsim.numeric_input import POSITIVE, is_number, is_positive, keep_floats
 from contactsim.traits import Trait
 
 MAX_SITES = 100000

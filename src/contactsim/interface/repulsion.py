@@ -12,10 +12,10 @@ from math import inf
 
 import numpy as np
 
+from contactsim.errors import keep_floats
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
-from contactsim.numeric_input import keep_floats
 from contactsim.traits import Trait
 
 

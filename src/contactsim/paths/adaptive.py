@@ -14,8 +14,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import InputError
-from contactsim.numeric_input import POSITIVE, is_positive, keep_floats
+from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.increment_control import ROUNDING, IncrementController
 from contactsim.paths.jumps import FOLD_WIDTH, Jump

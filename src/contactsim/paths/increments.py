@@ -8,8 +8,7 @@ from typing import Protocol
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import InputError
-from contactsim.numeric_input import POSITIVE, is_positive, keep_floats
+from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.jumps import FOLD_WIDTH

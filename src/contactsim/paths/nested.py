@@ -14,9 +14,8 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.steps import LoadStep
-from contactsim.errors import InputError
+from contactsim.errors import InputError, is_whole, keep_floats, read_numbers
 from contactsim.grid import Array
-from contactsim.numeric_input import is_whole, keep_floats, read_numbers
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver

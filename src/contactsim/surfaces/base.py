@@ -6,9 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_positive, is_whole
 from contactsim.grid import Array, Grid
-from contactsim.numeric_input import POSITIVE, is_positive, is_whole
 
 
 class Surface(Protocol):

@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
-from contactsim.numeric_input import POSITIVE, is_positive
 
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
 TEXT = (".csv", ".txt", ".xyz", ".dat")

@@ -17,9 +17,8 @@ from typing import cast
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep_floats
 from contactsim.grid import Array, Grid
-from contactsim.numeric_input import POSITIVE, is_number, is_positive, keep_floats
 from contactsim.surfaces.base import Smooth, check_dimensions, check_length
 
 AMPLITUDES = ("gaussian", "fixed")

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import NUMBER, POSITIVE, InputError, is_number, is_positive, is_whole, keep_floats
 from contactsim.grid import Array, Grid
-from contactsim.numeric_input import NUMBER, POSITIVE, is_number, is_positive, is_whole, keep_floats
 from contactsim.surfaces.base import Smooth, Surface, check_dimensions, check_length
 
 

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError
 from contactsim.grid import Array
-from contactsim.numeric_input import POSITIVE
 from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
 from contactsim.surfaces.io import SUFFIXES, TEXT, RawHeights

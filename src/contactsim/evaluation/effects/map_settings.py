@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.errors import InputError
+from contactsim.errors import InputError, is_number
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.interface.registry import EFFECTS
-from contactsim.numeric_input import is_number
 from contactsim.study.keys import any_of
 from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.kinds import problem_kind

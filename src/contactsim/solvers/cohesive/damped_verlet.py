@@ -20,9 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
-from contactsim.numeric_input import POSITIVE, is_positive
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.status import Status
 from contactsim.traits import Trait

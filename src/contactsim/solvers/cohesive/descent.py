@@ -5,9 +5,9 @@ gap. In it a step along the gradient is one of a slow flow, and the number of st
 the residual is small, k gives way to the tangents at the state where they are positive, since the long waves of a
 surface that hardly touches are far softer than K + k. If the residual grows again, because the state was at the
 beginning of a jump, k is taken back. A few pairs of steps and changes of the gradient are remembered: there are few
-soft directions. The slope of the energy along
-a step is known from the laws at one gap, without a transform, and the search along a step stops as soon as the slope is
-small. Energies themselves, which lose half of the digits, are not compared.
+soft directions. The slope of the energy along a step is known from the laws at one gap, without a transform, and the
+search along a step stops as soon as the slope is small. Energies themselves, which lose half of the digits, are not
+compared.
 
 References
 ----------

@@ -5,10 +5,10 @@ The flow du/dt = -(K u + T) is what a slow experiment follows from the end of a 
     (K + T' + s) du = -r,
 
 with a shift s, the inverse of the time step, that adapts to the change of the displacement in a step. Steps that go
-uphill or too far are refused; after an uphill one the shift follows from the rate of growth. Once s is
-small against the laws' tangent it is set to zero, and the last steps are Newton's. An unstable state is left along a
-growing displacement. Laws without a potential have tangents that are not symmetric, and there such a displacement may
-yet decay. A state to which the flow returns, in steps in which growth would about double, is stable.
+uphill or too far are refused; after an uphill one the shift follows from the rate of growth. Once s is small against
+the laws' tangent it is set to zero, and the last steps are Newton's. An unstable state is left along a growing
+displacement. Laws without a potential have tangents that are not symmetric, and there such a displacement may yet
+decay. A state to which the flow returns, in steps in which growth would about double, is stable.
 """
 
 from __future__ import annotations
