@@ -14,11 +14,13 @@ from contactsim.contact.steps import LoadStep, Slide
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
+from contactsim.interface.frictional_repulsion import FrictionalRepulsiveZone
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.lattice import Lattice
 from contactsim.interface.pairing import ALIGNED
 from contactsim.interface.superposition import superpose
 from contactsim.reference.springs import spring_sum, steepest_fall
+from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
 
@@ -142,25 +144,34 @@ def test_a_cutoff_of_zero_joins_aligned_points():
         LAW,
         CohesiveZone(2.0),
         UncoupledCohesiveZone(2.0, 0.5),
-        NormalCohesiveZone(1.5),
-        superpose((LAW, NormalCohesiveZone(1.0))),
+        FrictionalRepulsiveZone(2.0, 0.5),
+        superpose((LAW, CohesiveZone(1.0))),
     ],
 )
-def test_any_law_can_be_a_spring(law):
+def test_any_law_that_reads_the_tangential_gap_can_be_a_spring(law):
     springs = Lattice(1.5, tangential_cutoff=3.0).join(law, np.zeros(10), 15.0)
-    gap = gaps(10)[: len(law.reads)]
+    gap = gaps(10)
     sites = 1.5 * (np.rint(gap[1:] / 1.5) + springs.offsets[:, None, None])
     each = [law.traction(np.concatenate((gap[:1], gap[1:] - site))) for site in sites]
     np.testing.assert_allclose(springs.traction(gap), sum(each), atol=1e-13)
     assert springs.reads == law.reads
     assert springs.exerts == law.exerts
+    assert springs.strength >= law.strength
+
+
+class Bowl(CohesiveZone):
+    """A law with the potential Δn² + 3 Δt²."""
+
+    traits = frozenset({Trait.SMOOTH})
+
+    def energy(self, gap: np.ndarray) -> np.ndarray:
+        return gap[0] ** 2 + 3 * gap[1] ** 2
 
 
 def test_potentials_add():
-    law = NormalCohesiveZone(1.5)
-    springs = Lattice(1.5, tangential_cutoff=2.0, weight=0.5).join(law, np.zeros(10), 15.0)
-    gap = gaps(10)[:1]
-    np.testing.assert_allclose(springs.energy(gap), 0.5 * len(springs.offsets) * law.energy(gap))
+    springs = Lattice(1.5, tangential_cutoff=2.0, weight=0.5).join(Bowl(1.5), np.zeros(10), 15.0)
+    gap = np.stack((np.full(10, 2.0), np.zeros(10)))
+    np.testing.assert_allclose(springs.energy(gap), 0.5 * sum(4.0 + 3 * (1.5 * site) ** 2 for site in springs.offsets))
 
 
 def test_weights_count_and_deep_gaps_do_not():
@@ -205,6 +216,7 @@ def sliding(lower: object = None, upper: object = BODY, law: object = LAW, pairi
         ({"lower": BODY, "pairing": Lattice(2.0)}, "pairing"),
         ({"law": HardWall(), "pairing": Lattice(2.0)}, "effects"),
         ({"law": NormalCohesiveZone(2.0)}, "effects"),
+        ({"law": NormalCohesiveZone(2.0), "pairing": Lattice(2.0)}, "effects"),
     ],
 )
 def test_what_cannot_be_joined_or_slid_is_refused(change, key):
@@ -233,6 +245,15 @@ def test_a_slide_needs_something_held_and_comes_last():
         LoadStep(Trait.APPROACH, 1.0, held=HELD)
     with pytest.raises(InputError, match="presses first"):
         LoadPath((Slide((0.0, 1.0), 1.0, HELD),)) >> approaches([1.0])
+
+
+def test_springs_to_other_sites_are_as_long_as_that_where_no_site_moves():
+    surface, path = Flat(length=500.0), approaches([-1.0])
+    bodies = Body(surface), Body(surface, Layer(70.0, 0.5, 500.0))
+    scene = Scene(*bodies, CohesiveZone(2.0), path, Lattice(0.5))
+    assert scene.components == ("n", "t")
+    data = simulate(scene, points=64, tolerance=1e-9)
+    assert -float(data.mean_pressure[0]) == pytest.approx(CohesiveZone(2.0).strength * spring_sum(0.0, 0.5)[0], rel=1e-9)
 
 
 def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():

@@ -135,7 +135,7 @@ class Scene:
 
     def _check_surfaces(self) -> None:
         """Raise InputError for surfaces that the pairing cannot join, or of different periods."""
-        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits)
+        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits, self.laws)
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
         if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
             raise InputError("length", lengths, "the same periods for both surfaces")
@@ -173,11 +173,11 @@ class Scene:
 
     @cached_property
     def slips(self) -> bool:
-        """True where something moves the surfaces along each other: a slide, or normal tractions.
+        """True where points interact at a tangential distance: on a lattice, in a slide, or moved by normal tractions.
 
-        Those of like bodies do not, nor those of ν = 1/2.
+        Normal tractions on like bodies move none, nor do those on bodies of ν = 1/2.
         """
-        if self.sliding:
+        if self.sliding or math.isfinite(self.pairing.lattice_constant):
             return True
         alike = self.lower.elasticity == self.upper.elasticity
         return not alike and any(body.couples for body in self.elasticities)

@@ -79,11 +79,14 @@ class LatticeInteraction:
     def _amplification(self) -> float:
         """Largest normal traction of all springs of a site, over that of one spring."""
         phases = np.linspace(0.0, 0.5, PHASE_COUNT)
-        gap = np.full((len(self.reads), PHASE_COUNT * len(self.offsets)), self.law.interaction_range)
-        gap[1:] = self.lattice_constant * (phases - self.offsets[:, None]).ravel()
-        alone = self.law.traction(np.array([[self.law.interaction_range], [0.0]])[: len(self.reads)])[0, 0]
-        sums = self.law.traction(gap)[0].reshape(len(self.offsets), -1).sum(0)
-        return self.weight * float(sums.max() / alone)
+        slips = self.lattice_constant * (phases - self.offsets[:, None]).ravel()
+        reach = self.law.interaction_range
+        for normal in (reach, -reach):  # a law without a pull has repulsion
+            alone = self.law.traction(np.array([[normal], [0.0]]))[0, 0]
+            if alone:
+                break
+        sums = self.law.traction(np.stack((np.full_like(slips, normal), slips)))[0].reshape(len(self.offsets), -1).sum(0)
+        return self.weight * float((sums / alone).max())
 
     @property
     def strength(self) -> float:
@@ -139,7 +142,7 @@ class LatticeInteraction:
 
     def _nearest_site(self, gap: Array) -> Array:
         """Return the nearest site of the lower lattice (n,), counted from the one opposite in the beginning."""
-        return np.rint(gap[1] / self.lattice_constant) if len(gap) > 1 else np.zeros(gap.shape[1])
+        return np.rint(gap[1] / self.lattice_constant)
 
     def _spring_gaps(self, gap: Array) -> tuple[Array, Array]:
         """Return the points that have springs (near,), and the gap of each spring (reads, sites × near)."""
@@ -150,7 +153,7 @@ class LatticeInteraction:
         springs[0] = gap[0, near]
         if self.lower is not None:
             springs[0] += self._added_gap(self.lower, near, first + self.offsets[:, None])
-        springs[1:] = gap[1:, None, near] - self.lattice_constant * (first + self.offsets[:, None])
+        springs[1] = gap[1, near] - self.lattice_constant * (first + self.offsets[:, None])
         return near, springs.reshape(len(gap), -1)
 
     def _sum_springs(self, values: Array, near: Array, points: int) -> Array:
@@ -212,18 +215,22 @@ class Lattice:
                 raise InputError(name, value, f"{POSITIVE}, in {units[name]}")
         keep_floats(self)
 
-    def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
-        """Raise a `InputError` unless the lower body is rigid, the contact a line and the laws smooth."""
+    def check(
+        self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait], laws: tuple[Law, ...]
+    ) -> None:
+        """Raise an `InputError` unless the lower body is rigid, the contact a line, and laws depend on the slip."""
         if lower is not None:
             allowed = "a rigid lower body: sites that are displaced on both sides are not modelled"
             raise InputError("pairing", "lattice", allowed)
         if self.refuses & traits:
             raise InputError("pairing", "lattice", "aligned, or smooth laws on a line: springs are laws between sites")
+        for law in laws:
+            if "t" not in law.reads:
+                raise InputError("effects", law, "laws that read the tangential gap, as springs to other sites have one")
 
     def join(self, law: Law, lower: Array, length: float) -> LatticeInteraction:
         """Return the springs as one law; see `Pairing.join`."""
-        unit = law.tangential_length if math.isfinite(law.tangential_length) else law.interaction_range
-        sites = math.ceil(self.tangential_cutoff * unit / self.lattice_constant)
+        sites = math.ceil(self.tangential_cutoff * law.tangential_length / self.lattice_constant)
         if sites > MAX_SITES:
             allowed = f"one of at most {MAX_SITES} sites on each side, not {sites}"
             raise InputError("tangential_cutoff", self.tangential_cutoff, allowed)

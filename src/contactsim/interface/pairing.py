@@ -19,8 +19,10 @@ class Pairing(Protocol):
     def lattice_constant(self) -> float:
         """Distance along x after which the interaction repeats itself, nm; infinite if it never does."""
 
-    def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
-        """Raise a `InputError` for bodies (None is rigid) or effects that cannot be paired so."""
+    def check(
+        self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait], laws: tuple[Law, ...]
+    ) -> None:
+        """Raise an `InputError` for bodies (None is rigid) or effects that cannot be paired so."""
 
     def join(self, law: Law, lower: Array, length: float) -> Law:
         """Return the law between two surfaces.
@@ -45,7 +47,9 @@ class Aligned:
 
     lattice_constant = inf
 
-    def check(self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait]) -> None:
+    def check(
+        self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait], laws: tuple[Law, ...]
+    ) -> None:
         """Accept every scene."""
 
     def join(self, law: Law, lower: Array, length: float) -> Law:
