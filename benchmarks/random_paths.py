@@ -6,7 +6,7 @@ Bodies, surfaces, laws, lattices, paths, increments, tolerances and grids are dr
 number. Of a state that is called converged, the gap and the traction are taken, and nothing else. The traction must be
 that of the law at the gap. The gap must be that of the undeformed surfaces and of the displacement that the traction
 causes, to the tolerance or, of an interpolated state, to its stated residual. Prescribed approach, mean pressure and sliding distance must be there. Where the law has a
-potential, no displacement may lower the energy. What is not so, is written with the number of its scene.
+potential, no displacement may lower the energy; elsewhere, none may grow on its own. What is not so, is written with the number of its scene.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from records import on_one_thread
 
 import contactsim as cs
 from contactsim.grid import Array
@@ -36,8 +37,8 @@ ROUNDING = 1e-9
 """What rounding may add to an error, over the size of what is compared."""
 GROWTH = 1e-3
 """Largest rate, over the law's largest tangent, at which a displacement may grow at a stable state."""
-STABILITY_POINTS = 256
-"""Points up to which the whole stiffness is looked at."""
+STABILITY_POINTS = {True: 512, False: 128}
+"""Points up to which the whole stiffness is looked at, of laws with a potential and of others."""
 BEYOND = -10.0
 """Overlap, in the law's lengths, from which laws are continued by their tangents."""
 
@@ -339,7 +340,7 @@ def judge_state(case: Case, state: xr.Dataset, heights: Array) -> dict[str, floa
     off_slip[0] -= points * step.sliding_distance
     for name, off, entry in (("normal", off_normal, nn), ("tangential", off_slip, tt)):
         if entry[0] == 0 and not (name == "normal" and held.control.name == "MEAN_PRESSURE"):
-            size = np.abs(normal).max() + np.abs(heights).max() + abs(step.sliding_distance) + np.abs(slip).max()
+            size = case.scene.laws[0].normal_length + np.abs(normal).max() + np.abs(heights).max() + np.abs(slip).max()
             errors[f"{name} held mode"] = abs(off[0]) / points / (ROUNDING * size)
             off[0] = 0.0
     residual = residual_field(case, (nn, tt, nt), off_normal, off_slip, points)
@@ -352,8 +353,9 @@ def judge_state(case: Case, state: xr.Dataset, heights: Array) -> dict[str, floa
         factor = np.divide(-nt, nn, out=np.zeros_like(nt), where=nn > 0)
         rest = np.fft.irfft(off_slip - 1j * factor * off_normal, points)
         errors["free slip"] = float(np.abs(rest).max() / (1e-7 * size))
-    if case.has_potential and points <= STABILITY_POINTS:
-        errors["stability"] = -softest(case, normal, nn, held.control.name) / (GROWTH * case.stiffness)
+    if points <= STABILITY_POINTS[case.has_potential]:
+        rate = softest(case, (normal, slip), (nn, tt, nt), held.control.name == "MEAN_PRESSURE")
+        errors["stability"] = -rate / (GROWTH * case.stiffness)
     return errors
 
 
@@ -375,27 +377,60 @@ def residual_field(
     return np.stack([np.fft.irfft(normal, points), np.fft.irfft(along, points)])
 
 
-def softest(case: Case, normal: Array, nn: Array, control: str) -> float:
-    """Return the lowest eigenvalue of the second derivative of the energy, GPa/nm."""
-    points, step = normal.size, 1e-6 * case.scene.laws[0].normal_length
-    slip = np.zeros_like(normal)
-    slopes = (case.law(normal + step, slip)[0] - case.law(normal - step, slip)[0]) / (2 * step)
-    slopes = np.maximum(slopes, -case.stiffness)
-    stiffness = np.divide(1.0, nn, out=np.zeros_like(nn), where=nn > 0)
-    first = np.fft.irfft(stiffness, points)
-    places = np.arange(points)
-    matrix = first[(places[:, None] - places) % points] + np.diag(slopes)
-    if control == "MEAN_PRESSURE":
-        matrix -= stiffness[0] / points  # the uniform mode of the gap is free
-    elif nn[0] == 0:  # it is held: out of the way
-        matrix = project_mean(matrix) + case.stiffness * 10 / points
-    return float(np.linalg.eigvalsh(matrix)[0])
+def softest(case: Case, state: tuple[Array, Array], entries: tuple[Array, Array, Array], under_load: bool) -> float:
+    """Return the least rate (GPa/nm) at which a displacement decays; below zero it grows.
+
+    K + D, with the derivative D of the law by finite differences, acts on the values at the points: one component or
+    two. Held modes are out of the way.
+    """
+    (normal, slip), (nn, tt, nt) = state, entries
+    points, size = normal.size, case.scene.laws[0].normal_length
+    step, across = 1e-6 * size, 1e-6 * min(getattr(case.scene.laws[0], "tangential_length", size), size)
+    stiffness = stiffness_matrices(nn, tt, nt, points, case.exerts_shear)
+    by_normal = [(a - b) / (2 * step) for a, b in zip(case.law(normal + step, slip), case.law(normal - step, slip), strict=True)]
+    by_slip = [(a - b) / (2 * across) for a, b in zip(case.law(normal, slip + across), case.law(normal, slip - across), strict=True)]
+    if not case.exerts_shear:
+        factor = np.divide(-1j * nt, nn, out=np.zeros_like(nt, complex), where=nn > 0)
+        matrix = stiffness[0][0] + np.diag(by_normal[0])
+        if not case.has_potential:
+            matrix += by_slip[0][:, None] * operator(factor, points)
+        blocks = [[matrix]]
+        held = [nn[0] == 0 or under_load]
+    else:
+        blocks = [
+            [stiffness[0][0] + np.diag(by_normal[0]), stiffness[0][1] + np.diag(by_slip[0])],
+            [stiffness[1][0] + np.diag(by_normal[1]), stiffness[1][1] + np.diag(by_slip[1])],
+        ]
+        held = [nn[0] == 0 or under_load, tt[0] == 0]
+    if under_load:  # the uniform mode of the gap is free
+        blocks[0][0] = blocks[0][0] - (1 / nn[0] / points if nn[0] else 0.0)
+        held[0] = False
+    whole = np.block(blocks)
+    for row, is_held in enumerate(held):
+        if is_held:
+            mean = np.zeros(len(whole))
+            mean[row * points : (row + 1) * points] = points**-0.5
+            away = np.eye(len(whole)) - np.outer(mean, mean)
+            whole = away @ whole @ away + 10 * case.stiffness * np.outer(mean, mean)
+    values = np.linalg.eigvalsh(whole) if case.has_potential else np.linalg.eigvals(whole).real
+    return float(values.min())
 
 
-def project_mean(matrix: Array) -> Array:
-    """Return a symmetric matrix restricted to vectors of zero mean."""
-    rows = matrix - matrix.mean(0)
-    return rows - rows.mean(1, keepdims=True)
+def operator(symbol: Array, points: int) -> Array:
+    """Return the matrix that multiplies the waves of values at the points by a symbol (m,)."""
+    return np.fft.irfft(symbol[:, None] * np.fft.rfft(np.eye(points), axis=0), points, axis=0)
+
+
+def stiffness_matrices(nn: Array, tt: Array, nt: Array, points: int, both: bool) -> list[list[Array]]:
+    """Return the blocks of the stiffness, of the normal component alone or of both."""
+    if not both:
+        return [[operator(np.divide(1.0, nn, out=np.zeros_like(nn), where=nn > 0), points)]]
+    moves = (nn > 0) & (tt > 0)
+    below = np.where(moves, nn * tt - nt**2, 1.0)
+    normal = np.where(moves, tt / below, np.where(nn > 0, 1 / np.where(nn > 0, nn, 1.0), 0.0))
+    along = np.where(moves, nn / below, np.where(tt > 0, 1 / np.where(tt > 0, tt, 1.0), 0.0))
+    cross = np.where(moves, -1j * nt / below, 0.0)
+    return [[operator(normal, points), operator(cross, points)], [operator(-cross, points), operator(along, points)]]
 
 
 def judge(number: int) -> list[tuple[int, str, float, str]]:
@@ -455,10 +490,10 @@ SOLVED = {status.value[0] for status in cs.Status if status.solved}
 
 def main() -> None:
     """Judge many scenes and write what was found."""
+    on_one_thread()
+    logging.getLogger("contactsim").setLevel(logging.ERROR)
     count = int(sys.argv[1]) if len(sys.argv) > 1 else COUNT
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
-    logging.basicConfig(format="%(message)s", level=logging.INFO)
-    logging.getLogger("contactsim").setLevel(logging.ERROR)
     found: Counter[str] = Counter()
     with multiprocessing.Pool(os.cpu_count()) as pool:
         for rows in pool.imap_unordered(judge, range(first, first + count)):

@@ -118,24 +118,6 @@ def test_the_preconditioner_is_the_inverse_for_long_waves_whatever_tangents_a_zo
         assert np.abs(inverse @ forward - np.eye(len(forward))).max() <= 1e-11
 
 
-def test_the_softest_wave_of_one_zone_serves_another_elsewhere():
-    scene = scene_of(LAWS["uncoupled"])
-    problem = pose_cohesive(scene, scene.heights(256), 1e-7)
-    tangent = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1]
-    values = np.zeros_like(tangent.values)
-    zones = []
-    for place in (40, 200):
-        here = values.copy()
-        here[..., place : place + 20] = -0.2 * problem.law_stiffness
-        zones.append(ZonePreconditioner(problem, Tangent(problem, here)))
-    wave = None
-    for _ in range(1100):  # a wave that faded by half a state would be gone
-        wave = zones[0].softest(wave)[1]
-    unstable, wave = zones[1].softest(wave)
-    assert np.isfinite(wave).all()
-    assert unstable == zones[1].softest(None)[0]
-
-
 @pytest.mark.parametrize("kind", ["newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation"])
 @pytest.mark.parametrize("trait", LAWS)
 def test_a_law_without_potential_is_refused_by_the_minimiser_alone(kind, trait):

@@ -6,9 +6,9 @@ contact) Newton's method could end anywhere. A slow experiment follows the overd
 last stable state. For laws with a potential it goes downhill in energy, and `descent` finds its end in short steps; for
 others see `overdamped_flow`.
 
-A symmetric scene has symmetric equilibria, which no symmetric method leaves, stable or not. The stability of each state
-is therefore checked: by the sign of the determinant of K + T' and by its eigenvalue nearest zero, by-products of the
-preconditioner, and at the end of a flow by all eigenvalues. An unstable state is left along a growing displacement.
+A symmetric scene has symmetric equilibria, which no symmetric method leaves, stable or not. The factors of the
+preconditioner therefore show of each state whether K + T' has negative eigenvalues. An unstable state is left along a
+growing displacement.
 """
 
 from __future__ import annotations
@@ -40,13 +40,12 @@ STEP_DIVISIONS = 1, 3
 
 
 class Memory:
-    """Preconditioner of the last state, which serves the next state nearly as well, and its softest wave."""
+    """Preconditioner of the last state, which serves the next state nearly as well."""
 
     def __init__(self) -> None:
         self._shared: ZonePreconditioner | None = None
         self._last: ZonePreconditioner | None = None
         self._fixed_modes = b""
-        self._wave: Array | None = None
 
     def preconditioner(self, problem: CohesiveProblem, tangent: Tangent) -> ZonePreconditioner:
         """Return the preconditioner of the last state, or a new one if it does not serve."""
@@ -61,11 +60,6 @@ class Memory:
         self._shared = self._last = ZonePreconditioner(problem, tangent, before=before)
         self._fixed_modes = fixed_modes
         return self._shared
-
-    def may_be_unstable(self, preconditioner: ZonePreconditioner) -> bool:
-        """Return whether the state of a preconditioner may be unstable."""
-        negative, self._wave = preconditioner.softest(self._wave)
-        return negative
 
     def record(self, iterations: int) -> None:
         """Forget the preconditioner if a linear solve took many iterations."""
@@ -138,8 +132,7 @@ class NewtonKrylov:
         status = status_of(worst, problem)
         unstable = False
         if status is Status.CONVERGED:
-            fresh = memory.renew(problem, tangent)
-            unstable = memory.may_be_unstable(fresh) and find_growth(tangent, fresh) is not None
+            unstable = find_growth(tangent, memory.renew(problem, tangent)) is not None
         return Equilibrium(displacement, gap, traction, status, worst, distance, count, unstable)
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:

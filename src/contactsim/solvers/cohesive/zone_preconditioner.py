@@ -5,21 +5,20 @@ w = C (r - t) with the tractions t = D w. As D is not zero on the process zone Z
 
     (1 + D_Z C_ZZ) t_Z = D_Z (C r)_Z,   w = C (r - t_Z),
 
-which is one dense factorisation of the size of the zone, with the components that the laws exert. Short waves have the
+which is one dense factorisation of the size of the zone (`zone_factors`). Short waves have the
 stiffness plus a constant shift. A uniform mode that is free (its stiffness is zero, under a prescribed load) has the
 stiffness of the longest wave.
 """
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import ducc0
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array
+from contactsim.solvers.cohesive.zone_factors import GeneralFactors, SymmetricFactors, ZoneFactors
 
 COARSENING, MIN_NODES = 8, 128
 """Points of the grid for each node of the coarse grid of long waves, and smallest number of nodes."""
@@ -30,12 +29,6 @@ SHIFT_RATIO = 2.0
 """Ratio of the largest tangents of two states up to which they share the shift of short waves."""
 ZONE_THRESHOLD = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
-INVERSE_ITERATIONS, OUTSIDE_AMPLITUDE = 2, 0.1
-"""Steps of inverse iteration for each state; initial amplitude of a wave outside the zone, over its rms in the zone."""
-MAX_EIGENVALUES = 160
-"""Largest number of unknowns of a zone whose growing displacements are computed."""
-ROUNDING = 1e-9
-"""Part of its diagonal that is added to the compliance of a zone, so that rounding does not make it indefinite."""
 MAX_UNKNOWNS = 300
 """Unknowns of the zone above which its factorisation costs more than it saves: the coarse grid gets coarser."""
 
@@ -120,87 +113,28 @@ class ZonePreconditioner:
 
     def _factor(self, values: Array) -> None:
         """Factorise 1 + D C on the process zone, for derivatives (exerted, read, nodes)."""
-        from scipy.linalg.lapack import dgetrf
-
         self._zone = np.flatnonzero(self._acting(values))
-        self._values = values[..., self._zone]
-        count, exerted = len(self._zone), len(values)
-        if not count:
-            return
-        apart = (self._zone[:, None] - self._zone) % self._nodes
-        matrix = np.zeros((exerted, count, exerted, count))
-        for column, response in enumerate(self._responses):
-            for component, kernel in enumerate(response):
-                compliance = kernel[apart]
-                for row in range(exerted):
-                    matrix[row, :, column] += self._values[row, component, :, None] * compliance
-        square = matrix.reshape(exerted * count, -1)
-        square[np.diag_indices(len(square))] += 1
-        self._matrix = square
-        self._lu = dgetrf(square)[:2]
-
-    def softest(self, wave: Array | None) -> tuple[bool, Array | None]:
-        """Return whether K + D + shift may have negative eigenvalues, and the tractions of the softest wave.
-
-        An odd number of negative eigenvalues shows in the sign of the determinant. Of an even number, as equal
-        asperities have, the one nearest zero is found by inverse iteration from the softest wave of the state before,
-        where it was the next to change sign: t' = (1 + D C)⁻¹ t, and t·t' is negative.
-
-        Parameters
-        ----------
-        wave
-            Tractions (exerted, nodes) of the softest wave of the state before; None at first.
-        """
-        from scipy.linalg.lapack import dgetrs
-
+        self._factors: ZoneFactors | None = None
+        tangent, apart = values[..., self._zone], (self._zone[:, None] - self._zone) % self._nodes
         if not len(self._zone):
-            return False, wave
-        softest = _asymmetric_wave(len(self._values), self._nodes).copy()
-        factors, swaps = self._lu
-        negative = np.count_nonzero(factors.diagonal() < 0) + np.count_nonzero(swaps != np.arange(len(swaps)))
-        here = (softest if wave is None or wave.shape != softest.shape else wave)[:, self._zone].ravel()
-        for _ in range(INVERSE_ITERATIONS):
-            here /= np.linalg.norm(here)
-            after = dgetrs(*self._lu, here)[0]
-            falls, here = here @ after < 0, after
-        softest[:, self._zone] = (here * np.sqrt(len(here)) / np.linalg.norm(here)).reshape(len(softest), -1)
-        return bool(negative % 2) or bool(falls), softest
+            return
+        if values.shape[:2] == (1, 1):
+            self._factors = SymmetricFactors(tangent[0, 0], self._responses[0][0][apart])
+            return
+        compliance = np.stack([response[:, apart] for response in self._responses], 2)
+        self._factors = GeneralFactors(tangent, compliance)
 
     def growing(self) -> Array | None:
-        """Return the displacement (exerted, m) that would grow most on its own, in this approximation.
+        """Return the displacement (exerted, m) that would grow most on its own, in this approximation; None if none.
 
-        With t an eigenvector of 1 + D C, μ < 0 its eigenvalue and w = C t, (K + D) w = μ K w. None is returned if there
-        is no such eigenvalue, and for zones of more unknowns than `MAX_EIGENVALUES`, which would take long.
+        With t an eigenvector of 1 + D C, μ < 0 its eigenvalue and w = C t, (K + D) w = μ K w.
         """
-        if not 0 < self._values[:, 0].size <= MAX_EIGENVALUES:
-            return None
-        traction = self._lowest()
+        traction = None if self._factors is None else self._factors.growing()
         if traction is None:
             return None
         wave = np.zeros(self._problem.unknowns, complex)
-        wave[:, : self._low] = self._spread(traction.reshape(len(self._values), -1))
+        wave[:, : self._low] = self._spread(traction)
         return wave
-
-    def _lowest(self) -> Array | None:
-        """Return the real part of the eigenvector of 1 + D C of the lowest eigenvalue; None if that is not negative.
-
-        With one component, C = L Lᵀ and 1 + Lᵀ D L is symmetric; it has the same eigenvalues, and eigenvectors L⁻¹ w.
-        """
-        from scipy.linalg import cholesky, eigh
-
-        if self._values.shape[:2] == (1, 1):
-            tangent = self._values[0, 0]
-            compliance = self._responses[0][0][(self._zone[:, None] - self._zone) % self._nodes]
-            compliance[np.diag_indices(len(compliance))] *= 1 + ROUNDING  # C is singular where the zone is everywhere
-            lower = cholesky(compliance, lower=True)
-            symmetric = lower.T @ (tangent[:, None] * lower)
-            symmetric[np.diag_indices(len(symmetric))] += 1
-            values, vectors = eigh(symmetric, subset_by_index=[0, 0])
-            return tangent * (lower @ vectors[:, 0]) if values[0] < 0 else None
-        if np.linalg.eigvals(self._matrix).real.min() >= 0:  # most states are stable: no eigenvectors are needed
-            return None
-        values, vectors = np.linalg.eig(self._matrix)
-        return vectors[:, np.argmin(values.real)].real
 
     def _spread(self, traction: Array) -> Array:
         """Return the displacement (exerted, low) under tractions on the zone (exerted, zone)."""
@@ -210,23 +144,14 @@ class ZonePreconditioner:
 
     def __call__(self, residual: Array) -> Array:
         """Return the displacement (exerted, m) for a residual of the same shape."""
-        from scipy.linalg.lapack import dgetrs
-
         out = np.empty_like(residual)
         out[:, self._low :] = self._high.apply(residual[:, self._low :])
         long = self._compliance.apply(residual[:, : self._low])
-        if len(self._zone):
-            free = contract(self._values, self._field(long)[:, self._zone])
-            long -= self._spread(dgetrs(*self._lu, free.ravel())[0].reshape(free.shape))
+        if self._factors is not None:
+            long -= self._spread(self._factors.solve(self._field(long)[:, self._zone]))
             self._problem.counter.add(len(self._problem.shape) + len(residual), self._nodes)
         out[:, : self._low] = long
         return out
-
-
-@lru_cache(maxsize=8)
-def _asymmetric_wave(rows: int, nodes: int) -> Array:
-    """Return a wave (rows, nodes) of small amplitude and without symmetry."""
-    return OUTSIDE_AMPLITUDE * np.cos(np.arange(rows * nodes) ** 2.0).reshape(rows, nodes)
 
 
 def _averages(values: Array, ratio: int) -> Array:
