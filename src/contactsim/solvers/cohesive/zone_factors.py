@@ -95,10 +95,13 @@ class GeneralFactors:
         self._tangent = tangent
         exerted, _, zone = tangent.shape
         self._compliance = compliance[:exerted].reshape(exerted * zone, -1)
-        matrix = np.einsum("erz,rzfy->ezfy", tangent, compliance).reshape(exerted * zone, -1)
-        matrix[np.diag_indices(len(matrix))] += 1
-        self._matrix = matrix
-        self._factors, self._swaps, _ = dgetrf(matrix)
+        flat = compliance.reshape(len(compliance), zone, -1)
+        matrix = tangent[:, 0, :, None] * flat[0]
+        for read in range(1, len(flat)):
+            matrix += tangent[:, read, :, None] * flat[read]
+        self._matrix = matrix.reshape(exerted * zone, -1)
+        self._matrix[np.diag_indices(exerted * zone)] += 1
+        self._factors, self._swaps, _ = dgetrf(self._matrix)
 
     def solve(self, displacement: Array) -> Array:
         """Return the tractions (1 + D C)⁻¹ D u under a displacement u."""
