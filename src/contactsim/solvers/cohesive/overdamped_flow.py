@@ -8,7 +8,8 @@ with a shift s, the inverse of the time step, that adapts to the change of the d
 uphill or too far are refused; after an uphill one the shift follows from the rate of growth. Once s is small against
 the laws' tangent it is set to zero, and the last steps are Newton's. An unstable state is left along a growing
 displacement. Laws without a potential have tangents that are not symmetric, and there such a displacement may yet
-decay. A state to which the flow returns, in steps in which growth would about double, is stable.
+decay. A state to which the flow returns, in steps in which growth would about double, is stable. Nor need the flow of
+such laws end: it may turn in a cycle, which is told from a slow approach by the residual at each turn.
 """
 
 from __future__ import annotations
@@ -33,6 +34,30 @@ GROWTH_SHIFT, GROWTH_STEPS = 2.0, 12
 """Least shift over the rate of growth, and for how many steps, where a displacement grows: it about doubles in each."""
 NUDGE, MAX_NUDGES = 0.03, 5
 """Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
+NEAR, FAR, TURNS, STEADY = 0.3, 0.6, 5, 2.0
+"""Distances from a place, over the farthest one since, within which a motion is back there and beyond which it is away;
+returns after which it is a cycle, if the residual has changed by no more than that factor."""
+
+
+class Cycle:
+    """Tells whether a motion returns to one place again and again; the place is renewed at steps 2, 4, 8 and so on."""
+
+    def __init__(self) -> None:
+        self._place: Array | None = None
+        self._residual, self._farthest, self._turns, self._away = np.inf, 0.0, 0, False
+
+    def closes(self, problem: CohesiveProblem, count: int, displacement: Array, residual: float) -> bool:
+        """Return True if the displacement at a step ends a cycle."""
+        if self._place is None or count & (count - 1) == 0:
+            self._place, self._residual, self._farthest, self._turns, self._away = displacement, residual, 0.0, 0, False
+            return False
+        distance = largest_change(problem, displacement - self._place)
+        self._farthest = max(self._farthest, distance)
+        if distance > FAR * self._farthest:
+            self._away = True
+        elif self._away and distance < NEAR * self._farthest:
+            self._away, self._turns = False, self._turns + 1
+        return self._turns >= TURNS and 1 / STEADY <= residual / self._residual <= STEADY
 
 
 def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: int, krylov_budget: int) -> Equilibrium:
@@ -55,6 +80,7 @@ def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: in
     status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
     least_shift, growth_steps = 0.0, 0  # of a flow that leaves an unstable state
     left: Array | None = None  # the state that the flow was made to leave, since it seemed to be unstable
+    cycle = Cycle()
     while count < budget:
         count += 1
         gap = problem.gap(displacement)
@@ -66,6 +92,9 @@ def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: in
             break
         if are_pulled_apart(problem, gap):
             status = Status.NO_EQUILIBRIUM
+            break
+        if cycle.closes(problem, count, displacement, worst):
+            status = Status.NO_REST
             break
         precondition = ZonePreconditioner(problem, tangent, shift)
         if shift == 0 and worst <= problem.tolerance:
