@@ -254,7 +254,9 @@ def own_law(law: Any, pairing: Any) -> tuple[Callable[[Array, Array], tuple[Arra
         nearest = np.rint(slip / pairing.lattice_constant)
         totals = np.zeros_like(normal), np.zeros_like(normal)
         for site in range(-sites, sites + 1):
-            for total, part in zip(totals, bare(normal, slip - pairing.lattice_constant * (nearest + site)), strict=True):
+            for total, part in zip(
+                totals, bare(normal, slip - pairing.lattice_constant * (nearest + site)), strict=True
+            ):
                 total += part
         return totals
 
@@ -335,7 +337,9 @@ def judge_state(case: Case, state: xr.Dataset, heights: Array) -> dict[str, floa
         errors["load"] = abs(float(pulls[0].real) / points + held.value) / (allowed + ROUNDING * held.value)
         off_normal[0] = 0.0
     else:
-        errors["prescribed approach"] = abs(float(state.approach) - held.value) / (ROUNDING * max(abs(held.value), 1e-300))
+        errors["prescribed approach"] = abs(float(state.approach) - held.value) / (
+            ROUNDING * max(abs(held.value), 1e-300)
+        )
         off_normal[0] += points * held.value
     off_slip[0] -= points * step.sliding_distance
     for name, off, entry in (("normal", off_normal, nn), ("tangential", off_slip, tt)):
@@ -344,6 +348,8 @@ def judge_state(case: Case, state: xr.Dataset, heights: Array) -> dict[str, floa
             errors[f"{name} held mode"] = abs(off[0]) / points / (ROUNDING * size)
             off[0] = 0.0
     residual = residual_field(case, (nn, tt, nt), off_normal, off_slip, points)
+    if held.control.name == "MEAN_PRESSURE":  # the law carries it
+        residual[0] += float(pulls[0].real) / points + held.value
     largest = np.abs(residual).max()
     waves = np.where(nn > 0, nn, np.inf)
     rounding = 1e-14 * (np.abs(normal).max() + np.abs(heights).max()) / waves[1:].min() + 1e-13 * case.strength
@@ -353,7 +359,7 @@ def judge_state(case: Case, state: xr.Dataset, heights: Array) -> dict[str, floa
         factor = np.divide(-nt, nn, out=np.zeros_like(nt), where=nn > 0)
         rest = np.fft.irfft(off_slip - 1j * factor * off_normal, points)
         errors["free slip"] = float(np.abs(rest).max() / (1e-7 * size))
-    if points <= STABILITY_POINTS[case.has_potential]:
+    if points <= STABILITY_POINTS[case.has_potential] and inside.all():
         rate = softest(case, (normal, slip), (nn, tt, nt), held.control.name == "MEAN_PRESSURE")
         errors["stability"] = -rate / (GROWTH * case.stiffness)
     return errors
@@ -387,8 +393,13 @@ def softest(case: Case, state: tuple[Array, Array], entries: tuple[Array, Array,
     points, size = normal.size, case.scene.laws[0].normal_length
     step, across = 1e-6 * size, 1e-6 * min(getattr(case.scene.laws[0], "tangential_length", size), size)
     stiffness = stiffness_matrices(nn, tt, nt, points, case.exerts_shear)
-    by_normal = [(a - b) / (2 * step) for a, b in zip(case.law(normal + step, slip), case.law(normal - step, slip), strict=True)]
-    by_slip = [(a - b) / (2 * across) for a, b in zip(case.law(normal, slip + across), case.law(normal, slip - across), strict=True)]
+    by_normal = [
+        (a - b) / (2 * step) for a, b in zip(case.law(normal + step, slip), case.law(normal - step, slip), strict=True)
+    ]
+    by_slip = [
+        (a - b) / (2 * across)
+        for a, b in zip(case.law(normal, slip + across), case.law(normal, slip - across), strict=True)
+    ]
     if not case.exerts_shear:
         factor = np.divide(-1j * nt, nn, out=np.zeros_like(nt, complex), where=nn > 0)
         matrix = stiffness[0][0] + np.diag(by_normal[0])

@@ -18,7 +18,7 @@ class Status(Enum):
     NO_EQUILIBRIUM = (3, "no equilibrium: the load pulls the bodies apart")
     SKIPPED = (4, "skipped: the path ended at an earlier step")
     INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
-    NO_REST = (6, "no rest: under a held load the surfaces move in a cycle, as friction without a potential allows")
+    NO_REST = (6, "no rest: under a held load the surfaces move on and on, as friction without a potential allows")
 
     @property
     def sentence(self) -> str:

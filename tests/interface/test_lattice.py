@@ -253,7 +253,9 @@ def test_springs_to_other_sites_are_as_long_as_that_where_no_site_moves():
     scene = Scene(*bodies, CohesiveZone(2.0), path, Lattice(0.5))
     assert scene.components == ("n", "t")
     data = simulate(scene, points=64, tolerance=1e-9)
-    assert -float(data.mean_pressure[0]) == pytest.approx(CohesiveZone(2.0).strength * spring_sum(0.0, 0.5)[0], rel=1e-9)
+    assert -float(data.mean_pressure[0]) == pytest.approx(
+        CohesiveZone(2.0).strength * spring_sum(0.0, 0.5)[0], rel=1e-9
+    )
 
 
 def test_a_scene_that_slides_has_a_tangential_gap_even_where_nothing_couples():

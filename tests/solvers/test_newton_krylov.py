@@ -63,6 +63,8 @@ def test_gmres_survives_a_map_that_is_zero_or_exact_at_once():
     assert np.allclose(found, target / 2, rtol=1e-14, atol=0)
     found, _ = gmres(lambda x: 0 * x, lambda x: x, target, 1e-14, 5)
     assert np.isfinite(found).all()
+    found, count = gmres(lambda x: x, lambda x: x, 0 * target, 1e-14, 5)
+    assert count == 0 and not found.any()
 
 
 @pytest.mark.parametrize("name", LAWS)

@@ -85,7 +85,9 @@ class LatticeInteraction:
             alone = self.law.traction(np.array([[normal], [0.0]]))[0, 0]
             if alone:
                 break
-        sums = self.law.traction(np.stack((np.full_like(slips, normal), slips)))[0].reshape(len(self.offsets), -1).sum(0)
+        sums = (
+            self.law.traction(np.stack((np.full_like(slips, normal), slips)))[0].reshape(len(self.offsets), -1).sum(0)
+        )
         return self.weight * float((sums / alone).max())
 
     @property
@@ -226,7 +228,9 @@ class Lattice:
             raise InputError("pairing", "lattice", "aligned, or smooth laws on a line: springs are laws between sites")
         for law in laws:
             if "t" not in law.reads:
-                raise InputError("effects", law, "laws that read the tangential gap, as springs to other sites have one")
+                raise InputError(
+                    "effects", law, "laws that read the tangential gap, as springs to other sites have one"
+                )
 
     def join(self, law: Law, lower: Array, length: float) -> LatticeInteraction:
         """Return the springs as one law; see `Pairing.join`."""

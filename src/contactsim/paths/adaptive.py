@@ -136,6 +136,9 @@ class Adaptive:
                 controller.shrink()
                 continue
             flowed = not path.is_on_branch(state)
+            if not flowed and parameter is not None and controller.can_shrink and path.passes_instability(first, state):
+                controller.shrink()
+                continue
             if flowed:
                 goal = next((step.value for step in steps if _is_between(parameter, step.value, goal)), goal)
                 state, jumps, iterations = path.advance_to(replace(first, value=goal))

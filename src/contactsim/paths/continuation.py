@@ -18,6 +18,8 @@ from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
 from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
+from contactsim.solvers.cohesive.linearised import find_growth
+from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -141,6 +143,17 @@ class Continuation:
     def continue_to(self, step: LoadStep) -> Equilibrium:
         """Return the state at a step that the solver finds near its prediction."""
         return self.solver.solve_near(self.at(step), self.prediction(step), self._memory, self.trust_radius)
+
+    def passes_instability(self, step: LoadStep, state: Equilibrium) -> bool:
+        """Return True if the state halfway between the current one and that of a step is unstable, though both are not.
+
+        A symmetric state, such as that of flat surfaces, exists before, after and while it is unstable.
+        """
+        if self.current is None:
+            return False
+        here = self.at(step)
+        tangent = here.tangent((self.current[1].gap + state.gap) / 2)[1]
+        return find_growth(tangent, ZonePreconditioner(here, tangent)) is not None
 
     def flow_to(self, step: LoadStep) -> Equilibrium:
         """Return the state at a step that the overdamped flow reaches from the current one."""

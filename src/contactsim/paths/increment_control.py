@@ -43,7 +43,12 @@ class IncrementController:
 
     def rejects(self, error: float) -> bool:
         """Return True if a prediction with that error (nm) asks for a shorter increment, and there is one."""
-        return not error <= REJECTION * self.error and self.increment > self.smallest
+        return not error <= REJECTION * self.error and self.can_shrink
+
+    @property
+    def can_shrink(self) -> bool:
+        """True where there is a shorter increment."""
+        return self.increment > self.smallest
 
     def shrink(self) -> None:
         """Shorten the increment after a rejection."""

@@ -44,6 +44,8 @@ def gmres(
     """
     flat = target.reshape(-1).view(float)
     norm = np.linalg.norm(flat)
+    if norm == 0:
+        return np.zeros_like(target), 0
     basis = np.empty((budget + 1, flat.size))
     basis[0] = flat / norm
     steps: list[Array] = []

@@ -9,17 +9,17 @@ uphill or too far are refused; after an uphill one the shift follows from the ra
 the laws' tangent it is set to zero, and the last steps are Newton's. An unstable state is left along a growing
 displacement. Laws without a potential have tangents that are not symmetric, and there such a displacement may yet
 decay. A state to which the flow returns, in steps in which growth would about double, is stable. Nor need the flow of
-such laws end: it may turn in a cycle, which is told from a slow approach by the residual at each turn.
+such laws end: it may go on in cycles, or at random.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import Equilibrium, are_pulled_apart, largest_change
-from contactsim.solvers.cohesive.linearised import find_growth, newton_forcing, solve_linearised
+from contactsim.solvers.cohesive.linearised import Growth, find_growth, newton_forcing, solve_linearised
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 
@@ -34,30 +34,31 @@ GROWTH_SHIFT, GROWTH_STEPS = 2.0, 12
 """Least shift over the rate of growth, and for how many steps, where a displacement grows: it about doubles in each."""
 NUDGE, MAX_NUDGES = 0.03, 5
 """Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
-NEAR, FAR, TURNS, STEADY = 0.3, 0.6, 5, 2.0
-"""Distances from a place, over the farthest one since, within which a motion is back there and beyond which it is away;
-returns after which it is a cycle, if the residual has changed by no more than that factor."""
+WANDERING = 30.0
+"""Length of the way of a motion, over its largest distance from the start, beyond which it does not come to rest."""
 
 
-class Cycle:
-    """Tells whether a motion returns to one place again and again; the place is renewed at steps 2, 4, 8 and so on."""
+class Way:
+    """The way that a motion has come, by the mean size of its steps over the points.
+
+    Surfaces that snap or creep to a new state move in one direction at each point, so that the way is about as long as
+    the distance from the start. It grows on and on where they move in a cycle or at random.
+    """
 
     def __init__(self) -> None:
-        self._place: Array | None = None
-        self._residual, self._farthest, self._turns, self._away = np.inf, 0.0, 0, False
+        self._length, self._farthest = 0.0, 0.0
+        self._moved: Array | float = 0.0
 
-    def closes(self, problem: CohesiveProblem, count: int, displacement: Array, residual: float) -> bool:
-        """Return True if the displacement at a step ends a cycle."""
-        if self._place is None or count & (count - 1) == 0:
-            self._place, self._residual, self._farthest, self._turns, self._away = displacement, residual, 0.0, 0, False
-            return False
-        distance = largest_change(problem, displacement - self._place)
-        self._farthest = max(self._farthest, distance)
-        if distance > FAR * self._farthest:
-            self._away = True
-        elif self._away and distance < NEAR * self._farthest:
-            self._away, self._turns = False, self._turns + 1
-        return self._turns >= TURNS and 1 / STEADY <= residual / self._residual <= STEADY
+    def add(self, change: Array) -> None:
+        """Add a change of the displacement (exerted, n), nm."""
+        self._moved = self._moved + change
+        self._length += float(np.abs(change).mean())
+        self._farthest = max(self._farthest, float(np.abs(self._moved).mean()))
+
+    @property
+    def wanders(self) -> bool:
+        """True for a motion that does not come to rest."""
+        return self._length > WANDERING * self._farthest
 
 
 def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: int, krylov_budget: int) -> Equilibrium:
@@ -76,65 +77,102 @@ def flow(problem: CohesiveProblem, start: Array, largest_step: float, budget: in
     krylov_budget
         Largest number of Krylov iterations in a step.
     """
-    displacement, shift = start, INITIAL_SHIFT * problem.law_stiffness
-    status, worst, count, nudges = Status.MAX_ITERATIONS, np.inf, 0, 0
-    least_shift, growth_steps = 0.0, 0  # of a flow that leaves an unstable state
-    left: Array | None = None  # the state that the flow was made to leave, since it seemed to be unstable
-    cycle = Cycle()
-    while count < budget:
-        count += 1
-        gap = problem.gap(displacement)
-        traction, tangent = problem.tangent(gap)
-        residual = problem.residual(displacement, traction)
-        worst = problem.norm(residual)
-        if not np.isfinite(worst):
-            status = Status.NON_FINITE
-            break
-        if are_pulled_apart(problem, gap):
-            status = Status.NO_EQUILIBRIUM
-            break
-        if cycle.closes(problem, count, displacement, worst):
-            status = Status.NO_REST
-            break
-        precondition = ZonePreconditioner(problem, tangent, shift)
-        if shift == 0 and worst <= problem.tolerance:
+    return _Flow(problem, largest_step, krylov_budget).run(start, budget)
+
+
+class _Flow:
+    """The shift of the next step, and what the steps before it have shown."""
+
+    def __init__(self, problem: CohesiveProblem, largest_step: float, krylov_budget: int) -> None:
+        self._problem, self._largest_step, self._krylov_budget = problem, largest_step, krylov_budget
+        self._shift = INITIAL_SHIFT * problem.law_stiffness
+        self._least_shift, self._growth_steps = 0.0, 0  # of a flow that leaves an unstable state
+        self._left: Array | None = None  # the state that the flow was made to leave, since it seemed to be unstable
+        self._nudges, self._way = 0, Way()
+
+    def run(self, start: Array, budget: int) -> Equilibrium:
+        """Return the end of the flow from a state."""
+        problem, displacement = self._problem, start
+        status, worst, count = Status.MAX_ITERATIONS, np.inf, 0
+        while count < budget:
+            count += 1
+            gap = problem.gap(displacement)
+            traction, tangent = problem.tangent(gap)
+            residual = problem.residual(displacement, traction)
+            worst = problem.norm(residual)
+            status = self._status(gap, worst)
+            if status is not Status.MAX_ITERATIONS:
+                break
+            precondition = ZonePreconditioner(problem, tangent, self._shift)
+            if self._shift or worst > problem.tolerance:
+                displacement = self._advance(displacement, tangent, precondition, residual, worst)
+                continue
             growing = find_growth(tangent, precondition)
-            nudge = NUDGE * problem.interaction_range
-            returned = left is not None and largest_change(problem, displacement - left) < nudge / 2
-            if growing is None or returned:
+            if growing is None or self._has_returned(displacement):
                 status = Status.CONVERGED
                 break
-            if nudges == MAX_NUDGES:
+            if self._nudges == MAX_NUDGES:
                 break
-            nudges, least_shift, growth_steps = nudges + 1, GROWTH_SHIFT * growing.rate, GROWTH_STEPS
-            shift = max(INITIAL_SHIFT * problem.law_stiffness, least_shift)
-            left, displacement = displacement, displacement + nudge * growing.wave
-            continue
-        forcing = FLOW_FORCING if shift else newton_forcing(problem, worst)
-        change, _ = solve_linearised(tangent, precondition, residual, forcing, krylov_budget, shift)
-        accepted, shift, growth = _judge_step(problem, change, residual, shift, largest_step)
-        growing_on = least_shift, growth_steps - accepted
-        least_shift, growth_steps = (GROWTH_SHIFT * growth, GROWTH_STEPS) if growth else growing_on
-        shift = max(shift, least_shift) if growth_steps > 0 else shift
-        displacement = displacement + change if accepted else displacement
-    distance = largest_change(problem, displacement - start)
-    return Equilibrium(displacement, gap, traction, status, worst, distance, count)
+            displacement = self._leave(displacement, growing)
+        distance = largest_change(problem, displacement - start)
+        return Equilibrium(displacement, gap, traction, status, worst, distance, count)
 
+    def _status(self, gap: Array, worst: float) -> Status:
+        """Return the status of a flow that goes no further, or MAX_ITERATIONS."""
+        if not np.isfinite(worst):
+            return Status.NON_FINITE
+        if are_pulled_apart(self._problem, gap):
+            return Status.NO_EQUILIBRIUM
+        return Status.NO_REST if self._way.wanders else Status.MAX_ITERATIONS
 
-def _judge_step(
-    problem: CohesiveProblem, change: Array, residual: Array, shift: float, largest_step: float
-) -> tuple[bool, float, float]:
-    """Return whether a step of the flow is accepted, the shift of the next step, and a rate of growth.
+    def _has_returned(self, displacement: Array) -> bool:
+        """Return True at the state that the flow was made to leave."""
+        if self._left is None:
+            return False
+        return largest_change(self._problem, displacement - self._left) < NUDGE * self._problem.interaction_range / 2
 
-    A step that goes uphill shows that displacements along it grow, and at which rate; elsewhere the rate is zero.
-    """
-    size = float(np.abs(problem.field(change)[: len(change)]).max())
-    largest, stiffness = largest_step * problem.interaction_range, problem.law_stiffness
-    uphill, square = float(np.vdot(change, residual).real), float(np.vdot(change, change).real)
-    if not size <= 2 * largest:
-        return False, max(REFUSAL_RATIO * shift, MIN_LONG_SHIFT * stiffness), 0.0
-    if uphill >= 0:
-        growth = shift + (uphill / square if square else 0.0)
-        return False, max(GROWTH_SHIFT * growth, REFUSAL_RATIO * shift, MIN_UPHILL_SHIFT * stiffness), growth
-    shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1
-    return True, shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0, 0.0
+    def _leave(self, displacement: Array, growing: Growth) -> Array:
+        """Return a displacement beside an unstable state."""
+        self._nudges += 1
+        self._least_shift, self._growth_steps = GROWTH_SHIFT * growing.rate, GROWTH_STEPS
+        self._shift = max(INITIAL_SHIFT * self._problem.law_stiffness, self._least_shift)
+        self._left = displacement
+        return displacement + NUDGE * self._problem.interaction_range * growing.wave
+
+    def _advance(
+        self, displacement: Array, tangent: Tangent, precondition: ZonePreconditioner, residual: Array, worst: float
+    ) -> Array:
+        """Return the displacement after a step, the same if the step is refused."""
+        problem = self._problem
+        forcing = FLOW_FORCING if self._shift else newton_forcing(problem, worst)
+        change, _ = solve_linearised(tangent, precondition, residual, forcing, self._krylov_budget, self._shift)
+        field = problem.field(change)[: len(change)]
+        accepted, growth = self._judge(change, field, residual)
+        self._growth_steps -= accepted
+        if growth:
+            self._least_shift, self._growth_steps = GROWTH_SHIFT * growth, GROWTH_STEPS
+        if self._growth_steps > 0:
+            self._shift = max(self._shift, self._least_shift)
+        if not accepted:
+            return displacement
+        self._way.add(field)
+        return displacement + change
+
+    def _judge(self, change: Array, field: Array, residual: Array) -> tuple[bool, float]:
+        """Return whether a step is accepted, and a rate of growth; adapt the shift.
+
+        A step that goes uphill shows that displacements along it grow, and at which rate; elsewhere the rate is zero.
+        """
+        size, shift, stiffness = float(np.abs(field).max()), self._shift, self._problem.law_stiffness
+        largest = self._largest_step * self._problem.interaction_range
+        uphill, square = float(np.vdot(change, residual).real), float(np.vdot(change, change).real)
+        if not size <= 2 * largest:
+            self._shift = max(REFUSAL_RATIO * shift, MIN_LONG_SHIFT * stiffness)
+            return False, 0.0
+        if uphill >= 0 and square:  # at a state that is exact there is no change
+            growth = shift + uphill / square
+            self._shift = max(GROWTH_SHIFT * growth, REFUSAL_RATIO * shift, MIN_UPHILL_SHIFT * stiffness)
+            return False, growth
+        shift /= 3 if size < 0.3 * largest else 1.5 if size < largest else 1
+        self._shift = shift if shift > NEGLIGIBLE_SHIFT * stiffness else 0.0
+        return True, 0.0

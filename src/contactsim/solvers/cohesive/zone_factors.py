@@ -62,7 +62,7 @@ class SymmetricFactors:
         alone = self._pivots > 0  # a pair of rows that are eliminated together has an eigenvalue of each sign
         pairs = np.count_nonzero(~alone) // 2
         positive = np.count_nonzero(self._factors.diagonal()[alone] > 0) + pairs
-        return positive - np.count_nonzero(self._tangent > 0)
+        return int(positive - np.count_nonzero(self._tangent > 0))
 
     def growing(self) -> Array | None:
         """Return the traction of the displacement that grows most on its own; None if none does.
