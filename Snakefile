@@ -27,3 +27,7 @@ rule unknown_target:
     output: "{name}"
     wildcard_constraints: name=r"[A-Za-z0-9_]+"
     input: PAGES.refuse_target
+
+
+if workflow.is_main_process and not workflow.output_settings.dryrun:
+    check_all_outputs(workflow, RESULTS)

@@ -14,6 +14,7 @@ from library import share_library
 from lock import lock_folder
 from pages import Pages
 from products import Products
+from unsealed import check_all_outputs
 
 CONFIG = ROOT / "config"
 share_library()

@@ -3,10 +3,11 @@
 import json
 from pathlib import Path
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim.analysis.admissible import read_candidates
 from contactsim.figures.diagnostics.identification import write_identification
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 write_identification(json.loads(snakemake.params.plan), read_candidates(Path(snakemake.input[0])), snakemake.output)
+seal_job(snakemake)

@@ -2,9 +2,10 @@
 
 import json
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim.figures.diagnostics.overview import write_overview
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 write_overview(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)
+seal_job(snakemake)

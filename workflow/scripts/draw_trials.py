@@ -2,9 +2,10 @@
 
 import json
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim.figures.diagnostics.trials import write_trials
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 write_trials(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.costs, snakemake.output)
+seal_job(snakemake)

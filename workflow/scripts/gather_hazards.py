@@ -2,12 +2,13 @@
 
 import json
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim import dataset
 from contactsim.evaluation.robustness.survey import merge_surveys
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 plan = json.loads(snakemake.params.plan)
 data = merge_surveys(map(dataset.load_dataset, plan["paths"]))
 dataset.write(dataset.stamp(data, plan["settings"]["title"], plan["settings"], plan["source"]), snakemake.output[0])
+seal_job(snakemake)

@@ -2,11 +2,12 @@
 
 import json
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim.evaluation.identification.judgement import judge_files, table_text
 from contactsim.files import write_text
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 plan = json.loads(snakemake.params.plan)
 write_text(table_text(judge_files(plan, snakemake.input), len(plan["candidates"])), snakemake.output[0])
+seal_job(snakemake)

@@ -2,7 +2,7 @@
 
 import json
 
-from joblog import open_log
+from job import open_job, seal_job
 from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
@@ -11,10 +11,11 @@ from contactsim.evaluation.work_precision.case_config import read_cases
 from contactsim.files import write_text
 from contactsim.study.plan import Plan
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 plan, config = json.loads(snakemake.params.plan), snakemake.params.config
 case = read_cases(config, Plan.read(config, snakemake.params.tier))[snakemake.wildcards.case]
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
     data, seconds = case.measure(snakemake.wildcards.job)
 dataset.write(dataset.stamp(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)
 write_text(json.dumps({"seconds": seconds, "transform_seconds": transform_seconds()}), snakemake.output.costs)
+seal_job(snakemake)

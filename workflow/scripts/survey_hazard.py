@@ -2,10 +2,11 @@
 
 import json
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim import dataset
 from contactsim.evaluation.robustness.survey import survey_hazard
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 dataset.write(survey_hazard(**json.loads(snakemake.params.plan)), snakemake.output[0])
+seal_job(snakemake)

@@ -3,10 +3,11 @@
 import json
 from pathlib import Path
 
-from joblog import open_log
+from job import open_job, seal_job
 
 from contactsim.publish import bundle
 
-open_log(snakemake.log[0])
+open_job(snakemake)
 plan = json.loads(snakemake.params.plan)
 bundle.write_bundle(plan, dict(zip(plan["files"], snakemake.input, strict=True)), Path(snakemake.output[0]).parent)
+seal_job(snakemake)
