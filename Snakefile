@@ -29,5 +29,5 @@ rule unknown_target:
     input: PAGES.refuse_target
 
 
-if workflow.is_main_process and not workflow.output_settings.dryrun:
+if workflow.is_main_process:
     check_all_outputs(workflow, RESULTS)

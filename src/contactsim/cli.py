@@ -1,9 +1,9 @@
-"""The command line: `contactsim explain | run | estimate | compare`.
+"""The command line: `contactsim explain | run | estimate | compare | verify`.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
 `full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a
 study in ./config; without either, `estimate` predicts every figure there. `compare` reads the CSV files of the figures
-in the results folder of ./config.
+in the results folder of ./config. `verify` reads every result there, or in the folder of a tier.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from contactsim.errors import InputError
 def main(arguments: list[str] | None = None) -> None:
     """Read the command line and call the command; what it needs is imported only then."""
     parser = argparse.ArgumentParser(
-        prog="contactsim", description="Explain or simulate a scene, estimate its cost, or compare two tiers."
+        prog="contactsim",
+        description="Explain or simulate a scene, estimate its cost, compare two tiers, or verify results.",
     )
     commands = parser.add_subparsers(required=True)
     explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
@@ -49,6 +50,9 @@ def main(arguments: list[str] | None = None) -> None:
         "--within", type=float, default=0.1, help="largest relative difference that passes, default 0.1"
     )
     compare.set_defaults(command="compare_tiers")
+    verify = commands.add_parser("verify", help="read all results of a tier and tell which were damaged or replaced")
+    verify.add_argument("folder", nargs="?", help="a folder such as results/standard, default that of ./config")
+    verify.set_defaults(command="verify_results")
     options = parser.parse_args(arguments)
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
     try:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset
+from contactsim import dataset, seals
 from contactsim.analysis.table_comparison import difference_text, is_within
 from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
@@ -235,4 +235,19 @@ def compare_tiers(options: argparse.Namespace) -> None:
     sys.stdout.write(f"{options.first} beside {options.second}: differences relative to {options.second}\n")
     sys.stdout.write(difference_text(tables, options.within))
     if not all(table is None or is_within(table, options.within) for table in tables.values()):
+        sys.exit(1)
+
+
+def verify_results(options: argparse.Namespace) -> None:
+    """Print which results of a tier are not what their seals say; exit code 1 where there is one."""
+    results = Plan.read("config", None).results if options.folder is None else Path(options.folder)
+    if not (results / seals.FOLDER).is_dir():
+        allowed = "the folder of a tier's results, such as results/standard, whose seals stand in it"
+        raise InputError("folder", results, allowed)
+    wrong = seals.verify(results)
+    for place, reason in wrong.items():
+        sys.stdout.write(f"{results / place} {reason}\n")
+    count = len(seals.read_seals(results)[0])
+    sys.stdout.write(f"{results}: {count} results with seals, {len(wrong) or 'none'} not as they should be\n")
+    if wrong:
         sys.exit(1)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -24,38 +24,10 @@ ASIDE = ".aside"
 """Ending of a file that was set aside because its seal does not hold for it."""
 
 
-@dataclass(frozen=True)
-class Content:
-    """What a file held when it was sealed, and by which it is known to be unchanged without being read.
-
-    Parameters
-    ----------
-    sha256 : str
-        Digest of its content.
-    size : int
-        In bytes.
-    changed : int
-        When it was last changed, ns.
-    """
-
-    sha256: str
-    size: int
-    changed: int
-
-    @classmethod
-    def of(cls, path: Path) -> Content:
-        """Return the content of a file."""
-        before = path.stat()
-        with path.open("rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
-        return cls(digest, before.st_size, before.st_mtime_ns)
-
-    def is_that_of(self, path: Path, reads: bool = False) -> bool:
-        """Return True if a file holds this content; one with the same size and time is read only if `reads`."""
-        found = path.stat()
-        if not reads and (found.st_size, found.st_mtime_ns) == (self.size, self.changed):
-            return True
-        return found.st_size == self.size and Content.of(path).sha256 == self.sha256
+def content_digest(path: Path) -> str:
+    """Return the digest of what a file holds."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 @dataclass(frozen=True)
@@ -73,22 +45,21 @@ class Seal:
     inputs : dict
         Digest of each result that it read, by its place below the folder of the tier.
     outputs : dict
-        Content of each file that it wrote, by its place.
+        Digest of each file that it wrote, by its place.
     """
 
     rule: str
     wildcards: dict[str, str]
     made_from: str
     inputs: dict[str, str]
-    outputs: dict[str, Content]
+    outputs: dict[str, str]
 
     @classmethod
     def read(cls, path: Path) -> Seal:
         """Read a seal; raise InputError for what is none."""
         try:
-            parts = json.loads(path.read_text(encoding="utf-8"))
-            return cls(**parts | {"outputs": {name: Content(**item) for name, item in parts["outputs"].items()}})
-        except (ValueError, TypeError, KeyError, AttributeError) as error:
+            return cls(**json.loads(path.read_text(encoding="utf-8")))
+        except (ValueError, TypeError) as error:
             raise InputError("seal", path, "a seal of results; remove it, and its results are made again") from error
 
     def write(self, results: Path) -> None:
@@ -103,11 +74,17 @@ def seal_path(results: Path, place: str) -> Path:
     return results / FOLDER / f"{place}.json"
 
 
-def read_seals(results: Path) -> Iterator[tuple[str, Seal]]:
-    """Yield the place of each sealed result of a tier, and its seal."""
+def read_seals(results: Path) -> tuple[dict[str, Seal], list[str]]:
+    """Return the seal of each sealed result of a tier, by place, and the places whose seals cannot be read."""
     folder = results / FOLDER
+    found, broken = {}, []
     for path in sorted(folder.rglob("*.json")):
-        yield str(path.relative_to(folder))[: -len(".json")], Seal.read(path)
+        place = str(path.relative_to(folder))[: -len(".json")]
+        try:
+            found[place] = Seal.read(path)
+        except InputError:
+            broken.append(place)
+    return found, broken
 
 
 def check_inputs(results: Path, paths: Iterable[Path]) -> dict[str, str]:
@@ -127,10 +104,9 @@ def check_inputs(results: Path, paths: Iterable[Path]) -> dict[str, str]:
         remedy = "remove it, and it is made again"
         if not seal.exists():
             raise InputError("result", path, f"one that the workflow made, with a seal; {remedy}")
-        content = Seal.read(seal).outputs[place]
-        if not content.is_that_of(path, reads=True):
+        found[place] = content_digest(path)
+        if found[place] != Seal.read(seal).outputs.get(place):
             raise InputError("result", path, f"what was written when it was made; since then it was changed: {remedy}")
-        found[place] = content.sha256
     return found
 
 
@@ -140,13 +116,13 @@ def verify(results: Path) -> dict[str, str]:
     Damaged and missing files are told, those without a seal, and those that were made from other results than there
     are.
     """
-    wrong: dict[str, str] = {}
-    seals = dict(read_seals(results))
+    seals, broken = read_seals(results)
+    wrong = dict.fromkeys(broken, "has a seal that cannot be read")
     for place, seal in seals.items():
         path = results / place
         if not path.exists():
             wrong[place] = "is gone"
-        elif not seal.outputs[place].is_that_of(path, reads=True):
+        elif content_digest(path) != seal.outputs.get(place):
             wrong[place] = "was changed since it was made"
         else:
             others = [name for name, digest in seal.inputs.items() if digest_of(seals, name) != digest]
@@ -155,11 +131,11 @@ def verify(results: Path) -> dict[str, str]:
     for path in sorted(results.rglob("*")):
         place = str(path.relative_to(results))
         is_result = path.is_file() and path.suffix != ASIDE and Path(place).parts[0] not in UNSEALED
-        if is_result and place not in seals:
+        if is_result and place not in seals and place not in wrong:
             wrong[place] = "has no seal"
     return wrong
 
 
 def digest_of(seals: dict[str, Seal], place: str) -> str | None:
     """Return the digest of the result at a place; None where there is none."""
-    return seals[place].outputs[place].sha256 if place in seals else None
+    return seals[place].outputs.get(place) if place in seals else None

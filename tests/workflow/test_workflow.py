@@ -307,6 +307,12 @@ def worn(content: bytes) -> bytes:
     return content[:place] + bytes([content[place] ^ 0xFF]) + content[place + 1 :]
 
 
+def turned(content: bytes) -> bytes:
+    """One bit changed in the middle."""
+    place = len(content) // 2
+    return content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :]
+
+
 def emptied(content: bytes) -> bytes:
     """Nothing."""
     return content[:0]
@@ -321,8 +327,56 @@ def test_a_damaged_old_file_is_computed_anew(
     file.write_bytes(damage(file.read_bytes()))
     project.make(*project.run_targets("smooth"))
     assert project.steps("smooth") == {(0, 5)}
-    assert all("cannot be reused" in text for text in project.logs("smooth").values())
+    assert file.with_name("0.nc.aside").exists()
     assert project.files("standard/runs/smooth/*/*.nc") == longer.files("standard/runs/smooth/*/*.nc")
+
+
+RESULTS = ("standard/runs/*/*/*.nc", "standard/datasets/*.nc", "standard/figures/*.csv")
+
+
+def test_whatever_happens_to_results_they_are_made_again_as_they_were(project: Project, made: Project) -> None:
+    folder = project.folder / "results/standard"
+    runs_of_rough = sorted(folder.glob("runs/rough/*/0.nc"))
+    damaged = [runs_of_rough[0], folder / "datasets/ch8_rough.nc", folder / "figures/fig_9_1.csv"]
+    runs_of_rough[0].write_bytes(runs_of_rough[1].read_bytes())  # a run of another exponent
+    damaged[1].write_bytes(turned(damaged[1].read_bytes()))
+    damaged[2].write_bytes(b"")
+    shutil.rmtree(folder / "runs/baseline")  # gone after its dataset was made
+    (folder / "figures/fig_8_2.png").unlink()
+    dry = project.snakemake("-n", "--", "all")
+    for path in damaged:
+        told = (
+            f"{path.relative_to(project.folder)}: was changed since it was made. It is set aside as {path.name}.aside"
+        )
+        assert told in dry.stderr
+        assert path.exists()
+    assert "runs/baseline" in dry.stderr
+    made_again = project.make("all")
+    assert of_study(made_again) == {"rough": 1, "baseline": 1}
+    assert {"fig_8_1", "fig_8_2", "fig_8_3", "fig_9_1"} <= apart(made_again)
+    for path in damaged:
+        path.with_name(f"{path.name}.aside").unlink()
+    assert project.files(*RESULTS) == made.files(*RESULTS)
+    assert project.planned("all") == []
+
+
+def test_results_of_another_tier_or_project_are_not_taken_for_those_of_this_one(fresh: Project, made: Project) -> None:
+    standard, other = fresh.folder / "results/standard", made.folder / "results/standard"
+    shutil.copytree(other / "figures", standard / "figures")
+    done = fresh.snakemake("--", "fig_9_1")
+    assert done.returncode == 0
+    assert "fig_9_1.csv: has no seal, so it was not made here" in done.stderr
+    assert fresh.steps("smooth") == {(0, 3)}
+    assert fresh.files("standard/figures/fig_9_1.csv") == made.files("standard/figures/fig_9_1.csv")
+
+
+def test_an_edit_is_seen_though_all_that_snakemake_remembers_is_lost(project: Project) -> None:
+    shutil.rmtree(project.folder / ".snakemake")
+    assert project.planned("all") == []
+    project.edit("solvers/hard_wall/polonsky_keer")
+    made_again = project.make("all")
+    assert of_study(made_again) == {"baseline": 1}
+    assert {"dataset of baseline", "fig_8_3"} <= apart(made_again)
 
 
 def test_two_at_once_in_one_folder_are_refused_but_a_dry_run_is_not(fresh: Project, made: Project) -> None:

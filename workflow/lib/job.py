@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from contactsim.provenance import digest
-from contactsim.seals import Content, Seal, check_inputs
+from contactsim.seals import Seal, check_inputs, content_digest
 
 MADE_FROM = ("plan", "source", "tier")
 """Parameters of rules on which results depend."""
@@ -28,7 +28,7 @@ def open_job(snakemake: Any) -> None:
 def seal_job(snakemake: Any) -> None:
     """Seal what the job wrote, as its last step."""
     results = results_of(snakemake)
-    outputs = {str(Path(path).relative_to(results)): Content.of(Path(path)) for path in snakemake.output}
+    outputs = {str(Path(path).relative_to(results)): content_digest(Path(path)) for path in snakemake.output}
     inputs = check_inputs(results, map(Path, snakemake.input))
     made_from = parameters_digest(dict(snakemake.params.items()))
     Seal(snakemake.rule, dict(snakemake.wildcards.items()), made_from, inputs, outputs).write(results)

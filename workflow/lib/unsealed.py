@@ -6,8 +6,9 @@ what it was made from (`contactsim.seals`), wherever the folder has been and wha
 
 from __future__ import annotations
 
+import atexit
+import json
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +16,51 @@ from job import parameters_digest
 from snakemake.iocontainers import Wildcards
 
 from contactsim.errors import InputError
-from contactsim.seals import ASIDE, Seal, seal_path
+from contactsim.files import write_text
+from contactsim.seals import ASIDE, FOLDER, Seal, content_digest, seal_path
 
 DONE = ".done"
 """Ending of the file by which a run is known to be whole. Its other files stay, as parts of them may serve again."""
 
 
 def check_all_outputs(workflow: Any, results: Path) -> None:
-    """Let every rule that runs a script check its outputs when Snakemake asks what they are made from."""
+    """Let every rule that runs a script check its outputs when Snakemake asks what they are made from.
+
+    A dry run tells what it finds, and changes nothing.
+    """
+    check = SealCheck(workflow, results, acts=not workflow.output_settings.dryrun)
     for rule in workflow.rules:
         if rule.script and rule.output:
-            rule.set_input(checked=OutputCheck(workflow, rule, results))
+            rule.set_input(checked=OutputCheck(check, rule))
+
+
+class KnownContents:
+    """Digests of files that were read before, and by which stamps of the system a file is known to be the same."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            self._stamps: dict[str, list[Any]] = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self._stamps = {}
+        self._is_new = False
+        atexit.register(self.save)
+
+    def digest(self, path: Path) -> str:
+        """Return the digest of what a file holds; it is read if it may have been changed since it was read last."""
+        found = path.stat()
+        stamp = [found.st_size, found.st_mtime_ns, found.st_ctime_ns, found.st_ino]
+        known = self._stamps.get(str(path))
+        if known is not None and known[:-1] == stamp:
+            return str(known[-1])
+        self._stamps[str(path)] = [*stamp, content_digest(path)]
+        self._is_new = True
+        return str(self._stamps[str(path)][-1])
+
+    def save(self) -> None:
+        """Write down what was read."""
+        if self._is_new:
+            write_text(json.dumps(self._stamps), self._path)
 
 
 class OutputCheck:
@@ -33,67 +68,107 @@ class OutputCheck:
 
     __name__ = "checked"  # Snakemake names input functions in messages
 
-    def __init__(self, workflow: Any, rule: Any, results: Path) -> None:
-        self._workflow, self._rule, self._results = workflow, rule, results
+    def __init__(self, check: SealCheck, rule: Any) -> None:
+        self._check, self._rule = check, rule
 
     def __call__(self, wildcards: Wildcards) -> list[Path]:
         """Check the outputs of a job."""
-        outputs = [Path(str(item.apply_wildcards(wildcards))) for item in self._rule.output]
-        marks = [path for path in outputs if path.suffix == DONE] or outputs
-        if not all(path.exists() for path in marks):
-            return []  # they are to be made in any case
-        for path in outputs:
-            if path.exists() and self._results in path.parents:
-                reason = self._wrong(path)
-                if reason is None:
-                    continue
-                aside = path.with_name(path.name + ASIDE)
-                path.rename(aside)
-                for mark in marks:
-                    mark.unlink(missing_ok=True)
-                print(f"{path}: {reason}. It is set aside as {aside.name} and made again.", file=sys.stderr)
-                return []
-        reason = self._outdated(outputs[0], wildcards)
-        if reason is not None:
-            for mark in marks:
-                mark.unlink()
-            print(f"{outputs[0]}: {reason}. It is made again.", file=sys.stderr)
+        for item in self._rule.output:
+            self._check.keeps(Path(str(item.apply_wildcards(wildcards))))
         return []
+
+
+class SealCheck:
+    """Follows results and what they were made from, and puts those out of the way that are to be made again."""
+
+    def __init__(self, workflow: Any, results: Path, acts: bool) -> None:
+        self._workflow, self._results, self._acts = workflow, results, acts
+        self._rules = {rule.name: rule for rule in workflow.rules}
+        self._kept: dict[Path, bool] = {}
+        self._known = KnownContents(results / FOLDER / "known")
+
+    def keeps(self, path: Path) -> bool:
+        """Return True if a file is what its seal says, and so is all that it was made from; else put it away."""
+        if path not in self._kept:
+            self._kept[path] = self._judge(path)
+        return self._kept[path]
+
+    def _judge(self, path: Path) -> bool:
+        """Judge a file; see `keeps`."""
+        if self._results not in path.parents or not path.exists():
+            return path.exists()
+        mark = path.with_suffix(DONE)
+        if path.suffix != DONE and path.parent.is_relative_to(self._results / "runs") and not mark.exists():
+            return False  # a run that did not end; what it has solved may serve again
+        place, seal = str(path.relative_to(self._results)), self._seal(path)
+        if seal is None or place not in seal.outputs:
+            return self._set_aside(path, "has no seal, so it was not made here")
+        if self._known.digest(path) != seal.outputs[place]:
+            return self._set_aside(path, "was changed since it was made", seal)
+        reason = self._outdated(path, seal)
+        if reason is None:
+            return True
+        self._unmake(seal)
+        print(f"{path}: {reason}. It is made again.", file=sys.stderr)
+        return False
 
     def _seal(self, path: Path) -> Seal | None:
         """Return the seal of a file, None where there is none that can be read."""
-        file = seal_path(self._results, self._place(path))
+        file = seal_path(self._results, str(path.relative_to(self._results)))
         try:
             return Seal.read(file) if file.exists() else None
         except InputError:
             return None
 
-    def _place(self, path: Path) -> str:
-        """Return the place of a file below the folder of the tier."""
-        return str(path.relative_to(self._results))
-
-    def _wrong(self, path: Path) -> str | None:
-        """Return why a file is not what a job of this rule wrote; None if it is."""
-        seal = self._seal(path)
-        if seal is None or self._place(path) not in seal.outputs:
-            return "has no seal, so it was not made here"
-        return None if seal.outputs[self._place(path)].is_that_of(path) else "was changed since it was made"
-
-    def _outdated(self, path: Path, wildcards: Mapping[str, str]) -> str | None:
+    def _outdated(self, path: Path, seal: Seal) -> str | None:
         """Return why a result is out of date, where Snakemake cannot know it; None if it is not."""
-        seal = self._seal(path)
-        if seal is None:
-            return None
         for place, digest in seal.inputs.items():
             source = self._results / place
-            if not source.exists():
-                return f"was made from {source}, which is gone"
+            if not self.keeps(source):
+                return f"was made from {source}, which is gone or made again"
             other = self._seal(source)
-            if other is None or other.outputs[place].sha256 != digest:
+            if other is None or other.outputs.get(place) != digest:
                 return f"was made from another {source}"
-        if self._workflow.persistence.metadata(str(path)):
-            return None  # Snakemake compares the parameters itself
-        parameters = {name: item(wildcards) if callable(item) else item for name, item in self._rule.params.items()}
-        if parameters_digest(parameters) != seal.made_from:
+        if self._made_from_now(path, seal) not in (None, seal.made_from):
             return "was made from other settings or by other code"
         return None
+
+    def _made_from_now(self, path: Path, seal: Seal) -> str | None:
+        """Return the digest of what a result would be made from; None where Snakemake knows, or nothing makes it."""
+        rule, wildcards = self._rules.get(seal.rule), Wildcards(fromdict=seal.wildcards)
+        if rule is None:
+            return None
+        files = {str(file): file for file in (item.apply_wildcards(wildcards) for item in rule.output)}
+        if str(path) not in files or self._workflow.persistence.metadata(files[str(path)]):
+            return None
+        try:
+            parameters = {name: item(wildcards) if callable(item) else item for name, item in rule.params.items()}
+        except (KeyError, ValueError, StopIteration, InputError):
+            return None
+        return parameters_digest(parameters)
+
+    def _set_aside(self, path: Path, reason: str, seal: Seal | None = None) -> bool:
+        """Give a file that is not what it should be another name; return False."""
+        if path.suffix == DONE:  # it holds nothing
+            self._remove(path)
+            return False
+        aside = path.with_name(path.name + ASIDE)
+        print(f"{path}: {reason}. It is set aside as {aside.name} and made again.", file=sys.stderr)
+        if self._acts:
+            path.rename(aside)
+        if seal is not None:
+            self._unmake(seal)
+        self._remove(path.with_suffix(DONE))
+        return False
+
+    def _unmake(self, seal: Seal) -> None:
+        """Remove that by which Snakemake takes a job for done."""
+        places = [place for place in seal.outputs if place.endswith(DONE)] or list(seal.outputs)
+        for place in places:
+            self._remove(self._results / place)
+            self._kept[self._results / place] = False
+
+    def _remove(self, path: Path) -> None:
+        """Remove a file where there is one, but not in a dry run."""
+        if self._acts:
+            path.unlink(missing_ok=True)
