@@ -21,6 +21,7 @@ FLOORS = (
         "variables",
         "dataset",
         "provenance",
+        "seals",
         "reference",
         "code_digest",
     ),

@@ -44,7 +44,6 @@ class KnownContents:
         except (OSError, ValueError):
             self._stamps = {}
         self._is_new = False
-        atexit.register(self.save)
 
     def digest(self, path: Path) -> str:
         """Return the digest of what a file holds; it is read if it may have been changed since it was read last."""
@@ -86,6 +85,8 @@ class SealCheck:
         self._rules = {rule.name: rule for rule in workflow.rules}
         self._kept: dict[Path, bool] = {}
         self._known = KnownContents(results / FOLDER / "known")
+        if acts:
+            atexit.register(self._known.save)
 
     def keeps(self, path: Path) -> bool:
         """Return True if a file is what its seal says, and so is all that it was made from; else put it away."""

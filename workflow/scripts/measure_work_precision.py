@@ -7,13 +7,12 @@ from threadpoolctl import threadpool_limits
 
 from contactsim import dataset
 from contactsim.error_control.forecast import transform_seconds
-from contactsim.evaluation.work_precision.case_config import read_cases
+from contactsim.evaluation.work_precision.case_config import read_case
 from contactsim.files import write_text
-from contactsim.study.plan import Plan
 
 open_job(snakemake)
 plan, config = json.loads(snakemake.params.plan), snakemake.params.config
-case = read_cases(config, Plan.read(config, snakemake.params.tier))[snakemake.wildcards.case]
+case = read_case(config, snakemake.params.tier, snakemake.wildcards.case)
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
     data, seconds = case.measure(snakemake.wildcards.job)
 dataset.write(dataset.stamp(data, f"accuracy of {case.name}", plan["job"], plan["source"]), snakemake.output.data)

@@ -33,6 +33,7 @@ STUDY_PHRASES = {
     "rough_line": "rough lines",
     "rough_line_many": "many rough lines",
     "rough_surface": "rough surfaces",
+    "rough_surface_fine": "rough surfaces",
     "smooth_line": "cylinders",
     "smooth_surface": "spheres",
     "indentation": "adhesive cylinder",

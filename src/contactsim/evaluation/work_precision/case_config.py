@@ -67,6 +67,11 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
     return cases
 
 
+def read_case(folder: str | Path, tier: str, name: str) -> Case:
+    """Return one case of accuracy.yaml at a tier."""
+    return read_cases(folder, Plan.read(folder, tier))[name]
+
+
 def read_kept_tiers(folder: str | Path) -> list[str]:
     """Return the tiers of accuracy.yaml that take the results of baselines from the package."""
     return _read_tiers(Path(folder) / "accuracy.yaml")[1]
