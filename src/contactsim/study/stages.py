@@ -49,13 +49,12 @@ def stage_digest(stage: str, *modules: str) -> str:
 
 @cache
 def computing_stage_digest(stage: str, *modules: str) -> str:
-    """Return a digest of the code of a stage that computes results, of the libraries, and of units and long names.
+    """Return a digest of the code of a stage that computes results, and of the libraries.
 
-    Symbols of variables do not enter: they change figures, and no result.
+    Units, long names and symbols of variables do not enter: they describe results, and change none. Datasets of studies
+    get them when they are gathered.
     """
-    tables = read_table(_table_of_variables()).values()
-    stored = {name: (entry.unit, entry.long_name) for table in tables for name, entry in table.items()}
-    return digest(computing_digest(*STAGES[stage], *modules), stored)
+    return computing_digest(*STAGES[stage], *modules)
 
 
 def _table_of_variables() -> Path:
