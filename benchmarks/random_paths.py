@@ -31,7 +31,7 @@ from contactsim.grid import Array
 
 COUNT, BUDGET = 3000, 60.0
 """Scenes, and CPU seconds after which a scene counts as endless."""
-TOLD = 1.001
+LIMIT = 1.001
 """Error, over what it may be, from which it is told."""
 
 logger = logging.getLogger("random_paths")
@@ -239,7 +239,7 @@ def judge(number: int) -> list[tuple[int, str, float, str]]:
     for place, state in solved_states(case, data):
         solved += 1
         for name, error in case.equations.judge(state, place, data.heights.values).items():
-            if not error <= TOLD and (name not in worst or error > worst[name][2]):
+            if not error <= LIMIT and (name not in worst or error > worst[name][2]):
                 worst[name] = number, name, float(error), f"step {place}; {case.words}"
     unsolved = len(case.scene.path.steps) - solved
     right = "right, some unsolved" if unsolved else "right"

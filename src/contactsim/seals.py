@@ -110,12 +110,19 @@ def check_inputs(results: Path, paths: Iterable[Path]) -> dict[str, str]:
     return found
 
 
-def verify(results: Path) -> dict[str, str]:
-    """Return what is wrong with the results of a tier, by place; every file is read.
+def verify(results: Path) -> tuple[int, dict[str, str]]:
+    """Return how many results of a tier have seals, and what is wrong with results, by place; every file is read.
 
     Damaged and missing files are told, those without a seal, and those that were made from other results than there
     are.
+
+    Raises
+    ------
+    InputError
+        For a folder without seals.
     """
+    if not (results / FOLDER).is_dir():
+        raise InputError("folder", results, "that of a tier's results, such as results/standard, with its seals")
     seals, broken = read_seals(results)
     wrong = dict.fromkeys(broken, "has a seal that cannot be read")
     for place, seal in seals.items():
@@ -133,7 +140,7 @@ def verify(results: Path) -> dict[str, str]:
         is_result = path.is_file() and path.suffix != ASIDE and Path(place).parts[0] not in UNSEALED
         if is_result and place not in seals and place not in wrong:
             wrong[place] = "has no seal"
-    return wrong
+    return len(seals), wrong
 
 
 def digest_of(seals: dict[str, Seal], place: str) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,24 +15,26 @@ MADE_FROM = ("plan", "source", "tier")
 """Parameters of rules on which results depend."""
 
 
-def open_job(snakemake: Any) -> None:
-    """Send log lines, warnings and tracebacks of this process to the log as they come; check what the job reads."""
-    path = snakemake.log[0]
-    stream = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 - stays open for the life of the job
+def open_job(snakemake: Any) -> Callable[[], None]:
+    """Open the log of a job and check what it reads; return what seals its outputs, its last step.
+
+    Log lines, warnings and tracebacks of this process go to the log as they come.
+    """
+    stream = open(snakemake.log[0], "w", buffering=1, encoding="utf-8")  # noqa: SIM115 - stays open for the job's life
     sys.stdout = sys.stderr = stream
     logging.basicConfig(stream=stream, level="INFO", format="%(asctime)s %(levelname)s %(message)s")
     logging.getLogger("fontTools").setLevel("WARNING")
     logging.captureWarnings(True)
-    check_inputs(results_of(snakemake), map(Path, snakemake.input))
-
-
-def seal_job(snakemake: Any) -> None:
-    """Seal what the job wrote, as its last step."""
     results = results_of(snakemake)
-    outputs = {str(Path(path).relative_to(results)): content_digest(Path(path)) for path in snakemake.output}
     inputs = check_inputs(results, map(Path, snakemake.input))
-    made_from = parameters_digest(dict(snakemake.params.items()))
-    Seal(snakemake.rule, dict(snakemake.wildcards.items()), made_from, inputs, outputs).write(results)
+
+    def seal() -> None:
+        """Seal what the job wrote."""
+        outputs = {str(path.relative_to(results)): content_digest(path) for path in map(Path, snakemake.output)}
+        made_from = parameters_digest(dict(snakemake.params.items()))
+        Seal(snakemake.rule, dict(snakemake.wildcards.items()), made_from, inputs, outputs).write(results)
+
+    return seal
 
 
 def parameters_digest(parameters: dict[str, Any]) -> str:

@@ -71,9 +71,11 @@ class OutputCheck:
         self._check, self._rule = check, rule
 
     def __call__(self, wildcards: Wildcards) -> list[Path]:
-        """Check the outputs of a job."""
-        for item in self._rule.output:
-            self._check.keeps(Path(str(item.apply_wildcards(wildcards))))
+        """Check the outputs of a job, unless it did not end: what it left may serve again."""
+        outputs = [Path(str(item.apply_wildcards(wildcards))) for item in self._rule.output]
+        if all(path.exists() for path in outputs if path.suffix == DONE):
+            for path in outputs:
+                self._check.keeps(path)
         return []
 
 
@@ -98,12 +100,11 @@ class SealCheck:
         """Judge a file; see `keeps`."""
         if self._results not in path.parents or not path.exists():
             return path.exists()
-        mark = path.with_suffix(DONE)
-        if path.suffix != DONE and path.parent.is_relative_to(self._results / "runs") and not mark.exists():
-            return False  # a run that did not end; what it has solved may serve again
         place, seal = str(path.relative_to(self._results)), self._seal(path)
         if seal is None or place not in seal.outputs:
             return self._set_aside(path, "has no seal, so it was not made here")
+        if not all((self._results / mark).exists() for mark in seal.outputs if mark.endswith(DONE)):
+            return False  # the run was begun again and did not end
         if self._known.digest(path) != seal.outputs[place]:
             return self._set_aside(path, "was changed since it was made", seal)
         reason = self._outdated(path, seal)
@@ -159,7 +160,6 @@ class SealCheck:
             path.rename(aside)
         if seal is not None:
             self._unmake(seal)
-        self._remove(path.with_suffix(DONE))
         return False
 
     def _unmake(self, seal: Seal) -> None:

@@ -2,15 +2,15 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim import dataset
 from contactsim.analysis import aggregate, costs
 from contactsim.files import write_text
 
-open_job(snakemake)
+seal = open_job(snakemake)
 plan = json.loads(snakemake.params.plan)
 data = aggregate.aggregate(plan["runs"], plan["settings"], plan["source"])
 dataset.write(data, snakemake.output.data)
 write_text(costs.table(plan["runs"]).to_csv(index=False), snakemake.output.costs)
-seal_job(snakemake)
+seal()

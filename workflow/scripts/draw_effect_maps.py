@@ -2,10 +2,10 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim.figures.diagnostics.effect_maps import write_effect_maps
 
-open_job(snakemake)
+seal = open_job(snakemake)
 write_effect_maps(json.loads(snakemake.params.plan), snakemake.input, snakemake.output)
-seal_job(snakemake)
+seal()

@@ -2,10 +2,10 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim.figures.diagnostics.effects import write_effects
 
-open_job(snakemake)
+seal = open_job(snakemake)
 write_effects(json.loads(snakemake.params.plan), snakemake.input.data, snakemake.input.costs, snakemake.output)
-seal_job(snakemake)
+seal()

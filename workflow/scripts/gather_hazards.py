@@ -2,13 +2,13 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim import dataset
 from contactsim.evaluation.robustness.survey import merge_surveys
 
-open_job(snakemake)
+seal = open_job(snakemake)
 plan = json.loads(snakemake.params.plan)
 data = merge_surveys(map(dataset.load_dataset, plan["paths"]))
 dataset.write(dataset.stamp(data, plan["settings"]["title"], plan["settings"], plan["source"]), snakemake.output[0])
-seal_job(snakemake)
+seal()

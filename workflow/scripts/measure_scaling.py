@@ -2,14 +2,14 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 from threadpoolctl import threadpool_limits
 
 from contactsim.evaluation.calibration.measurement import ScalingJob, measure_scaling
 from contactsim.files import write_text
 
-open_job(snakemake)
+seal = open_job(snakemake)
 with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
     table = measure_scaling(ScalingJob.from_settings(json.loads(snakemake.params.plan)))
 write_text(table.to_csv(index=False), snakemake.output[0])
-seal_job(snakemake)
+seal()

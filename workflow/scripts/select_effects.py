@@ -2,13 +2,13 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim.files import write_text
 from contactsim.study.select_effects import select_effects
 
-open_job(snakemake)
+seal = open_job(snakemake)
 decision = select_effects(json.loads(snakemake.params.plan)["settings"])
 write_text(decision.text, snakemake.output.decision)
 write_text(json.dumps({"seconds": decision.seconds}), snakemake.output.costs)
-seal_job(snakemake)
+seal()

@@ -2,11 +2,11 @@
 
 import json
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim import dataset
 from contactsim.evaluation.robustness.survey import survey_hazard
 
-open_job(snakemake)
+seal = open_job(snakemake)
 dataset.write(survey_hazard(**json.loads(snakemake.params.plan)), snakemake.output[0])
-seal_job(snakemake)
+seal()

@@ -3,11 +3,11 @@
 import json
 from pathlib import Path
 
-from job import open_job, seal_job
+from job import open_job
 
 from contactsim.publish import bundle
 
-open_job(snakemake)
+seal = open_job(snakemake)
 plan = json.loads(snakemake.params.plan)
 bundle.write_bundle(plan, dict(zip(plan["files"], snakemake.input, strict=True)), Path(snakemake.output[0]).parent)
-seal_job(snakemake)
+seal()
