@@ -20,8 +20,9 @@ from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.zone_factors import GeneralFactors, SymmetricFactors, ZoneFactors
 
-COARSENING, MIN_NODES = 8, 128
-"""Points of the grid for each node of the coarse grid of long waves, and smallest number of nodes."""
+COARSENING, MIN_NODES, SMALL_GRID = 8, 128, 256
+"""Points of the grid for each node of the coarse grid of long waves, smallest number of nodes, and points up to which
+the grid itself is the coarse one."""
 SHORT_WAVE_SHIFT, MIN_TANGENT = 0.3, (1.0, 0.01)
 """Shift of short waves, over the largest tangent of a component; smallest value taken for that, normal and tangential,
 over the laws' tangent at zero gap."""
@@ -56,7 +57,8 @@ class ZonePreconditioner:
         before: ZonePreconditioner | None = None,
     ) -> None:
         self._problem = problem
-        ratio = min(COARSENING, max(problem.grid.size // MIN_NODES, 1))
+        points = problem.grid.size
+        ratio = min(COARSENING, points // MIN_NODES) if points > SMALL_GRID else 1
         values = _averages(tangent.values, ratio)
         while np.count_nonzero(self._acting(values)) * len(values) > MAX_UNKNOWNS:
             ratio *= 2
