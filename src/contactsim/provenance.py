@@ -80,27 +80,30 @@ def executed_imports(name: str) -> frozenset[str]:
     return frozenset(modules - {PACKAGE})
 
 
-def modules_used(*names: str) -> tuple[str, ...]:
-    """Return these modules and all that they use, directly or not, sorted; the bare package is not one."""
+def modules_used(*names: str, registries: frozenset[str] = frozenset()) -> tuple[str, ...]:
+    """Return these modules and all that they use, directly or not, sorted; the bare package is not one.
+
+    What registries import is left out: of the classes that they name, those in use are among `names`.
+    """
     used: set[str] = set()
     waiting = list(names)
     while waiting:
         module = waiting.pop()
         if module not in used and module != PACKAGE:
             used.add(module)
-            waiting.extend(executed_imports(module))
+            waiting.extend(() if module in registries else executed_imports(module))
     return tuple(sorted(used))
 
 
 @cache
-def source_digest(*names: str) -> str:
-    """Return the digest of what these modules compute and of all that they use: 16 hexadecimal digits.
+def source_digest(*names: str, registries: frozenset[str] = frozenset()) -> str:
+    """Return the digest of what these modules compute and of all that they use (`modules_used`): 16 hexadecimal digits.
 
     An edit that cannot change a result changes no digest (`contactsim.code_digest.normal_form`). Docstrings count where
     a module reads them: its own, and those of the modules that it imports.
     """
     text = hashlib.sha256()
-    for module in modules_used(*names):
+    for module in modules_used(*names, registries=registries):
         source = source_of(module)
         if source.normal_form:
             text.update(f"{module}\0{source.normal_form}\0".encode())
@@ -110,9 +113,9 @@ def source_digest(*names: str) -> str:
     return text.hexdigest()[:16]
 
 
-def computing_digest(*names: str) -> str:
+def computing_digest(*names: str, registries: frozenset[str] = frozenset()) -> str:
     """Return the digest of what computes a result: these modules, all that they use, and the libraries below them."""
-    return digest(source_digest(*names), versions())
+    return digest(source_digest(*names, registries=registries), versions())
 
 
 def canonical(settings: object) -> str:

@@ -38,7 +38,7 @@ from contactsim.error_control.solution import solve_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw_scene, read_trials
 from contactsim.evaluation.resources import summarise_jobs
-from contactsim.paths.increments import Adaptive
+from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.options import Setup
 from contactsim.solvers.registry import make_solver
 from contactsim.study import execute_to_accuracy

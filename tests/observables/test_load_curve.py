@@ -8,7 +8,9 @@ import pytest
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
 from contactsim.observables.adhesion import pull_off, summarise_load_curves
 from contactsim.observables.load_curve import FOLD, LoadCurve, join_folds
-from contactsim.paths.increments import Adaptive, Nested, Requested
+from contactsim.paths.adaptive import Adaptive
+from contactsim.paths.nested import Nested
+from contactsim.paths.requested import Requested
 from contactsim.simulation import simulate
 from support.smooth import LAWS, along, scene_of
 

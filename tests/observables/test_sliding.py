@@ -21,7 +21,8 @@ from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.observables import friction, peeling, polyline, sliding, threshold
 from contactsim.observables.derived import combine_runs
-from contactsim.paths.increments import INCREMENTS, Requested
+from contactsim.paths.increments import INCREMENTS
+from contactsim.paths.requested import Requested
 from contactsim.paths.state import PathState
 from contactsim.reference import springs
 from contactsim.simulation import simulate

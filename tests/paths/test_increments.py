@@ -14,7 +14,7 @@ from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
-from contactsim.paths.increments import Adaptive
+from contactsim.paths.adaptive import Adaptive
 from contactsim.solvers.cohesive.base import SEPARATION
 from contactsim.solvers.cohesive.newton_krylov import NewtonKrylov
 from contactsim.solvers.registry import make_solver

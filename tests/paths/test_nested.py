@@ -17,7 +17,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone,
 from contactsim.interface.hard_wall import HardWall
 from contactsim.observables.conformity import conformities, first_short_mode
 from contactsim.paths.continuation import Continuation
-from contactsim.paths.increments import Nested
+from contactsim.paths.nested import Nested
 from contactsim.paths.state import PathState
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver

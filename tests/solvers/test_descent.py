@@ -10,7 +10,7 @@ from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
-from contactsim.paths.increments import Requested
+from contactsim.paths.requested import Requested
 from contactsim.solvers.cohesive.descent import descend
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status

@@ -15,7 +15,7 @@ from contactsim.elasticity.layer import Layer
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.observables.adhesion import state_observables
-from contactsim.paths.increments import Requested
+from contactsim.paths.requested import Requested
 from contactsim.paths.state import PathState
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.base import Surface

@@ -22,8 +22,9 @@ from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.reading import keys_of, read
 from contactsim.study.study import Study
-from contactsim.surfaces.measured import SURFACES, MeasuredSurface
+from contactsim.surfaces.measured import MeasuredSurface
 from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.topography import Topography, read_topography
 from support.cases import refusal
 

@@ -19,7 +19,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone,
 from contactsim.interface.lattice import Lattice
 from contactsim.observables.adhesion import contact_length, pull_off, summarise_load_curves
 from contactsim.observables.load_curve import LoadCurve
-from contactsim.paths.increments import Requested
+from contactsim.paths.requested import Requested
 from contactsim.reference import adhesion, springs
 from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid

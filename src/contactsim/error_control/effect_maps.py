@@ -27,7 +27,7 @@ from contactsim.grid import Array
 from contactsim.interface.pairing import ALIGNED
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup
-from contactsim.surfaces.measured import SURFACES
+from contactsim.surfaces.registry import SURFACES
 from contactsim.traits import Trait
 
 FILE = Path(__file__).with_name("effect_maps.yaml")

@@ -20,8 +20,8 @@ from contactsim.error_control.relations import scaling_relations
 from contactsim.error_control.scaling import QUANTITIES, scene_family
 from contactsim.errors import InputError
 from contactsim.grid import Grid
-from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
+from contactsim.paths.requested import Requested
 from contactsim.solvers.registry import default_solver_name, make_solver, solver_class
 
 TIMINGS, UNIT_POINTS, BATCH = 7, 4096, 100

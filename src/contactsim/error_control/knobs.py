@@ -20,9 +20,10 @@ from contactsim.error_control.scaling import (
 )
 from contactsim.errors import InputError
 from contactsim.paths.adaptive import Adaptive
-from contactsim.paths.increments import Increments, Requested
+from contactsim.paths.increments import Increments
 from contactsim.paths.nested import Nested
 from contactsim.paths.options import Setup
+from contactsim.paths.requested import Requested
 from contactsim.traits import Trait
 
 ERROR_SHARES = {"increment": 0.2, "tolerance": 0.1}

@@ -11,8 +11,9 @@ import xarray as xr
 from contactsim.contact.scene import ProblemKind
 from contactsim.grid import Array
 from contactsim.observables.derived import combine_runs, summarise_paths
-from contactsim.paths.driver import Reuse, follow_path
+from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Setup
+from contactsim.paths.reuse import Reuse
 from contactsim.status import is_solved
 
 

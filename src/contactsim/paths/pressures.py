@@ -12,7 +12,6 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -28,31 +27,13 @@ from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
 from contactsim.observables.contact import KEPT
 from contactsim.observables.hard_wall import wall_observables
+from contactsim.paths.reuse import Point
 from contactsim.solvers.base import HardWallSolver, Result, solve
 from contactsim.status import status_sentence
 from contactsim.surfaces.squared_gradient import squared_gradient_blocks
 from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
 
 logger = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True)
-class Point:
-    """One solved load.
-
-    Parameters
-    ----------
-    numbers : dict
-        Numbers by name.
-    arrays : dict
-        Arrays that are kept, by name.
-    seconds : float
-        CPU seconds of the solution.
-    """
-
-    numbers: dict[str, float]
-    arrays: dict[str, Array]
-    seconds: float
 
 
 def simulate_loads(

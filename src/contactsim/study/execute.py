@@ -15,9 +15,9 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.files import write_text
-from contactsim.paths.driver import DRIVERS, Reuse, follow_path
+from contactsim.paths.driver import follow_path, path_driver
 from contactsim.paths.options import Setup
-from contactsim.paths.pressures import read_points
+from contactsim.paths.reuse import Reuse
 from contactsim.provenance import digest
 from contactsim.study.scenes import build_setup
 
@@ -53,7 +53,7 @@ def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
 
 def compute(setup: Setup, settings: dict, source: str, files: RunFiles) -> tuple[xr.Dataset, dict]:
     """Return the dataset of a run as it is; single loads that an earlier dataset holds are not solved again."""
-    solved = read_points(files.data, files.costs) if DRIVERS[setup.scene.kind].reuses_points else {}
+    solved = path_driver(setup.scene.kind).read_points(files.data, files.costs)
     names = point_digests(settings, source, len(setup.scene.path.steps))
     points = {step: solved[name] for step, name in enumerate(names) if name in solved}
     return follow_path(setup, Reuse(points=points or None)), settings

@@ -17,7 +17,7 @@ from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import ENDS
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, positive, text, whole
-from contactsim.surfaces.measured import SURFACES
+from contactsim.surfaces.registry import SURFACES
 from contactsim.variables import LOADS
 
 

@@ -1,16 +1,14 @@
-"""Differences between studies of the two kinds of problem: their keys, loads and options."""
+"""Differences between studies of the two kinds of problem, and the modules of the kinds that a run names."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
-from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.scene import ProblemKind
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
-from contactsim.paths.increments import INCREMENTS, Requested
-from contactsim.paths.options import Setup
+from contactsim.paths.increments import INCREMENTS
 
 
 class StudyKind(Protocol):
@@ -38,10 +36,6 @@ class StudyKind(Protocol):
         """Return the run options that only this kind has."""
         ...
 
-    def check(self, setup: Setup) -> None:
-        """Raise InputError for options that cannot work."""
-        ...
-
 
 class HardWallStudy:
     """Loads at a hard wall."""
@@ -57,9 +51,6 @@ class HardWallStudy:
     def options(self, settings: Mapping) -> dict[str, Any]:
         """Return what is kept of each solution."""
         return {"keep": tuple(settings["keep"])}
-
-    def check(self, setup: Setup) -> None:
-        """Accept all options."""
 
 
 class CohesiveStudy:
@@ -83,15 +74,6 @@ class CohesiveStudy:
             "keep_fields": settings["keep_fields"],
             "until": settings["load"].get("until"),
         }
-
-    def check(self, setup: Setup) -> None:
-        """Raise InputError for a tolerance, increments or snapshots that the path cannot have."""
-        scene, options = setup.scene, setup.options
-        check_tolerance(options.tolerance)
-        solver: Any = options.solver  # one of cohesive problems, as the scene has been checked
-        (options.increments or Requested()).check(setup.points, scene.path.steps, solver)
-        for value in options.snapshots or ():
-            scene.path.nearest(value)
 
 
 STUDY_KINDS: dict[ProblemKind, StudyKind] = {

@@ -192,7 +192,7 @@ class Plan:
         """Return what a figure depends on: its settings, its code, and all that its data depend on."""
         figure = self.figures[name]
         module = f"contactsim.figures.{figure.chapter}"
-        code = stage_digest("figure", module)
+        code = stage_digest("figure_of_law" if figure.settings["law"] else "figure", module)
         data = digest(*(self.study_digest(study) for study in figure.studies))
         return {"name": name, "module": module, "settings": figure.settings, "source": code, "data": data}
 

@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.error_control.relations import FILE
+from contactsim.interface.registry import EFFECTS, PAIRINGS
+from contactsim.paths.driver import driver_module
+from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
+from contactsim.study.kinds import problem_kind
 from contactsim.study.scenes import build_setup
-from contactsim.study.stages import computing_stage_digest
+from contactsim.study.stages import computing_stage_digest, run_digest
+from contactsim.surfaces.registry import SURFACES
+
+KINDS: dict[str, Mapping[str, type]] = {
+    "surface": SURFACES,
+    "body": ELASTICITIES,
+    "counter_body": ELASTICITIES,
+    "pairing": PAIRINGS,
+    "increments": INCREMENTS,
+}
+"""Classes by kind, for each section of the settings that has one; rigid bodies have none."""
 
 
 @dataclass(frozen=True)
@@ -57,10 +73,16 @@ class Run:
 
     @cached_property
     def source(self) -> str:
-        """Digest of the code that computes the run, its one solver, the libraries and the relations it is chosen by."""
-        code = computing_stage_digest(self.stage, solver_module(self.settings["solver"]["kind"]))
+        """Digest of the code that computes the run, the libraries, and the relations it is chosen by.
+
+        Code are the modules of its solver and of the kinds that it names, and all that these use. A run that chooses
+        its settings by itself may come to any kind.
+        """
+        solver = solver_module(self.settings["solver"]["kind"])
+        if self.stage == "run":
+            return run_digest(solver, *modules_of_kinds(self.settings))
         relations = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
-        return digest(code, *relations)
+        return digest(computing_stage_digest(self.stage, solver), *relations)
 
     @cached_property
     def digest(self) -> str:
@@ -71,3 +93,12 @@ class Run:
     def stem(self) -> str:
         """Path of the run's files below runs/ and costs/runs/, without their endings."""
         return f"{self.study}/{self.variant}/{self.member}"
+
+
+def modules_of_kinds(settings: Mapping) -> tuple[str, ...]:
+    """Return the modules of all kinds that a run names, and that of its kind of problem."""
+    named = {EFFECTS[name].__module__ for name in settings["effects"]}
+    for section, classes in KINDS.items():
+        kind = (settings.get(section) or {}).get("kind", "")
+        named |= {classes[kind].__module__} if kind in classes else set()
+    return driver_module(problem_kind(settings["effects"])), *sorted(named)

@@ -26,7 +26,7 @@ from contactsim.solvers.registry import configure_solver
 from contactsim.study.keys import RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.base import Surface
-from contactsim.surfaces.measured import SURFACES
+from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.statistics import rms_gradient

@@ -20,7 +20,7 @@ from contactsim.study.keys import (
 from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.kinds import STUDY_KINDS, problem_kind, study_kind
 from contactsim.study.reading import Key, listed, number, read
-from contactsim.surfaces.measured import SURFACES
+from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 from contactsim.variables import LOADS

@@ -19,7 +19,8 @@ STAGES: dict[str, tuple[str, ...]] = {
     "run_neglecting": ("contactsim.study.execute_neglecting",),
     "select_effects": ("contactsim.study.select_effects",),
     "aggregate": ("contactsim.analysis.aggregate", "contactsim.analysis.costs"),
-    "figure": ("contactsim.figures.layout", "contactsim.study.law_table"),
+    "figure": ("contactsim.figures.layout",),
+    "figure_of_law": ("contactsim.figures.layout", "contactsim.study.law_table"),
     "claims": ("contactsim.analysis.claims", "contactsim.figures.diagnostics.claims"),
     "work_precision": ("contactsim.evaluation.work_precision.cases",),
     "export_baselines": ("contactsim.evaluation.work_precision.baselines",),
@@ -39,6 +40,15 @@ STAGES: dict[str, tuple[str, ...]] = {
     "hazard": ("contactsim.evaluation.robustness.survey",),
 }
 """Modules by stage."""
+REGISTRIES = frozenset(
+    {
+        "contactsim.elasticity.registry",
+        "contactsim.interface.registry",
+        "contactsim.paths.increments",
+        "contactsim.surfaces.registry",
+    }
+)
+"""Modules that import all classes of a sort; a run executes only those that its settings name."""
 
 
 @cache
@@ -55,6 +65,12 @@ def computing_stage_digest(stage: str, *modules: str) -> str:
     get them when they are gathered.
     """
     return computing_digest(*STAGES[stage], *modules)
+
+
+@cache
+def run_digest(*modules: str) -> str:
+    """Return a digest of the code of a run as its settings are; modules: those of the kinds that they name."""
+    return computing_digest(*STAGES["run"], *modules, registries=REGISTRIES)
 
 
 def _table_of_variables() -> Path:

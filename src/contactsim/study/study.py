@@ -18,6 +18,7 @@ from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
 from contactsim.interface.registry import EFFECTS
+from contactsim.paths.driver import path_driver
 from contactsim.provenance import digest
 from contactsim.solvers.base import Solver, check_solver
 from contactsim.solvers.registry import check_installed
@@ -248,7 +249,7 @@ class Study:
             check_installed(run.settings["solver"]["kind"])
             check_solver(cast(Solver, run.setup.options.solver), scene)
             scene.upper.surface.check(run.setup.points)
-            study_kind(run.settings).check(run.setup)
+            path_driver(scene.kind).check(run.setup)
         except InputError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.located(self.file, f"studies.{self.name}{section}") from error

@@ -1,4 +1,4 @@
-"""Surfaces by the name of their kind, and those that a config reads from files of measured heights."""
+"""Surfaces that a config reads from files of measured heights."""
 
 from __future__ import annotations
 
@@ -6,8 +6,6 @@ from dataclasses import dataclass, field
 
 from contactsim.grid import Array
 from contactsim.surfaces.preparation import prepare
-from contactsim.surfaces.self_affine import SelfAffine
-from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from contactsim.surfaces.topography import Topography, read_topography
 
 
@@ -69,15 +67,3 @@ class MeasuredSurface(MeasuredLine):
     detrend: str = "plane"
     spacing: float | list[float] | None = None  # type: ignore[assignment]  # an area may have two
     dimensions = 2
-
-
-SURFACES = {
-    "flat": Flat,
-    "cylinder": Cylinder,
-    "sphere": Sphere,
-    "sinusoid": Sinusoid,
-    "self_affine": SelfAffine,
-    "measured": MeasuredLine,
-    "measured_surface": MeasuredSurface,
-}
-"""Classes of surfaces by the name of their kind in a config."""

@@ -32,8 +32,8 @@ from contactsim.error_control.scaling import (
 )
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.evaluation.calibration.sampling import FAMILY_RANGES, Ranges, Trials, draw_scene
-from contactsim.paths.increments import Requested
 from contactsim.paths.options import Setup
+from contactsim.paths.requested import Requested
 from contactsim.solvers.registry import DEFAULT_SOLVERS, solver_module
 from contactsim.study.stages import computing_stage_digest
 

@@ -20,8 +20,9 @@ from contactsim.observables.derived import combine_runs
 from contactsim.observables.friction import ONSET
 from contactsim.observables.threshold import APPROACH_ERROR, THRESHOLD, fit_thresholds
 from contactsim.paths.driver import follow_path
-from contactsim.paths.increments import Increments, Requested
+from contactsim.paths.increments import Increments
 from contactsim.paths.jumps import Jump
+from contactsim.paths.requested import Requested
 from contactsim.paths.state import PathState
 from contactsim.reference import adhesion
 from contactsim.solvers.cohesive.base import CohesiveSolver

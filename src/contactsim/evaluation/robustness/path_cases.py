@@ -25,7 +25,7 @@ from contactsim.grid import Array
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.lattice import Lattice
-from contactsim.paths.increments import Requested
+from contactsim.paths.requested import Requested
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver

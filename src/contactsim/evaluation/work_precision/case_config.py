@@ -21,10 +21,10 @@ from contactsim.evaluation.work_precision.knobs import (
     find_case_kind,
     read_knobs,
 )
+from contactsim.paths.driver import path_driver
 from contactsim.provenance import digest
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import SOLVERS, solver_class
-from contactsim.study.kinds import study_kind
 from contactsim.study.plan import Plan
 from contactsim.study.quantity_names import quantities
 from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, text, whole
@@ -144,7 +144,7 @@ def _check_setting(case: Case, job: str, setting: Setting, file: Path, prefix: s
             scene = run.setup.scene
             scene.upper.surface.check(setting.points)
             check_solver(solver_class(case.solver_of(job))(), scene)
-            study_kind(run.settings).check(run.setup)
+            path_driver(scene.kind).check(run.setup)
     except InputError as error:
         if error.key == "solver":
             raise InputError(f"{prefix}.solvers", job, error.allowed, file) from error
