@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from contactsim.provenance import PACKAGE, imports_of, package_root
+from contactsim.code_digest.modules import imports_of, package_root
+from contactsim.provenance import PACKAGE
 
 ROOT = Path(__file__).parents[1]
 FLOORS = (

@@ -11,7 +11,7 @@ from types import FrameType
 import pytest
 import yaml
 
-from contactsim.provenance import modules_used
+from contactsim.code_digest.modules import modules_used
 from contactsim.solvers.registry import solver_module
 from contactsim.study.execute import RunFiles, run
 from contactsim.study.plan import Plan

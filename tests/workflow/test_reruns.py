@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 import yaml
 
-from contactsim import provenance
+from contactsim.code_digest import modules
 from contactsim.provenance import canonical
 from contactsim.study import stages
 from contactsim.study.execute import point_digests
 from contactsim.study.plan import Plan
 
-SOURCE = Path(provenance.__file__).parent
+SOURCE = Path(modules.__file__).parent.parent
 CYLINDER = {"kind": "cylinder", "radius": 10.0, "length": 40.0}
 WALL = {
     "title": "Cylinder",
@@ -107,7 +107,7 @@ class Workshop:
 
 
 def forget() -> None:
-    of_modules = (provenance.source_of, provenance.imports_of, provenance.executed_imports, provenance.source_digest)
+    of_modules = (modules.source_of, modules.imports_of, modules.executed_imports, modules.source_digest)
     for cached in (*of_modules, stages.stage_digest, stages.computing_stage_digest, stages.run_digest):
         cached.cache_clear()
 
@@ -115,7 +115,7 @@ def forget() -> None:
 @pytest.fixture
 def workshop(tmp_path, monkeypatch):
     workshop = Workshop(tmp_path)
-    monkeypatch.setattr(provenance, "package_root", lambda: workshop.package)
+    monkeypatch.setattr(modules, "package_root", lambda: workshop.package)
     yield workshop
     forget()
 

@@ -9,10 +9,11 @@ from pathlib import Path
 from products import Products
 from snakemake.iocontainers import Wildcards
 
+from contactsim.code_digest.modules import source_digest
 from contactsim.evaluation.calibration import validation
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.robustness import survey
-from contactsim.provenance import canonical, digest, source_digest
+from contactsim.provenance import canonical, digest
 
 PROJECT_FILES = ["CITATION.cff", "LICENSE", "environment.txt", "examples/reanalyse.py"]
 """Files of the project that the bundle holds, beside the settings."""

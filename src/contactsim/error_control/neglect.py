@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
+from contactsim.code_digest.modules import computing_digest
 from contactsim.contact.scene import ProblemKind, Scene
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.effect_maps import FILE, change_without, expected_change
@@ -23,7 +24,7 @@ from contactsim.error_control.scaling import shortest_range, total_strength
 from contactsim.error_control.solution import Solution
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
-from contactsim.provenance import computing_digest, digest
+from contactsim.provenance import digest
 from contactsim.status import LIMITS, process_zone
 
 logger = logging.getLogger(__name__)

@@ -20,7 +20,8 @@ from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.claims import SCALES
 from contactsim.analysis.dataset_summary import error_texts
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
-from contactsim.provenance import digest, source_digest
+from contactsim.code_digest.modules import source_digest
+from contactsim.provenance import digest
 from contactsim.study.plan import Plan
 
 VERDICTS = (REPRODUCED, CONDITION, DEPENDS, NOT_REPRODUCED, NOT_DECIDABLE)

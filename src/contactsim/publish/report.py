@@ -28,10 +28,11 @@ from contactsim.analysis.dataset_summary import dataset_summary
 from contactsim.analysis.rounding import number_cells, number_text
 from contactsim.analysis.verdict import FINDING
 from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed
+from contactsim.code_digest.modules import source_digest
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
-from contactsim.provenance import digest, source_digest, versions
+from contactsim.provenance import digest, versions
 from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, Entry, duration_text, figures_in_source
 from contactsim.study.plan import Plan

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from contactsim.analysis.ensemble import widen_interval
+from contactsim.code_digest.modules import module_path
 from contactsim.errors import InputError
-from contactsim.provenance import module_path
 from contactsim.study.claim_plan import read_selection
 from contactsim.study.law_table import read_law
 from contactsim.study.reading import Key, choice, listed, mapping, number, positive, read, size, text, whole

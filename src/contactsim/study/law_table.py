@@ -6,10 +6,10 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.code_digest.modules import source_digest
 from contactsim.errors import InputError
 from contactsim.interface.base import Law
 from contactsim.interface.registry import EFFECTS
-from contactsim.provenance import source_digest
 from contactsim.study.reading import Key, choice, keys_of, listed, number, positive, read
 
 MIXED = tuple(name for name, law in EFFECTS.items() if {"n", "t"} <= law.reads)

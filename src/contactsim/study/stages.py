@@ -1,7 +1,7 @@
 """Modules that each stage of the workflow executes.
 
 A job carries a digest of the code that it executes, so that an edit reruns what it changes and nothing else. The
-modules named here are where that code begins; `contactsim.provenance` follows their imports.
+modules named here are where that code begins; `contactsim.code_digest.modules` follows their imports.
 """
 
 from __future__ import annotations
@@ -9,8 +9,9 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from contactsim import provenance
-from contactsim.provenance import computing_digest, digest, source_digest
+from contactsim import code_digest
+from contactsim.code_digest.modules import computing_digest, source_digest
+from contactsim.provenance import digest
 from contactsim.variables import TABLE, read_table
 
 STAGES: dict[str, tuple[str, ...]] = {
@@ -75,4 +76,4 @@ def run_digest(*modules: str) -> str:
 
 def _table_of_variables() -> Path:
     """Return the table of variables of the package whose code the digests are of."""
-    return provenance.package_root() / TABLE.name
+    return code_digest.modules.package_root() / TABLE.name
