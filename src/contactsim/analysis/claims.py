@@ -175,7 +175,9 @@ def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, obj
         counted = counted_row(settings, studied)
         measure = comparison_text({**counted, "cases": claim["cases"]})
         words = {"measure": measure, "expected": band_text(counted), "beside": counted["beside"] or ""}
-        rows[name] = words | judge(counted, studied)
+        words |= {"deciding_study": settings["study"] or ""}
+        members = studied[0].sizes.get("member", 1) if studied else 1
+        rows[name] = words | judge(counted, studied) | {"members": members}
     return join_cases(rows)
 
 

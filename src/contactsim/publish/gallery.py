@@ -19,6 +19,7 @@ from contactsim import dataset
 from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.claims import SCALES
 from contactsim.analysis.dataset_summary import error_texts
+from contactsim.analysis.deciding import deciding_text
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.code_digest.modules import source_digest
 from contactsim.provenance import digest
@@ -68,6 +69,19 @@ def read_verdicts(folder: Path, chapters: Sequence[str]) -> pd.DataFrame:
     tables += [pd.read_csv(folder / "claims" / f"{chapter}.csv").assign(chapter=chapter) for chapter in chapters]
     claims = pd.concat(tables[1:] or tables, ignore_index=True)
     return claims[["chapter", *claims.columns.drop("chapter")]]
+
+
+def decide_with(plan: Plan, folder: Path, claims: pd.DataFrame) -> pd.Series:
+    """Return in words what would decide each claim that is not decidable, with its cost; empty for all others.
+
+    plan, folder, claims: as in `gallery_table`.
+    """
+    texts = pd.Series("", claims.index)
+    for place, row in claims[claims.verdict == NOT_DECIDABLE].iterrows():
+        if study := row["deciding_study"]:
+            costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(study)}.csv")
+            texts[place] = deciding_text({**row, "seconds": costs.seconds[~costs.measures_error].sum()})
+    return texts
 
 
 def claims_of_figure(claims: pd.DataFrame, name: str) -> pd.DataFrame:
@@ -167,6 +181,7 @@ def write_gallery(plan: Plan, folder: Path, target: Path, others: Mapping[str, s
     shutil.rmtree(target, ignore_errors=True)  # a figure that is gone leaves no picture
     target.mkdir(parents=True)
     claims = read_verdicts(folder, list(plan.claims))
+    claims = claims.assign(decided_with=decide_with(plan, folder, claims))
     rows = gallery_table(plan, folder, claims, others)
     for name in rows.figure:
         write_thumbnail(folder / "figures" / f"{name}.png", target / f"{name}.png")

@@ -176,7 +176,12 @@ def _failure_text(row: Mapping) -> str:
     return "\n".join([head, "", *(f"- {line}" for line in lines), ""])
 
 
-TEXTS = {"cases": "Cases", "deciding_case": "The case that decides", "unknown": "Unknown"}
+TEXTS = {
+    "cases": "Cases",
+    "deciding_case": "The case that decides",
+    "unknown": "Unknown",
+    "decided_with": "What would decide",
+}
 """Texts of a row that stand in its block, with what they are called there."""
 
 
