@@ -12,7 +12,6 @@ import pickle
 import socket
 import subprocess
 import sys
-import threading
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -57,6 +56,7 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
 
     def run_single_job(self, job: SingleJobExecutorInterface) -> Future[None]:
         """Start a job; return the future that ends with it."""
+        lift_rate_limit(self.workflow.scheduler)
         script = _script_path(job.rule)
         if self.control is None or script is None or job.threads > 1:
             return super().run_single_job(job)  # type: ignore[no-any-return]
@@ -95,7 +95,6 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
         """Wait for all jobs, then end the server."""
         super().shutdown()
         self._stop_server()
-        cancel_timers()
 
     def cancel(self) -> None:
         """End all jobs and the server."""
@@ -103,7 +102,6 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
             link.shutdown(socket.SHUT_RDWR)
         super().cancel()
         self._stop_server()
-        cancel_timers()
 
     def _stop_server(self) -> None:
         """End the server where there is one."""
@@ -113,11 +111,10 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
             self.control = self.server = None
 
 
-def cancel_timers() -> None:
-    """Cancel the timers of this process; Snakemake's would keep it alive although there is nothing left to schedule."""
-    for thread in threading.enumerate():
-        if isinstance(thread, threading.Timer):
-            thread.cancel()
+def lift_rate_limit(scheduler: Any) -> None:
+    """Let jobs start at any rate. With a limit each look for jobs starts a timer, and that starts another look."""
+    scheduler.job_rate_limiter = None
+    scheduler.resources["_job_count"] = sys.maxsize
 
 
 def _script_path(rule: Any) -> Path | None:
