@@ -31,17 +31,17 @@ def test_with_the_members_that_are_needed_the_margin_suffices_and_with_one_less_
 
 
 def test_the_cost_is_that_of_the_members_that_are_missing():
-    assert (
-        deciding_text(row(1.0, 1.0, 0.0)) == "40 members in place of 10, 3 hours of one core more, if the number stays"
-    )
+    told = deciding_text(row(1.0, 1.0, 0.0))
+    assert told == "40 members in place of 10, 3 hours of one core more, if the number stays"
 
 
 @pytest.mark.parametrize(("ensemble_error", "grid_error"), [(0.1, 0.6), (0.0, 0.6), (0.1, 0.5)])
 def test_no_number_of_members_makes_up_for_the_error_of_the_grid(ensemble_error, grid_error):
     assert math.isinf(members_needed(row(1.0, ensemble_error, grid_error)))
-    assert deciding_text(row(1.0, ensemble_error, grid_error)).startswith(
-        "an error of grid and increments well below 0.5"
-    )
+    told = deciding_text(row(1.0, ensemble_error, grid_error))
+    assert told == "an error of grid and increments below 0.5; more members alone do not"
+    told = deciding_text(row(0.001, ensemble_error, grid_error))
+    assert told.startswith("an error of grid and increments below 0.0005;")
 
 
 def test_nothing_is_told_where_an_error_is_not_known():

@@ -41,8 +41,8 @@ def deciding_text(row: Mapping[str, Any]) -> str:
         return ""
     needed, members = members_needed(row), row["members"]
     if math.isinf(needed):
-        most = short_number(distance_to_edge(row) / MIN_MARGIN)
-        return f"an error of grid and increments well below {most}; more members alone do not"
+        most = distance_to_edge(row) / MIN_MARGIN
+        return f"an error of grid and increments below {most:.2g}; more members alone do not"
     hours = (needed / members - 1) * row["seconds"] / 3600
     cost = f", {short_number(hours)} hours of one core more" if hours > 0 else ""
     return f"{needed:.0f} members in place of {members:.0f}{cost}, if the number stays"
