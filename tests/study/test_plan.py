@@ -227,7 +227,6 @@ REFUSED = [
     ("config.yaml", "data_folders", "scans", "a list of folders"),
     ("ch3.yaml", "studies.rough.members", 5001, "at most 10000 runs in all, and there are 2 variants"),
     ("ch3.yaml", "studies.smooth.points", 10**12, "at most 1073741824 points of the whole grid"),
-    ("ch3.yaml", "studies.smooth.tolerance", 1e-14, "1e-13 to 10 grid steps"),
     ("ch3.yaml", "studies.smooth.body.contact_modulus", 0, "positive"),
     ("ch3.yaml", "figures.fig_3_1.rows", 51, "at most 50"),
     ("tiers.yaml", "plain.study", {}, "known keys: studies"),

@@ -7,14 +7,10 @@ from typing import Any, Protocol
 
 from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.scene import ProblemKind
-from contactsim.errors import InputError
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.increments import INCREMENTS, Requested
 from contactsim.paths.options import Setup
-
-MIN_WALL_TOLERANCE, MAX_WALL_TOLERANCE = 1e-13, 10.0
-"""Smallest and largest tolerance of a hard wall, in grid steps."""
 
 
 class StudyKind(Protocol):
@@ -63,10 +59,7 @@ class HardWallStudy:
         return {"keep": tuple(settings["keep"])}
 
     def check(self, setup: Setup) -> None:
-        """Raise InputError for a tolerance that rounding hides, or at which a wall says nothing."""
-        if not MIN_WALL_TOLERANCE <= setup.options.tolerance <= MAX_WALL_TOLERANCE:
-            allowed = f"{MIN_WALL_TOLERANCE:g} to {MAX_WALL_TOLERANCE:g} grid steps"
-            raise InputError("tolerance", setup.options.tolerance, allowed)
+        """Accept all options."""
 
 
 class CohesiveStudy:
