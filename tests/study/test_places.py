@@ -32,7 +32,7 @@ def results_refusal(text, project, tier="quick"):
 
 
 @pytest.mark.parametrize(
-    "text", ["results", "a b/c", "a%20b", "résultats", "../elsewhere", "..", ".", "~", "x-1.5_@,+=", "a/"]
+    "text", ["results", "a b/c", "a%20b", "résultats", "../elsewhere", "..", ".", "x-1.5_@,+=", "a/"]
 )
 def test_a_folder_beside_the_code_can_hold_results(project, text):
     assert str(read_results(text, "quick", project, project / "config.yaml")) == os.path.normpath(f"{text}/quick")
@@ -41,7 +41,26 @@ def test_a_folder_beside_the_code_can_hold_results(project, text):
 
 @pytest.mark.parametrize(
     "text",
-    ["", " ", "a{b}", "{study}", "a\nb", "a\0b", "a;b", "$(id)", "`id`", "a'b", 'a"b', "a*", "a?", "[a]", "a:b", "a\\b"]
+    [
+        "",
+        " ",
+        "~",
+        "~/x",
+        "a{b}",
+        "{study}",
+        "a\nb",
+        "a\0b",
+        "a;b",
+        "$(id)",
+        "`id`",
+        "a'b",
+        'a"b',
+        "a*",
+        "a?",
+        "[a]",
+        "a:b",
+        "a\\b",
+    ]
     + ["<a>", "a|b", "a&b", "a#b", " a", "a ", "a/ b", "a\tb"],
 )
 def test_a_folder_with_signs_that_mean_something_elsewhere_is_refused(project, text):

@@ -14,7 +14,7 @@ CODE_FOLDERS = ("benchmarks", "config", "docs", "examples", "profiles", "src", "
 """Folders of a project that hold no results; nor do those whose names begin with a dot."""
 CHAPTER = re.compile(r"ch\d+")
 """Name of the file of a chapter."""
-FOLDER_NAME = re.compile(r"[\w ./@%+=,~-]+")
+FOLDER_NAME = re.compile(r"[\w ./@%+=,-]+")
 """Form of the folder of the results: other signs mean something to Snakemake or to a shell."""
 
 
@@ -50,7 +50,7 @@ def read_results(text: str, tier: str, project: Path, file: Path) -> Path:
         File of the setting, for messages.
     """
     if not FOLDER_NAME.fullmatch(text) or any(part != part.strip() for part in text.split("/")):
-        allowed = "a folder for all results, in letters, digits, single blanks within and the signs . / _ - @ % + = , ~"
+        allowed = "a folder for all results, in letters, digits, single blanks within and the signs . / _ - @ % + = ,"
         raise InputError("results", text, allowed, file)
     results = Path(text) / tier
     place, home = Path(os.path.abspath(results)), Path(os.path.abspath(project))
