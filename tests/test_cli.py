@@ -154,10 +154,10 @@ def test_a_study_is_explained_by_its_name(monkeypatch, capsys):
 @pytest.mark.parametrize(
     ("edit", "words"),
     [
-        (("kind: sinusoid", "kind: sawtooth"), ["surface.kind", "'sawtooth'", "sinusoid"]),
+        (("kind: sinusoid", "kind: sawtooth"), ["surface.kind", "got sawtooth;", "sinusoid"]),
         (("[0.01, 0.1]", "[-0.1]"), ["load.mean_pressure", "-0.1", "above 0"]),
         (("points: 256", "points: 1"), ["points", "got 1", "2 or more"]),
-        (("tolerance: 1.0e-4", "tolerance: 1e-4"), ["tolerance", "'1e-4'", "1.0e-4"]),
+        (("tolerance: 1.0e-4", "tolerance: 1e-4"), ["tolerance", "line 7: tolerance: got 1e-4;", "1.0e-4"]),
         (("points: 256", "points: 256\nmembers: 3"), ["one run"]),
         (("points: 256", "points: 256\nseed: -1"), ["seed", "-1"]),
         (("points: 256", "pints: 256"), ["pints", "no such key"]),

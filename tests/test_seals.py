@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import shutil
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,22 @@ def test_every_flipped_byte_is_found(results: Path) -> None:
         content[where] ^= bit
         (results / place).write_bytes(content)
     assert verify(results)[1] == {}
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", "1", "null", '"x"', "{", '{"rule": 1}'])
+def test_what_is_no_seal_is_told(results: Path, text: str) -> None:
+    seal_path(results, "datasets/a.nc").write_text(text)
+    assert verify(results)[1]["datasets/a.nc"] == "has a seal that cannot be read"
+
+
+@pytest.mark.parametrize("place", ["../other.txt", "a/../../other.txt", "/etc/hosts"])
+def test_a_seal_that_names_a_file_elsewhere_is_none(results: Path, place: str) -> None:
+    path = seal_path(results, "datasets/a.nc")
+    seal = Seal.read(path)
+    for part in ({"inputs": {place: "0"}}, {"outputs": {place: "0"}}):
+        path.write_text(json.dumps(asdict(replace(seal, **part))))
+        with pytest.raises(InputError, match="a seal of results"):
+            Seal.read(path)
 
 
 def damage(results: Path, kind: str) -> None:

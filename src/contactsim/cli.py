@@ -58,6 +58,7 @@ def main(arguments: list[str] | None = None) -> None:
     try:
         getattr(import_module("contactsim.commands"), options.command)(options)
     except InputError as error:
-        sys.exit(f"Error: {error}")
+        as_typed = import_module("contactsim.study.as_typed").as_typed
+        sys.exit(f"Error: {as_typed(error)}")
     except OSError as error:
         sys.exit(f"Error: {error.filename}: {error.strerror}")

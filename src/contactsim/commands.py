@@ -28,8 +28,9 @@ from contactsim.status import Status, is_solved
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
 from contactsim.study.keys import ERROR_RUNS
+from contactsim.study.plain_yaml import load_yaml
 from contactsim.study.plan import Plan
-from contactsim.study.reading import load_yaml, whole
+from contactsim.study.reading import whole
 from contactsim.study.scenes import build_setup, updated_settings
 from contactsim.study.select_effects import select_effects
 from contactsim.study.study import Study
@@ -57,7 +58,7 @@ def read_scene(path: str, accuracy: float | None = None) -> Study:
     try:
         return Study.read(name, {"title": name} | section, path, seed)
     except InputError as error:  # in a scene file the keys stand at the top
-        raise InputError(error.key.removeprefix(f"studies.{name}."), error.value, error.allowed, path) from error
+        raise error.renamed(f"studies.{name}.", "") from error
 
 
 def find_study(scene: str, tier: str | None, accuracy: float | None = None) -> Study:

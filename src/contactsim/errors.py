@@ -22,13 +22,27 @@ import numpy as np
 P = ParamSpec("P")
 R = TypeVar("R")
 
-MAX_VALUE_LENGTH = 80
+MAX_VALUE_LENGTH, MAX_ALLOWED_LENGTH = 80, 2000
+"""Most letters of a value, and of what is allowed, in a message."""
 LARGEST, SMALLEST = 1e100, 1e-100
 """Largest size of a number, and smallest positive number."""
 POSITIVE = f"a positive number, {SMALLEST:g} to {LARGEST:g}"
 """What is allowed, in words."""
 NUMBER = f"a finite number, in size up to {LARGEST:g}"
 """The same for numbers of either sign."""
+
+
+class Words(str):
+    """Words in the place of a value that nobody typed as it stands there, such as "nothing"; shown without quotes."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in self)
+
+
+NOTHING = Words("nothing")
+"""In the place of a value that is not given."""
 
 
 class InputError(ValueError):
@@ -49,7 +63,8 @@ class InputError(ValueError):
     def __init__(self, key: str, value: object, allowed: str, file: object = None) -> None:
         self.key, self.value, self.allowed, self.file = key, value, allowed, file
         place = f"{file}: " if file is not None else ""
-        super().__init__(f"{place}{key}: got {_value_text(value)}; allowed: {allowed}")
+        allowed = allowed if len(allowed) <= MAX_ALLOWED_LENGTH else f"{allowed[: MAX_ALLOWED_LENGTH - 3]}..."
+        super().__init__(repr(Words(f"{place}{key}: got {_value_text(value)}; allowed: {allowed}")))
 
     def __reduce__(self) -> tuple[type[InputError], tuple[str, object, str, object]]:
         """Return what another process needs to make the same error."""
@@ -62,6 +77,11 @@ class InputError(ValueError):
         """
         key = f"{section}.{self.key}" if section else self.key
         return InputError(key, self.value, self.allowed, self.file if self.file is not None else file)
+
+    def renamed(self, start: str, other: str) -> InputError:
+        """Return the same error with another start of its key, where the key begins so."""
+        key = other + self.key.removeprefix(start) if self.key.startswith(start) else self.key
+        return InputError(key, self.value, self.allowed, self.file)
 
 
 def check_option_names(function: Callable[P, R]) -> Callable[P, R]:
@@ -139,6 +159,9 @@ def _value_text(value: object) -> str:
     shape = getattr(value, "shape", None)
     if shape:
         return f"array of shape {tuple(shape)}"
-    with np.printoptions(legacy="1.25"):  # a number of numpy as a plain one, also within lists
-        text = repr(value)
+    try:
+        with np.printoptions(legacy="1.25"):  # a number of numpy as a plain one, also within lists
+            text = repr(value)
+    except (ValueError, RecursionError):  # a whole number of very many digits, a list nested very deep
+        text = f"{type(value).__name__} too long to be shown"
     return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 3] + "..."

@@ -20,6 +20,8 @@ from contactsim.errors import InputError
 Array = NDArray[Any]
 """An array of any type and shape; docstrings say which."""
 
+MAX_POINTS = 2**30
+"""Most points of a grid: one field of them takes 8 GiB."""
 PADDING = 8
 """Extra columns of a wide field: transforms are several times slower if rows start a power of two apart."""
 BLOCK = 2**20
@@ -59,6 +61,8 @@ class Grid:
     def __post_init__(self) -> None:
         if any(not isinstance(n, int | np.integer) or n < 2 for n in self.shape):
             raise InputError("points", self.shape, "at least 2 points in each direction")
+        if math.prod(map(int, self.shape)) > MAX_POINTS:
+            raise InputError("points", max(self.shape), f"at most {MAX_POINTS} points of the whole grid")
         if any(not (np.isfinite(length) and length > 0) for length in self.lengths):
             raise InputError("length", self.lengths, "a positive, finite period in nm")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int | np.integer) or self.threads < 1:

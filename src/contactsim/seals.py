@@ -58,8 +58,11 @@ class Seal:
     def read(cls, path: Path) -> Seal:
         """Read a seal; raise InputError for what is none."""
         try:
-            return cls(**json.loads(path.read_text(encoding="utf-8")))
-        except (ValueError, TypeError) as error:
+            seal = cls(**json.loads(path.read_text(encoding="utf-8")))
+            if not all(map(_is_below, [*dict(seal.inputs), *dict(seal.outputs)])):
+                raise ValueError
+            return seal
+        except (AttributeError, ValueError, TypeError) as error:
             raise InputError("seal", path, "a seal of results; remove it, and its results are made again") from error
 
     def write(self, results: Path) -> None:
@@ -67,6 +70,11 @@ class Seal:
         text = json.dumps(asdict(self), indent=1)
         for place in self.outputs:
             write_text(text, seal_path(results, place))
+
+
+def _is_below(place: str) -> bool:
+    """Return True for a place that lies below the folder of a tier, wherever that is."""
+    return not Path(place).is_absolute() and ".." not in Path(place).parts
 
 
 def seal_path(results: Path, place: str) -> Path:

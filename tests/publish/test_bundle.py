@@ -57,7 +57,7 @@ def results(tmp_path_factory):
 def plan(results):
     """What a bundle of these is told."""
     data = {Path(place).stem: f"digest of {place}" for place in results if place.endswith(".nc")}
-    return {"tier": "small", "titles": {"fig_3_2": "Area | pressure", "ch3_rough_line": "Lines"}, "data": data}
+    return {"tier": "small", "titles": {"fig_3_2": "Area | <i>pressure", "ch3_rough_line": "Lines"}, "data": data}
 
 
 @pytest.fixture(scope="module")
@@ -134,7 +134,7 @@ def test_the_readme_names_every_file_dimension_and_variable_with_its_unit_and_me
             assert row.startswith(f"| {', '.join(map(str, item.dims)) or '–'} |")
             assert f"| `{name}` | {item.attrs['units']} | {item.attrs['long_name']}" in text
     assert "| `status` | 1 | status of the solution: 0 converged, 1 max_iterations," in text
-    assert "| `figures/fig_3_2.png` | Area \\| pressure (figure; csv:" in text
+    assert "| `figures/fig_3_2.png` | Area \\| &lt;i>pressure (figure; csv:" in text
 
 
 def test_the_metadata_list_every_file_that_is_there_and_no_other(made):

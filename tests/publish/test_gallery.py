@@ -95,6 +95,13 @@ def test_a_cell_tells_verdicts_errors_and_time():
     assert "3 reproduced; 1 not reproduced<br>grid error up to: κ 0.1<br>3 min of CPU time" in text
 
 
+def test_words_of_the_config_are_no_html_in_the_gallery():
+    row = {"figure": "fig_1_1", "title": 'a < b\n\n"><script>', "errors": "<i>", "seconds": 0.0}
+    text = gallery.gallery_page(pd.DataFrame([row | dict.fromkeys(VERDICTS, 0)]))
+    assert "<b>a &lt; b &quot;&gt;&lt;script&gt;</b><br><sub>&lt;i&gt;</sub>" in text
+    assert "<script" not in text and "<i>" not in text
+
+
 def test_the_gallery_shows_every_figure_as_the_standard_tier_made_it():
     rows = pd.read_csv(DOCS / "gallery.csv")
     assert (DOCS / "gallery.md").read_text(encoding="utf-8") == gallery.gallery_page(rows)

@@ -93,6 +93,18 @@ def test_changes_are_listed_with_their_reasons(verdicts):
     assert "| κ is 2, a value that holds. | reproduced |" in page.split("## As before")[1]
 
 
+WORDS = "κ < 3 & <b>more</b>\n\n# [here](http://x) | there"
+
+
+def test_words_of_the_config_are_no_html_no_link_and_no_line_of_their_own(verdicts):
+    texts = dict.fromkeys(("statement", "source", "rationale", "cause"), WORDS)
+    claims = verdicts.assign(**texts)
+    before = pd.DataFrame({"claim": ["holds"], "verdict": ["not reproduced"], "statement": [WORDS]})
+    for page in (verdict_page(claims), changes_page(before, claims, pd.DataFrame({"claim": [], "reason": []}))):
+        assert "κ &lt; 3 &amp; &lt;b>more&lt;/b> # \\[here](http://x) \\| there" in page
+        assert "<b>" not in page and "\n# [" not in page and " [here]" not in page
+
+
 def test_the_pages_in_docs_are_those_of_the_table():
     docs = ROOT / "docs"
     claims = pd.read_csv(docs / "gallery/verdicts.csv")

@@ -223,6 +223,12 @@ REFUSED = [
     # file, key, value, words of what is allowed
     ("config.yaml", "sede", 1, "seed, tier, results"),
     ("config.yaml", "seed", -1, "0 or more"),
+    ("config.yaml", "seed", 2**63, "at most 9223372036854775807"),
+    ("config.yaml", "data_folders", "scans", "a list of folders"),
+    ("ch3.yaml", "studies.rough.members", 5001, "at most 10000 runs in all, and there are 2 variants"),
+    ("ch3.yaml", "studies.smooth.points", 10**12, "at most 1073741824 points of the whole grid"),
+    ("ch3.yaml", "studies.smooth.body.contact_modulus", 0, "positive"),
+    ("ch3.yaml", "figures.fig_3_1.rows", 51, "at most 50"),
     ("tiers.yaml", "plain.study", {}, "known keys: studies"),
     ("tiers.yaml", "plain", [1], "a mapping"),
     ("ch3.yaml", "clams", {}, "studies, figures, claims"),
@@ -239,7 +245,7 @@ REFUSED = [
     ("ch3.yaml", "figures.fig_3_3.datasets", ["smooth"], "draws: data"),
 ]
 """Configs with one wrong value, which the error names."""
-SIZES = ([4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -3.0], [0.0, 3.0])
+SIZES = ([101.0, 3.0], [4.0], [4.0, 3.0, 2.0], 4.0, ["4.0", 3.0], [4.0, None], [], [4.0, -3.0], [0.0, 3.0])
 LIMITS = ([0.1], [0.1, 0.2, 0.3], 0.1, {"least": 0.1}, [0.1, "all"], None, [0.5, 0.1])
 REFUSED += [("ch3.yaml", "figures.fig_3_1.size", size, "width and height") for size in SIZES]
 REFUSED += [("ch3.yaml", "figures.fig_3_3.select.hurst_exponent", value, "least and largest value") for value in LIMITS]
@@ -249,8 +255,25 @@ NEITHER = {"title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
 NAMES = "fig_3_1, table_3_1, fig_3_2"
 ALSO_REFUSED = [
     # changes, file, key, value, words of what is allowed
-    ({"config.yaml": {"tier": "huge"}}, "tiers.yaml", "tier", "huge", "plain, small"),
-    (overrides("smoth", {"points": 8}), "tiers.yaml", "plain.studies.smoth", "overrides", "smooth, rough"),
+    ({"config.yaml": {"tier": "huge"}}, "config.yaml", "tier", "huge", "one of plain, small, the tiers of"),
+    (overrides("smoth", {"points": 8}), "tiers.yaml", "plain.studies.smoth", {"points": 8}, "smooth, rough"),
+    (
+        {"tiers.yaml": {"small": {"studies": {"smoth": {}}}}},
+        *("tiers.yaml", "small.studies.smoth", {}, "no such study, but smooth, rough"),
+    ),
+    ({"tiers.yaml": {"a b": {}}}, "tiers.yaml", "name of a tier", "a b", "letters, digits"),
+    ({"tiers.yaml": {"small": 5}}, "tiers.yaml", "small", 5, "a mapping"),
+    (
+        {"ch3.yaml": {"studies/smooth/body": {"kind": "half_space"}}},
+        *("ch3.yaml", "studies.smooth.body.contact_modulus", "nothing", "exactly one of"),
+    ),
+    (
+        {"ch3.yaml": {"studies/smooth/body": {"kind": "half_space", "contact_modulus": 1, "youngs_modulus": 1}}},
+        *("ch3.yaml", "studies.smooth.body.contact_modulus", "both", "exactly one of"),
+    ),
+    ({"ch3.yaml": {"studies/a b": SMOOTH}}, "ch3.yaml", "studies", "a b", "letters, digits and underscores"),
+    ({"ch3.yaml": {f"studies/{'x' * 81}": SMOOTH}}, "ch3.yaml", "studies", "x" * 81, "1 to 80 letters"),
+    ({"ch3.yaml": {"claims": {"a|b": {}}}}, "ch3.yaml", "claims", "a|b", "letters, digits and underscores"),
     (overrides("smooth", 5), "tiers.yaml", "plain.studies.smooth", 5, "a mapping"),
     (overrides("smooth", {"pionts": 8}), "tiers.yaml", "studies.smooth.pionts", 8, "points"),
     (overrides("rough", {"points": 8}), "tiers.yaml", "studies.rough.points", 8, "more than 30"),
@@ -335,7 +358,7 @@ def test_a_figure_that_selects_along_what_its_study_does_not_have_is_refused(fol
 def test_an_unknown_tier_on_the_command_line_names_tiers_yaml_and_what_exists(folder):
     written = folder()
     error = refusal(written, "huge")
-    assert str(error) == f"{written / 'tiers.yaml'}: tier: got 'huge'; allowed: one of plain, small"
+    assert str(error) == f"tier: got 'huge'; allowed: one of plain, small, the tiers of {written / 'tiers.yaml'}"
 
 
 def test_an_error_in_an_overridden_study_names_the_chapter_the_tier_and_the_file_of_tiers(folder):
@@ -413,7 +436,7 @@ def test_a_study_cannot_have_the_name_of_a_figure_rule_or_target(folder, name):
     (written.parent / "Snakefile").write_text("rule compute_all:\n    input: []\n")
     error = refusal(written)
     assert (error.key, error.value) == ("studies", name)
-    assert error.allowed == "letters, digits and underscores; no figure's name and none of compute_all, setup"
+    assert error.allowed == "1 to 80 letters, digits and underscores; no figure's name and none of compute_all, setup"
 
 
 def test_the_names_of_this_project_s_rules_and_targets_are_reserved(tiers):

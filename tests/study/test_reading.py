@@ -14,7 +14,6 @@ from contactsim.study.reading import (
     choice,
     keys_of,
     listed,
-    load_yaml,
     mapping,
     number,
     overlaid,
@@ -121,6 +120,23 @@ def test_words_for_what_is_no_number_get_no_hint_how_to_spell_it(word):
     assert "exponent" not in str(refusal({"length": word}))
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "hint"),
+    [
+        ("length", 1e101, "1e+100"),
+        ("length", 10**400, "1e+100"),
+        ("step", 1e-101, "1e-100"),
+        ("points", 2**63, "at most 9223372036854775807"),
+        ("loads", list(range(10_001)), "at most 10000 entries"),
+        ("title", "x" * 5001, "at most 5000 characters"),
+        ("title", "a\0b", "that can be printed"),
+        ("title", "$a$", "$ at most once"),
+    ],
+)
+def test_what_is_too_large_to_be_used_is_refused_with_the_limit(key, value, hint):
+    assert hint in str(refusal({"length": 1.0} | {key: value}))
+
+
 def test_an_entry_given_twice_in_a_list_is_refused_even_if_spelt_differently():
     for loads in ([1.0, 2.0, 1.0], [1, 1.0]):
         error = refusal({"length": 1.0, "loads": loads})
@@ -157,72 +173,6 @@ def test_keys_of_a_dataclass_are_the_fields_that_a_config_can_give():
 def test_keys_of_a_dataclass_are_read_by_the_types_of_its_fields(bad):
     error = refusal({"height": 1.0, "steps": 1} | bad, keys_of(Hill))
     assert error.key == f"part.{next(iter(bad))}"
-
-
-@pytest.fixture
-def written(tmp_path):
-    """Write text or bytes into a YAML file."""
-
-    def write(content):
-        path = tmp_path / "file.yaml"
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return write
-
-
-def file_refusal(path):
-    with pytest.raises(InputError) as caught:
-        load_yaml(path)
-    return caught.value
-
-
-def test_a_file_is_read_as_a_mapping_in_utf_8(written):
-    assert load_yaml(written("a: {b: 1.0e-3}\nc: κ\n")) == {"a": {"b": 1e-3}, "c": "κ"}
-
-
-def test_an_empty_file_is_an_empty_mapping(written):
-    assert load_yaml(written("# nothing\n")) == {}
-
-
-def test_a_missing_file_is_named(tmp_path):
-    path = tmp_path / "nowhere.yaml"
-    assert_says(file_refusal(path), path, "file", str(path), "a file that can be read")
-
-
-@pytest.mark.parametrize("content", ["[1, 2]", "5", "text"])
-def test_a_file_that_is_no_mapping_is_refused(written, content):
-    path = written(content)
-    assert_says(file_refusal(path), path, "top level", yaml.safe_load(content), "a mapping of keys to values")
-
-
-@pytest.mark.parametrize(
-    "content",
-    ["a: 1\nb: 2\na: 3\n", "top:\n  a: {c: 1}\n  a: {d: 2}\n", "list:\n- {x: 1, x: 1}\n", "1: a\n0x1: b\n"],
-)
-def test_a_key_given_twice_is_refused_at_any_depth(written, content):
-    path = written(content)
-    assert_says(file_refusal(path), path, "YAML", file_refusal(path).value, "is given twice", "line ", "each key once")
-
-
-def test_the_same_key_in_two_mappings_is_no_repetition(written):
-    assert load_yaml(written("a: {x: 1}\nb: {x: 2}\n")) == {"a": {"x": 1}, "b": {"x": 2}}
-
-
-@pytest.mark.parametrize(
-    "content", ["a: [1, 2", "a: 1\n b: 2", "\tx: 1", "a: !!python/object:os.system {}", "[1]: 2", "a: \x07"]
-)
-def test_what_is_not_plain_yaml_is_refused_with_the_file(written, content):
-    path = written(content)
-    error = file_refusal(path)
-    assert_says(error, path, "YAML", error.value, "valid YAML")
-    assert "\n" not in str(error)
-
-
-@pytest.mark.parametrize("content", [b"title: \xb5m\n", b"when: 2019-13-45\n"], ids=["latin-1", "impossible date"])
-def test_what_yaml_fails_on_with_an_error_of_its_own_is_refused_with_the_file(written, content):
-    path = written(content)
-    assert file_refusal(path).file == path
 
 
 @pytest.mark.parametrize(

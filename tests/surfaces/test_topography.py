@@ -257,6 +257,34 @@ def test_heights_too_large_for_nm_and_objects_and_short_files_are_refused(tmp_pa
     refusal("path", file, lambda: read_topography(file, spacing=1))
 
 
+@pytest.mark.parametrize(
+    "shape", [(10**12,), (10**6, 10**6), (2**28 + 1,), (10**30,), (-5,), (0,)], ids=lambda shape: str(shape)
+)
+def test_a_header_that_claims_more_than_there_is_takes_no_memory(tmp_path: Path, shape: tuple[int, ...]) -> None:
+    file = tmp_path / "t.npy"
+    with file.open("wb") as stream:
+        np.lib.format.write_array_header_1_0(stream, {"descr": "<f8", "fortran_order": False, "shape": shape})
+        stream.write(b"\0" * 80)
+    tracemalloc.start()
+    with pytest.raises(InputError) as caught:
+        read_topography(file, spacing=1)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1e6
+    assert caught.value.file == file
+
+
+def test_a_netcdf_file_that_claims_a_terabyte_takes_no_memory(tmp_path: Path) -> None:
+    file = tmp_path / "t.nc"
+    with netCDF4.Dataset(str(file), "w") as data:
+        data.createDimension("y", 10**6)
+        data.createDimension("x", 10**6)
+        data.createVariable("heights", "f8", ("y", "x"), chunksizes=(100, 100), zlib=True).units = "nm"
+    error = refusal("heights", file, lambda: read_topography(file, spacing=1))
+    assert str(error.value) == "shape (1000000, 1000000)"
+    assert error.allowed == "at most 268435456 numbers"
+
+
 @pytest.mark.parametrize("spacing", [0, -1.0, np.nan, np.inf, "2", True, [1.0], [1, 2, 3], (1, 0), [1, "2"], [[1, 2]]])
 def test_a_spacing_that_is_not_one_or_two_positive_numbers_is_refused(tmp_path: Path, spacing: object) -> None:
     for file in (npy_file(tmp_path, HEIGHTS), nc_file(tmp_path)):

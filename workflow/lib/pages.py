@@ -15,7 +15,7 @@ from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.robustness import survey
 from contactsim.provenance import canonical, digest
 
-PROJECT_FILES = ["CITATION.cff", "LICENSE", "environment.txt", "examples/reanalyse.py"]
+PROJECT_FILES = ["CITATION.cff", "LICENSE", "environment.txt", "environment.lock.txt", "examples/reanalyse.py"]
 """Files of the project that the bundle holds, beside the settings."""
 
 

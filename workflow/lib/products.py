@@ -55,7 +55,7 @@ class Products:
     identification: identification_settings.Identification | None
 
     @classmethod
-    def read(cls, config: Path, options: Mapping[str, str]) -> Products:
+    def read(cls, config: Path, options: Mapping[str, object]) -> Products:
         """Read all settings and check them.
 
         Parameters
@@ -70,9 +70,12 @@ class Products:
         InputError
             Where a key or value is wrong.
         """
-        unknown = sorted(set(options) - {"tier"})
+        unknown = [str(name) for name in options if name != "tier"]
         if unknown:
-            raise InputError("--config", unknown, "tier=NAME")
+            raise InputError("--config", sorted(unknown), "tier=NAME, of tiers.yaml")
+        for value in options.values():
+            if not isinstance(value, str):
+                raise InputError("--config tier", value, "tier=NAME, of tiers.yaml")
         plan = Plan.read(config, options.get("tier"))
         cases = case_config.read_cases(config, plan)
         return cls(

@@ -40,8 +40,8 @@ class KnownContents:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
-            self._stamps: dict[str, list[Any]] = json.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            self._stamps: dict[str, list[Any]] = dict(json.loads(path.read_text(encoding="utf-8")))
+        except (OSError, TypeError, ValueError):
             self._stamps = {}
         self._is_new = False
 
@@ -50,7 +50,7 @@ class KnownContents:
         found = path.stat()
         stamp = [found.st_size, found.st_mtime_ns, found.st_ctime_ns, found.st_ino]
         known = self._stamps.get(str(path))
-        if known is not None and known[:-1] == stamp:
+        if isinstance(known, list) and known[:-1] == stamp:
             return str(known[-1])
         self._stamps[str(path)] = [*stamp, content_digest(path)]
         self._is_new = True

@@ -7,6 +7,7 @@ ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT / "workflow/lib"))
 
 from contactsim.errors import InputError
+from contactsim.study.as_typed import as_typed
 from baseline_jobs import BaselineJobs
 from identification_jobs import CandidateJobs
 from jobs import EvaluationJobs, ResultJobs, RunJobs, code_digest, group_on_cluster, timed_threads
@@ -21,7 +22,7 @@ share_library()
 try:
     PRODUCTS = Products.read(CONFIG, config)
 except InputError as error:
-    sys.exit(f"Error: {error}")
+    sys.exit(f"Error: {as_typed(error)}")
 PLAN, RESULTS = PRODUCTS.plan, PRODUCTS.results
 RUN_JOBS, RESULT_JOBS, EVALUATION_JOBS, PAGES = RunJobs(PLAN), ResultJobs(PLAN), EvaluationJobs(PRODUCTS), Pages(PRODUCTS)
 CANDIDATE_JOBS, BASELINE_JOBS = CandidateJobs(PRODUCTS), BaselineJobs(PRODUCTS)

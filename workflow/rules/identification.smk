@@ -25,7 +25,7 @@ if PRODUCTS.identification:
         input: table=RESULTS / "identification/candidates.csv", tier=CANDIDATE_JOBS.full_tier
         output: RESULTS / "identification/package/candidates.csv"
         message: "candidates, to replace src/contactsim/analysis/candidates.csv: {output}"
-        shell: "cp {input.table} {output}"
+        shell: "cp -- {input.table:q} {output:q}"
 
 
     rule identification:

@@ -65,9 +65,9 @@ class Cause:
 
     @property
     def named_numbers(self) -> list[tuple[str, str]]:
-        """Names in braces, each with its format."""
+        """Names in braces, each with its format; ValueError for braces that do not match."""
         parts = string.Formatter().parse(self.text)
-        return [(name, form or "") for _, name, form, _ in parts if name is not None]
+        return [(name, f"!{how}" if how else form or "") for _, name, form, how in parts if name is not None]
 
     @property
     def known_names(self) -> tuple[str, ...]:

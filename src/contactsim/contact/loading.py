@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.contact.steps import LoadStep, PathPart, Slide, Sweep
-from contactsim.errors import InputError, read_numbers
+from contactsim.errors import InputError, Words, read_numbers
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -45,7 +45,7 @@ class LoadPath:
             raise InputError("parts", self.parts, "a tuple of one or more steps, sweeps and slides")
         sliding = [part.slides for part in self.parts]
         if sliding != sorted(sliding):
-            raise InputError("path", "pressed after sliding", "a path that presses first, then slides")
+            raise InputError("path", Words("pressed after sliding"), "a path that presses first, then slides")
 
     @cached_property
     def steps(self) -> tuple[LoadStep, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.errors import POSITIVE, InputError, is_positive
+from contactsim.errors import NOTHING, POSITIVE, InputError, Words, is_positive
 
 ELASTICITIES = {"half_space": HalfSpace, "layer": Layer}
 
@@ -37,8 +37,8 @@ def make_elasticity(
         For both or none of the moduli, or one that is not positive.
     """
     if (youngs_modulus is None) == (contact_modulus is None):
-        both = {"contact_modulus": contact_modulus, "youngs_modulus": youngs_modulus}
-        raise InputError("contact_modulus", both, "exactly one of contact_modulus and youngs_modulus")
+        moduli = NOTHING if contact_modulus is None else Words("both")
+        raise InputError("contact_modulus", moduli, "exactly one of contact_modulus and youngs_modulus")
     if youngs_modulus is not None:
         if poisson_ratio is None:
             raise InputError("poisson_ratio", None, "a number, where Young's modulus is given")

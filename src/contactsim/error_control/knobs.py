@@ -18,7 +18,7 @@ from contactsim.error_control.scaling import (
     scene_family,
     shortest_range,
 )
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.increments import Increments
 from contactsim.paths.nested import Nested
@@ -175,7 +175,7 @@ def path_increment(scene: Scene) -> float:
     """Return the increment of a path; raise InputError for one of single steps."""
     increment = scene.path.increment
     if increment is None:
-        raise InputError("path", "single steps", "a path through turning points, with an increment")
+        raise InputError("path", Words("single steps"), "a path through turning points, with an increment")
     return increment
 
 

@@ -20,6 +20,7 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.errors import InputError
 from contactsim.provenance import digest
+from contactsim.publish.markdown import plain_words, table
 from contactsim.publish.ro_crate import CITATION, RO_CRATE, author_name, crate, read_citation
 
 README, SUMS, METADATA = "README.md", "SHA256SUMS", "ro-crate-metadata.json"
@@ -33,6 +34,7 @@ FILE_KINDS = {
     "examples": "how to use the datasets without contactsim",
     "report.html": "all figures and verdicts on one page",
     "environment.txt": "all packages, with their versions",
+    "environment.lock.txt": "the same, with the digests of their files",
     CITATION: "citation",
     "LICENSE": "licence",
     README: "description of the folder",
@@ -155,7 +157,7 @@ def readme(plan: Mapping, citation: Mapping, contents: Mapping[str, Contents], a
     tier, names = plan["tier"], ", ".join(map(author_name, citation["authors"]))
     packages = sorted({f"{name} {version}" for item in contents.values() for name, version in item.versions.items()})
     parts = [
-        f"# {citation['title']}: results of the tier {tier}",
+        f"# {plain_words(citation['title'])}: results of the tier {tier}",
         f"By {names}; version {citation['version']}, {citation['date-released']}; licence {citation['license']}. "
         f"How to cite: `{CITATION}`. `{METADATA}` lists all files for machines (RO-Crate {RO_CRATE}).",
         "## Check it",
@@ -175,13 +177,13 @@ def readme(plan: Mapping, citation: Mapping, contents: Mapping[str, Contents], a
         "## Datasets",
         *(_dataset(place, item, plan["data"][Path(place).stem]) for place, item in sorted(contents.items())),
         "## Dimensions",
-        _table(("dimension", "unit", "meaning"), _dimensions(contents.values())),
+        table(("dimension", "unit", "meaning"), _dimensions(contents.values())),
         "## Variables",
-        _table(("variable", "unit", "meaning"), _variables(contents.values())),
+        table(("variable", "unit", "meaning"), _variables(contents.values())),
         "## Files",
-        _table(("file", "what it is"), [(f"`{place}`", text) for place, text in sorted(about.items())]),
+        table(("file", "what it is"), [(f"`{place}`", plain_words(text)) for place, text in sorted(about.items())]),
     ]
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
 
 
 def _dataset(place: str, contents: Contents, code_digest: str) -> str:
@@ -191,10 +193,9 @@ def _dataset(place: str, contents: Contents, code_digest: str) -> str:
         by_dims.setdefault(dims, []).append(f"`{name}`")
     rows = [(", ".join(dims) or "–", ", ".join(names)) for dims, names in sorted(by_dims.items())]
     sizes = ", ".join(f"{name} {count}" for name, count in contents.sizes.items())
-    words = (
-        f"{contents.title}. Code and settings: `{code_digest}`; settings alone: `{contents.settings}`. Sizes: {sizes}."
-    )
-    return f"### `{place}`\n\n{words}\n\n{_table(('dimensions', 'variables'), rows)}"
+    digests = f"Code and settings: `{code_digest}`; settings alone: `{contents.settings}`"
+    words = f"{plain_words(contents.title)}. {digests}. Sizes: {sizes}."
+    return f"### `{place}`\n\n{words}\n\n{table(('dimensions', 'variables'), rows)}"
 
 
 def _dimensions(contents: Iterable[Contents]) -> list[tuple[str, ...]]:
@@ -208,9 +209,3 @@ def _variables(contents: Iterable[Contents]) -> list[tuple[str, ...]]:
     """Return each variable with unit and meaning; several rows if datasets differ in it."""
     rows = {(name, *words) for item in contents for name, words in item.words.items()}
     return [(f"`{name}`", *words) for name, *words in sorted(rows)]
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a Markdown table."""
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)

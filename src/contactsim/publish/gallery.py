@@ -6,6 +6,7 @@ figure shows; nothing here is typed twice.
 
 from __future__ import annotations
 
+import html
 import re
 import shutil
 from collections.abc import Mapping, Sequence
@@ -150,10 +151,10 @@ def counts_markdown(claims: pd.DataFrame) -> str:
 
 def _cell(row: Mapping) -> str:
     """Return the cell of a figure."""
-    name, title = row["figure"], row["title"]
+    name, title = row["figure"], html.escape(" ".join(row["title"].split()))
     counts = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
     lines = ["; ".join(counts)] * bool(counts)
-    lines += [row["errors"]] * (isinstance(row["errors"], str) and row["errors"] != "")
+    lines += [html.escape(str(row["errors"]))] * (isinstance(row["errors"], str) and row["errors"] != "")
     lines += [f"{duration_text(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
     picture = f'<a href="{name}.png"><img src="{name}.png" width="260" alt="{title}"></a>'
     width = f"{100 // COLUMNS}%"

@@ -14,7 +14,7 @@ from rocrate.model.contextentity import ContextEntity
 from rocrate.rocrate import ROCrate
 
 from contactsim.errors import InputError
-from contactsim.study.reading import load_yaml
+from contactsim.study.plain_yaml import load_yaml
 
 CITATION = "CITATION.cff"
 RO_CRATE = "1.2"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import pandas as pd
@@ -16,6 +16,7 @@ from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_nu
 from contactsim.analysis.verdict import FINDING, NOT_DECIDABLE
 from contactsim.analysis.wording import candidates_text, measure_text, printed, readings_text
 from contactsim.publish.gallery import counts_markdown
+from contactsim.publish.markdown import plain_words, table
 
 HEADS = ("statement", "reading", "allowed", "value ± errors", "verdict", "margin", "place", "half; double band")
 ESTIMATOR_HEADS = ("statement", "as in the thesis", "verdict (margin)", "corrected", "verdict (margin)", "counted")
@@ -60,10 +61,10 @@ def verdict_page(claims: pd.DataFrame) -> str:
     findings = claims[claims.verdict == FINDING].to_dict("records")
     if findings:
         parts += ["## Findings\n", "Numbers that no sentence of the thesis states.\n"]
-        parts.append(_table(("number", "reading", "value ± errors"), map(_finding_cells, findings)))
+        parts.append(table(("number", "reading", "value ± errors"), map(_finding_cells, findings)))
     if choices := list(_choice_rows(claims)):
         heads = ("statement", "choice", "value ± errors", "verdict", "margin")
-        parts += ["## What the text leaves open\n", _table(heads, choices)]
+        parts += ["## What the text leaves open\n", table(heads, choices)]
     return "\n".join(parts)
 
 
@@ -82,7 +83,7 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
     earlier, now = before.set_index("claim").verdict, claims.set_index("claim").verdict
     texts = reasons.groupby("claim", sort=False).reason.agg("; ".join)
     statements = before.set_index("claim").get("statement", pd.Series(dtype=str)).dropna().to_dict()
-    statements |= claims.set_index("claim").statement.map(printed).to_dict()
+    statements |= claims.set_index("claim").statement.map(lambda text: printed(plain_words(text))).to_dict()
     names = [*now.index, *earlier.index.difference(now.index, sort=False)]
     rows = [
         (statements.get(name, name), earlier.get(name, ABSENT), now.get(name, ABSENT), texts.get(name, ""))
@@ -97,9 +98,9 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
         f"statement any more. Of {len(rows) - len(new)} statements and findings {len(changed)} have another verdict or "
         f"are gone; {len(new)} are new.\n"
     )
-    parts = [introduction, "## Changed\n", _table(("statement", "before", "now", "what changed it"), changed)]
-    parts += ["## New\n", "Sentences that nothing judged before, and findings.\n", _table(("statement", "now"), new)]
-    return "\n".join([*parts, "## As before\n", _table(("statement", "verdict"), same)])
+    parts = [introduction, "## Changed\n", table(("statement", "before", "now", "what changed it"), changed)]
+    parts += ["## New\n", "Sentences that nothing judged before, and findings.\n", table(("statement", "now"), new)]
+    return "\n".join([*parts, "## As before\n", table(("statement", "verdict"), same)])
 
 
 def write_verdict_pages(folder: Path) -> None:
@@ -112,9 +113,9 @@ def write_verdict_pages(folder: Path) -> None:
 
 def _chapter_parts(number: str, rows: pd.DataFrame) -> list[str]:
     """Return the parts of a chapter: its statements, those of two estimators, and blocks on those that fail."""
-    parts = [f"## Chapter {number}\n", _table(HEADS, map(_statement_cells, rows.to_dict("records")))]
+    parts = [f"## Chapter {number}\n", table(HEADS, map(_statement_cells, rows.to_dict("records")))]
     if estimators := [_estimator_cells(row) for row in rows.to_dict("records") if _text(row, "beside")]:
-        parts += [ESTIMATORS.format(number), _table(ESTIMATOR_HEADS, estimators)]
+        parts += [ESTIMATORS.format(number), table(ESTIMATOR_HEADS, estimators)]
     if failing := rows[rows.verdict.isin(FAILING)].to_dict("records"):
         parts += [f"### Chapter {number}: what fails, depends or is not decidable\n", *map(_failure_text, failing)]
     return parts
@@ -150,10 +151,10 @@ def _choice_rows(claims: pd.DataFrame) -> Iterable[tuple[str, ...]]:
     """Yield the cells of all admissible readings; the statement stands with the first of its own."""
     by_name = claims.set_index("claim")
     for name, rows in choices_table(claims).groupby("claim", sort=False):
-        statement = printed(str(by_name.statement[name]))
+        statement = printed(plain_words(str(by_name.statement[name])))
         for row in rows.to_dict("records"):
             number = number_text(row | {"measure": by_name.measure[name]})
-            yield statement, row["choice"], number, row["verdict"], short_number(float(row["margin"]))
+            yield statement, plain_words(row["choice"]), number, row["verdict"], short_number(float(row["margin"]))
             statement = ""
 
 
@@ -230,12 +231,6 @@ def _with_note(text: str, note: str) -> str:
 
 
 def _text(row: Mapping, name: str) -> str:
-    """Return the text of an entry; nothing where there is none."""
+    """Return the words of an entry; nothing where there is none."""
     value = row.get(name)
-    return value if isinstance(value, str) else ""
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a Markdown table."""
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
+    return plain_words(value) if isinstance(value, str) else ""

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from contactsim.errors import InputError
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.figure_plan import Figure, read_figure
-from contactsim.study.reading import Key, load_yaml, mapping, named, overlaid, read
+from contactsim.study.plain_yaml import load_yaml
+from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, TieredFile, mapping, overlaid, read
 from contactsim.study.study import Study
 
 CHAPTER_KEYS = {
@@ -46,12 +46,15 @@ class ChapterReader:
         Root of all random numbers.
     reserved_names : collection of str
         Names that no study can have.
+    data_folders : list of str
+        Folders beside the project's from which measured heights may be read.
     """
 
     tier: str
     overrides: Mapping[str, object]
     seed: int
     reserved_names: Collection[str]
+    data_folders: Sequence[str]
 
     def read(self, file: Path) -> Chapter:
         """Return the chapter in a file.
@@ -64,6 +67,10 @@ class ChapterReader:
         sections = read(load_yaml(file), CHAPTER_KEYS, file)
         for name in sections["studies"]:
             self._check_study_name(name, sections["figures"], file)
+        for part in ("claims", "findings"):
+            for name in sections[part]:
+                if not SAFE_NAME.fullmatch(name):
+                    raise InputError(part, name, SAFE_NAME_FORM, file)
         for name in set(sections["claims"]) & set(sections["findings"]):
             raise InputError(f"findings.{name}", name, "a name that no claim has", file)
         studies = {name: self._read_study(name, section, file) for name, section in sections["studies"].items()}
@@ -80,8 +87,8 @@ class ChapterReader:
 
     def _check_study_name(self, name: object, figures: Mapping[str, object], file: Path) -> None:
         """Raise InputError for a name that no study can have."""
-        if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or name in (*self.reserved_names, *figures):
-            allowed = f"letters, digits and underscores; no figure's name and none of {', '.join(self.reserved_names)}"
+        if not SAFE_NAME.fullmatch(str(name)) or name in (*self.reserved_names, *figures):
+            allowed = f"{SAFE_NAME_FORM}; no figure's name and none of {', '.join(self.reserved_names)}"
             raise InputError("studies", name, allowed, file)
 
     def _read_study(self, name: str, section: object, file: Path) -> Study:
@@ -91,9 +98,10 @@ class ChapterReader:
             tiers = file.with_name("tiers.yaml")
             raise InputError(f"{self.tier}.studies.{name}", override, "a mapping of keys to override", tiers)
         if override:
-            Study.read(name, section, file, self.seed)
+            Study.read(name, section, file, self.seed, self.data_folders)
             section = overlaid(mapping(section), override)
-        return Study.read(name, section, named(file, override, self.tier), self.seed)
+        source = TieredFile(file, self.tier) if override else file
+        return Study.read(name, section, source, self.seed, self.data_folders)
 
 
 def _check_shared_surfaces(studies: Mapping[str, Study]) -> None:

@@ -19,15 +19,8 @@ from contactsim.study.claim_checks import (
     check_without_study,
     study_dimensions,
 )
-from contactsim.study.reading import Key, choice, listed, mapping, number, positive, read, text
+from contactsim.study.reading import Key, choice, interval, listed, mapping, number, positive, read, text
 from contactsim.study.study import Study
-
-
-def interval(value: object) -> list[float]:
-    """Return two numbers, the smaller one first; ValueError for anything else."""
-    if not isinstance(value, list) or len(value) != 2 or number(value[0]) > number(value[1]):
-        raise ValueError
-    return [number(entry) for entry in value]
 
 
 def read_selection(section: Mapping, dims: Iterable[str], file: object, prefix: str) -> dict[str, list[float]]:
@@ -175,7 +168,11 @@ def read_cause(section: Mapping | None, file: object, prefix: str) -> dict | Non
         exponents = read(settings["cell"], CELL_KEYS, file, f"{prefix}.cell")
         settings["cell"] = {name: power for name, power in exponents.items() if power is not None}
     cause = Cause(**settings)
-    for name, form in cause.named_numbers:
+    try:
+        numbers = cause.named_numbers
+    except ValueError as error:
+        raise InputError(f"{prefix}.text", cause.text, f"braces that match ({error})", file) from error
+    for name, form in numbers:
         if name not in cause.known_names:
             raise InputError(f"{prefix}.text", name, f"in braces one of {', '.join(cause.known_names)}", file)
         if form not in ("", PERCENT) or (form and name not in ROW_NUMBERS):

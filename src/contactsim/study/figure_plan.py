@@ -17,6 +17,8 @@ from contactsim.study.reading import Key, choice, listed, mapping, number, posit
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
+MAX_ROWS = 50
+"""Most rows of axes."""
 LEAST_WIDTH = 2.8
 """Inches that a panel needs for its labels and legend."""
 FIELDS = "fields"
@@ -33,7 +35,7 @@ FIGURE_KEYS = {
     "caption": Key(text, "text"),
     "size": Key(size, "width and height in inches"),
     "panels": Key(whole(1), "number of axes side by side", 1),
-    "rows": Key(whole(1), "number of rows of such axes", 1),
+    "rows": Key(whole(1, MAX_ROWS), "number of rows of such axes", 1),
     "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
     "compare": Key(listed(text), "a list of columns of the figure's CSV", []),

@@ -15,7 +15,9 @@ from contactsim.provenance import digest
 from contactsim.study.chapter import Chapter, ChapterReader
 from contactsim.study.claim_plan import Claim
 from contactsim.study.figure_plan import Figure
-from contactsim.study.reading import Key, load_yaml, mapping, read, text, whole
+from contactsim.study.places import check_config_files, read_results
+from contactsim.study.plain_yaml import load_yaml
+from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, listed, mapping, read, text, whole
 from contactsim.study.reserved_names import reserved_names
 from contactsim.study.run import Run
 from contactsim.study.select_effects import selection_digest
@@ -26,6 +28,7 @@ CONFIG_KEYS = {
     "seed": Key(whole(0), "a whole number, 0 or more"),
     "tier": Key(text, "the name of a tier in tiers.yaml"),
     "results": Key(text, "a folder for all results"),
+    "data_folders": Key(listed(text), "a list of folders with measured heights, beside this one", []),
 }
 
 
@@ -38,6 +41,8 @@ def boolean(value: object) -> bool:
 
 OVERRIDES = ("stability", "effects", "trials", "effect_maps", "identification")
 """Files beside tiers.yaml whose keys a tier can override."""
+CONFIG_FILES = ("config", "tiers", "accuracy", "overview", *OVERRIDES)
+"""Files of a config beside the chapters."""
 TIER_KEYS = {
     "studies": Key(mapping, "a mapping", {}),
     "timed_alone": Key(boolean, "true or false", True),
@@ -52,6 +57,8 @@ class Plan:
     ----------
     tier : str
         Name of the tier.
+    tiers : tuple of str
+        Names of all tiers.
     results : Path
         Folder of its results.
     seed : int
@@ -73,6 +80,7 @@ class Plan:
     """
 
     tier: str
+    tiers: tuple[str, ...]
     results: Path
     seed: int
     overrides: Mapping[str, dict]
@@ -87,12 +95,19 @@ class Plan:
     def read(cls, folder: str | Path, tier: str | None = None) -> Plan:
         """Read config.yaml, tiers.yaml and every chapter; `tier` overrides the one in config.yaml."""
         folder = Path(folder)
-        main = read(load_yaml(folder / "config.yaml"), CONFIG_KEYS, folder / "config.yaml")
-        tier = main["tier"] if tier is None else tier
-        section = _read_tier(folder / "tiers.yaml", tier)
+        check_config_files(folder, CONFIG_FILES)
+        file, project = folder / "config.yaml", folder.resolve().parent
+        main = read(load_yaml(file), CONFIG_KEYS, file)
+        source, tier = (file, main["tier"]) if tier is None else (None, tier)
+        sections = _read_tiers(folder / "tiers.yaml")
+        if tier not in sections:
+            allowed = f"one of {', '.join(sections)}, the tiers of {folder / 'tiers.yaml'}"
+            raise InputError("tier", tier, allowed, source)
+        section = sections[tier]
         plan = cls(
             tier=tier,
-            results=Path(main["results"]) / tier,
+            tiers=tuple(sections),
+            results=read_results(main["results"], tier, project, file),
             seed=main["seed"],
             overrides={name: section[name] for name in OVERRIDES},
             timed_alone=section["timed_alone"],
@@ -100,14 +115,15 @@ class Plan:
             chapters={},
             figures={},
             claims={},
-            reserved_names=reserved_names(folder.resolve().parent),
+            reserved_names=reserved_names(project),
         )
-        reader = ChapterReader(tier, section["studies"], plan.seed, plan.reserved_names)
+        reader = ChapterReader(tier, section["studies"], plan.seed, plan.reserved_names, main["data_folders"])
         for file in sorted(folder.glob("ch*.yaml")):
             plan._add_chapter(reader.read(file), file)
-        for name in set(section["studies"]) - set(plan.studies):
-            allowed = f"one of {', '.join(plan.studies)}"
-            raise InputError(f"{tier}.studies.{name}", "overrides", allowed, folder / "tiers.yaml")
+        for name, study, override in ((key, *item) for key in sections for item in sections[key]["studies"].items()):
+            if study not in plan.studies:
+                allowed = f"no such study, but {', '.join(plan.studies)}"
+                raise InputError(f"{name}.studies.{study}", override, allowed, folder / "tiers.yaml")
         return plan
 
     def _add_chapter(self, chapter: Chapter, file: Path) -> None:
@@ -224,9 +240,10 @@ class Plan:
         return {"chapter": chapter, "claims": claims, "source": source, "data": data, "costs": costs}
 
 
-def _read_tier(file: Path, tier: str) -> dict:
-    """Return the section of a tier."""
+def _read_tiers(file: Path) -> dict[str, dict]:
+    """Return the sections of all tiers by name."""
     tiers = load_yaml(file)
-    if tier not in tiers:
-        raise InputError("tier", tier, f"one of {', '.join(tiers)}", file)
-    return read(tiers[tier] or {}, TIER_KEYS, file, tier)
+    for name in tiers:
+        if not SAFE_NAME.fullmatch(name):
+            raise InputError("name of a tier", name, SAFE_NAME_FORM, file)
+    return {name: read({} if section is None else section, TIER_KEYS, file, name) for name, section in tiers.items()}

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import sys
+import re
 import typing
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,11 +17,24 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-import yaml
 
-from contactsim.errors import InputError
+from contactsim.errors import LARGEST, NOTHING, SMALLEST, InputError, is_number, is_positive
+from contactsim.study.plain_yaml import load_yaml
 
 REQUIRED = object()
+MAX_WHOLE = 2**63 - 1
+"""Largest whole number."""
+MAX_ENTRIES = 10_000
+"""Most entries of a list."""
+MAX_INCHES = 100.0
+"""Largest width and height of a figure."""
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+"""Characters of a text that cannot be printed."""
+MAX_TEXT = 5000
+"""Most characters of a text."""
+SAFE_NAME = re.compile("[A-Za-z0-9_]{1,80}")
+"""Form of a name that becomes part of the name of a file or a rule."""
+SAFE_NAME_FORM = "1 to 80 letters, digits and underscores"
 
 
 @dataclass(frozen=True)
@@ -33,37 +46,23 @@ class Key:
     default: object = REQUIRED
 
 
-class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]  # in C where that is installed
-    """Safe YAML, read in C where that is installed, in which a key given twice is an error."""
+@dataclass(frozen=True)
+class TieredFile:
+    """A file beside tiers.yaml with what a tier changes in it; messages name both."""
 
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
-        """Return the mapping; raise an error for a key that stands in it twice."""
-        own = [key for key, _ in node.value if key.tag != "tag:yaml.org,2002:merge"]
-        keys = [self.construct_object(key, deep=True) for key in own]
-        for key in keys:
-            if keys.count(key) > 1:
-                raise yaml.MarkedYAMLError(problem=f"key {key!r} is given twice", problem_mark=node.start_mark)
-        return super().construct_mapping(node, deep)
+    file: Path
+    tier: str
 
+    @property
+    def tiers(self) -> Path:
+        """File of the tiers."""
+        return self.file.with_name("tiers.yaml")
 
-def load_yaml(path: str | Path) -> dict:
-    """Return the mapping in a YAML file."""
-    try:
-        content = yaml.load(Path(path).read_text(encoding="utf-8"), _Loader)
-    except OSError as error:
-        raise InputError("file", str(path), "a file that can be read", path) from error
-    except (yaml.YAMLError, ValueError) as error:
-        raise InputError(
-            "YAML", "text that is not", f"valid YAML with each key once ({' '.join(str(error).split())})", path
-        ) from error
-    if content is None:
-        return {}
-    if not isinstance(content, dict):
-        raise InputError("top level", content, "a mapping of keys to values", path)
-    return content
+    def __str__(self) -> str:
+        return f"{self.file} with tier {self.tier} of {self.tiers}"
 
 
-def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
+def tiered(file: Path, over: dict, tier: str) -> tuple[dict, Path | TieredFile] | None:
     """Return the mapping in a file beside tiers.yaml with the overrides of a tier, and its name for messages.
 
     None without that file; InputError where a tier overrides a file that does not exist.
@@ -73,12 +72,7 @@ def tiered(file: Path, over: dict, tier: str) -> tuple[dict, str] | None:
         if over:
             raise InputError(f"{tier}.{file.stem}", over, f"left out, as there is no {file}", tiers)
         return None
-    return overlaid(load_yaml(file), over), named(file, over, tier)
-
-
-def named(file: Path, over: dict, tier: str) -> str:
-    """Return the name for messages of a file beside tiers.yaml, with the tier that overrides it."""
-    return f"{file} with tier {tier} of {file.with_name('tiers.yaml')}" if over else str(file)
+    return overlaid(load_yaml(file), over), TieredFile(file, tier) if over else file
 
 
 def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:
@@ -93,7 +87,7 @@ def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "
     for name, key in keys.items():
         if name not in section:
             if key.default is REQUIRED:
-                raise InputError(f"{dotted}{name}", "nothing", f"{key.allowed} (the key is missing)", file)
+                raise InputError(f"{dotted}{name}", NOTHING, f"{key.allowed} (the key is missing)", file)
             values[name] = key.default
             continue
         try:
@@ -116,8 +110,10 @@ def number(value: object) -> float:
         raise ValueError(
             f"this is text to YAML, which wants a decimal point and a signed exponent: {_with_point(value)}"
         )
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= sys.float_info.max:
+    if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError
+    if not is_number(value):
+        raise ValueError(f"sizes go up to {LARGEST:g}")
     return float(value)
 
 
@@ -132,25 +128,33 @@ def positive(value: object) -> float:
     """Return a number above zero."""
     if number(value) <= 0:
         raise ValueError
+    if not is_positive(value):
+        raise ValueError(f"sizes go down to {SMALLEST:g}")
     return number(value)
 
 
-def whole(least: int) -> Callable[[object], int]:
-    """Return a check for whole numbers of at least `least`."""
+def whole(least: int, most: int = MAX_WHOLE) -> Callable[[object], int]:
+    """Return a check for whole numbers from `least` to `most`."""
 
     def kind(value: object) -> int:
         """Return the value if it is such a number."""
         if isinstance(value, bool) or not isinstance(value, int) or value < least:
             raise ValueError
+        if value > most:
+            raise ValueError(f"at most {most}")
         return value
 
     return kind
 
 
 def text(value: object) -> str:
-    """Return a piece of text."""
+    """Return a piece of text that can be drawn and written: without control characters, and with no formula."""
     if not isinstance(value, str):
         raise ValueError
+    if len(value) > MAX_TEXT or CONTROL.search(value):
+        raise ValueError(f"at most {MAX_TEXT} characters that can be printed")
+    if value.count("$") > 1:
+        raise ValueError("$ at most once: two would enclose a formula")
     return value
 
 
@@ -180,6 +184,8 @@ def listed(kind: Callable[[object], object]) -> Callable[[object], list]:
         """Return the entries, each converted."""
         if not isinstance(value, list) or not value:
             raise ValueError
+        if len(value) > MAX_ENTRIES:
+            raise ValueError(f"at most {MAX_ENTRIES} entries")
         entries = [kind(entry) for entry in value]
         if len({repr(entry) for entry in entries}) < len(entries):
             raise ValueError("an entry is given twice")
@@ -195,14 +201,29 @@ def pair(value: object) -> list[float]:
     return [number(entry) for entry in value]
 
 
-def size(value: object) -> list[float]:
+def interval(value: object) -> list[float]:
+    """Return two numbers, the smaller one first."""
+    ends = pair(value)
+    if ends[0] > ends[1]:
+        raise ValueError
+    return ends
+
+
+def two_positive(value: object) -> list[float]:
     """Return two positive numbers."""
     return [positive(entry) for entry in pair(value)]
 
 
+def size(value: object) -> list[float]:
+    """Return width and height in inches."""
+    if max(two_positive(value)) > MAX_INCHES:
+        raise ValueError(f"at most {MAX_INCHES:g} each")
+    return two_positive(value)
+
+
 def each_way(value: object) -> float | list[float]:
     """Return a positive number for both directions, or one for each."""
-    return size(value) if isinstance(value, list) else positive(value)
+    return two_positive(value) if isinstance(value, list) else positive(value)
 
 
 _TYPES = {

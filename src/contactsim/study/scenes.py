@@ -23,7 +23,7 @@ from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.provenance import canonical
 from contactsim.reference import hard_wall
 from contactsim.solvers.registry import configure_solver
-from contactsim.study.keys import RIGID
+from contactsim.study.keys import BODIES, RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.base import Surface
 from contactsim.surfaces.registry import SURFACES
@@ -61,7 +61,7 @@ def build_scene(settings: Mapping) -> Scene:
     A flat body lies below, the surface above; either may be rigid.
     """
     surface = _build_surface(settings)
-    lower, upper = _build_elasticity(settings["body"]), _build_elasticity(settings.get("counter_body"))
+    lower, upper = (_build_elasticity(settings.get(name), name) for name in BODIES)
     if lower is None and upper is None:
         raise InputError("counter_body", None, "an elastic body, as the one below is rigid")
     effects = tuple(EFFECTS[name](**settings.get(name, {})) for name in settings["effects"])
@@ -102,9 +102,12 @@ def _build_pairing(section: Mapping | None) -> Pairing:
     return PAIRINGS[options.pop("kind")](**options)
 
 
-def _build_elasticity(section: Mapping | None) -> Elasticity | None:
-    """Return a body; None for a rigid one, and without a section."""
-    return None if section is None or section["kind"] == RIGID else make_elasticity(**section)
+def _build_elasticity(section: Mapping | None, name: str) -> Elasticity | None:
+    """Return a body; None for a rigid one, and without a section; name: of the section, for messages."""
+    try:
+        return None if section is None or section["kind"] == RIGID else make_elasticity(**section)
+    except InputError as error:
+        raise error.located(None, name) from error
 
 
 def _build_path(settings: Mapping, surface: Surface, elasticities: list[Elasticity]) -> LoadPath:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contactsim.contact.loading import sweep
-from contactsim.errors import InputError
+from contactsim.errors import NOTHING, InputError, Words
 from contactsim.interface.registry import EFFECTS
 from contactsim.solvers.registry import DEFAULT_SOLVERS
 from contactsim.study.keys import (
@@ -61,7 +61,7 @@ def read_accuracy(section: dict, settings: dict, file: object, prefix: str) -> d
     if settings["accuracy"] is None:
         if settings["tolerance"] is None:
             allowed = f"{STUDY_KEYS['tolerance'].allowed} (the key is missing)"
-            raise InputError(f"{prefix}.tolerance", "nothing", allowed, file)
+            raise InputError(f"{prefix}.tolerance", NOTHING, allowed, file)
         return settings
     for key in FROM_ACCURACY:
         if section.get(key) is not None:
@@ -83,7 +83,7 @@ def read_load(settings: dict, file: object, prefix: str) -> dict:
     sections = [name for name in ("load", "path") if settings[name] is not None]
     if len(sections) != 1:
         allowed = f"exactly one of load ({', '.join(LOADS)}) and path"
-        raise InputError(f"{prefix}.load", "both load and path" if sections else "nothing", allowed, file)
+        raise InputError(f"{prefix}.load", Words("both load and path") if sections else NOTHING, allowed, file)
     if sections == ["load"]:
         if study_kind(settings).needs_path:
             allowed = "path: a state of cohesive laws depends on those before"
@@ -112,7 +112,7 @@ def _read_increment(section: dict, accurate: bool, file: object, prefix: str) ->
         raise InputError(f"{prefix}.increment", section["increment"], FOLLOWS, file)
     if not accurate and section["increment"] is None:
         allowed = f"{PATH_KEYS['increment'].allowed} (the key is missing)"
-        raise InputError(f"{prefix}.increment", "nothing", allowed, file)
+        raise InputError(f"{prefix}.increment", NOTHING, allowed, file)
     return section | {"increment": section["increment"] or INITIAL_INCREMENT}
 
 

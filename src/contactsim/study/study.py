@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +26,7 @@ from contactsim.solvers.base import Solver, check_solver
 from contactsim.solvers.registry import check_installed
 from contactsim.study.keys import BODIES, ERROR_RUNS, MODULI, RIGID, SECTION_KINDS, STUDY_KEYS
 from contactsim.study.kinds import study_kind
+from contactsim.study.places import data_file
 from contactsim.study.reading import Key, choice, keys_of, mapping, read
 from contactsim.study.run import Run
 from contactsim.study.scenes import build_scene, build_setup, updated_settings
@@ -39,6 +42,9 @@ from contactsim.study.sections import (
 )
 from contactsim.variables import dimension_name
 
+MAX_RUNS = 10_000
+"""Most runs of a study."""
+
 
 @dataclass(frozen=True)
 class Study:
@@ -50,19 +56,24 @@ class Study:
         Name in the config.
     settings : dict
         Settings with all defaults filled in.
-    file : str
+    file : object
         File that they stand in, for messages.
     seed : int
         Seed of all random numbers.
+    data_folders : list of str, optional
+        Folders from which measured heights may be read beside the present one; any without it.
     """
 
     name: str
     settings: dict
-    file: str
+    file: object
     seed: int
+    data_folders: Sequence[str] | None = None
 
     @classmethod
-    def read(cls, name: str, section: object, file: object, seed: int) -> Study:
+    def read(
+        cls, name: str, section: object, file: object, seed: int, data_folders: Sequence[str] | None = None
+    ) -> Study:
         """Check a section of a chapter's config, down to the scene of every variant."""
         prefix = f"studies.{name}"
         settings, own = read(section, STUDY_KEYS, file, prefix), mapping(section)
@@ -76,13 +87,21 @@ class Study:
         for part in ERROR_RUNS:
             if settings[part] is not None:
                 settings[part] = read_error_run(part, settings, file, prefix)
-        study = cls(name, settings, str(file), seed)
+        study = cls(name, settings, file, seed, data_folders)
+        study._check_size()
         for run in study.runs():
             if run.member == 0:
                 study._check(run)
         study._check_neglect()
         study._check_fits()
         return study
+
+    def _check_size(self) -> None:
+        """Raise InputError for more runs than a study may have, before any is built."""
+        variants = math.prod(len(self._values(name)) for name in self.settings["vary"])
+        if variants * self.settings["members"] > MAX_RUNS:
+            allowed = f"at most {MAX_RUNS} runs in all, and there are {variants} variants"
+            raise InputError(f"studies.{self.name}.members", self.settings["members"], allowed, self.file)
 
     def _check_neglect(self) -> None:
         """Raise InputError where no variant has an effect that is to be neglected."""
@@ -232,14 +251,18 @@ class Study:
         moduli = MODULI if name in BODIES and kind != RIGID else {}
         keys = {"kind": key, **keys_of(class_of(kind)), **moduli}
         values = read(section, keys, self.file, prefix)
-        return {key: value for key, value in values.items() if key not in MODULI or value}
+        return {key: value for key, value in values.items() if key not in MODULI or value is not None}
 
     def _file_digest(self, path: str) -> str:
         """Digest of a measured surface's file, so that a changed file is pressed anew."""
         try:
-            return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
-        except OSError as error:
-            allowed = f"a file that can be read; looked for at {Path(path).resolve()}"
+            place = Path(path) if self.data_folders is None else data_file(path, self.data_folders)
+            if not place.is_file():
+                raise ValueError(f"looked for at {place.resolve()}")
+            with place.open("rb") as content:
+                return hashlib.file_digest(content, "sha256").hexdigest()[:16]
+        except (OSError, ValueError) as error:
+            allowed = f"a file that can be read ({error})"
             raise InputError(f"studies.{self.name}.surface.file", path, allowed, self.file) from error
 
     def _check(self, run: Run) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from contactsim.analysis.table_comparison import FIT_DIMENSIONS, differences, join_rows
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 from contactsim.study.plan import Plan
 
 
@@ -58,4 +58,4 @@ def _read_numbers(plan: Plan, name: str) -> pd.DataFrame:
         return pd.read_csv(_path(plan, name))
     except FileNotFoundError as error:
         allowed = f"a file that is there; {_remedy(plan, name)}"
-        raise InputError(f"figures.{name}", "no file", allowed, _path(plan, name)) from error
+        raise InputError(f"figures.{name}", Words("no file"), allowed, _path(plan, name)) from error

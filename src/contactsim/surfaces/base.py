@@ -96,6 +96,6 @@ class Smooth:
 
     def check(self, points: int) -> None:
         """Raise an InputError for fewer than two points along x, or too few for the shortest wave."""
-        Grid((points,), (self.lengths[-1],))
+        Grid(self.shape(points), self.lengths)
         if self.modes is not None and points <= 2 * self.modes:
             raise InputError("points", points, f"more than {2 * self.modes}: two points per shortest wavelength")

@@ -25,6 +25,7 @@ def read_instrument(file: Path, dimensions: int | None, unit: str | None, variab
         if name not in channels:
             raise InputError("variable", name, f"a channel of heights, of those: {list(channels)}", file)
         channel = channels[name]
+        io.check_count(channel.nb_grid_pts, "heights", file)
         sized = channel.physical_sizes is not None
         scan = channel.topography() if sized else channel.topography(physical_sizes=channel.nb_grid_pts)
         if scan.unit is not None and unit is not None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -11,12 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactsim.errors import POSITIVE, InputError, is_positive
+from contactsim.errors import POSITIVE, InputError, Words, is_positive
 from contactsim.grid import Array
 
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
 TEXT = (".csv", ".txt", ".xyz", ".dat")
 SUFFIXES = (".npy", *TEXT, ".nc")
+MAX_HEIGHTS = 2**28
+"""Most heights of a measurement: 2 GiB."""
 TOLERANCE = 1e-3
 """Tolerance of positions, in mean spacings."""
 
@@ -40,7 +43,7 @@ def refuse_unused(key: str, value: object, suffixes: tuple[str, ...], file: Path
 @contextmanager
 def report_unreadable(file: Path, *more: type[Exception]) -> Iterator[None]:
     """Turn the errors that a reader raises on a damaged file, and `more`, into an InputError."""
-    errors: tuple[type[Exception], ...] = (OSError, RuntimeError, ValueError, *more)
+    errors: tuple[type[Exception], ...] = (MemoryError, OSError, OverflowError, RuntimeError, ValueError, *more)
     try:
         yield
     except InputError:
@@ -62,7 +65,7 @@ def finite_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0
     array: np.ma.MaskedArray[Any, Any] = np.ma.asarray(values)
     if array.dtype.kind not in "iuf" or array.ndim != dims or min(array.shape) < 2:
         allowed = f"two or more real numbers{' each way' * (dims > 1)}, in {dims}D"
-        raise InputError(key, f"shape {array.shape} of {array.dtype}", allowed, file)
+        raise InputError(key, Words(f"shape {array.shape} of {array.dtype}"), allowed, file)
     with np.errstate(over="ignore", invalid="ignore"):
         numbers: Array = np.ma.filled(array.astype(np.float64), np.nan) * scale
     bad = ~np.isfinite(numbers)
@@ -72,7 +75,7 @@ def finite_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0
         problem = f"{numbers[at]} in {where}"
         if dims > 1:
             problem = f"{bad.sum()} of {bad.size} points missing or not finite, the first {problem}"
-        raise InputError(key, problem, "finite numbers, none missing", file)
+        raise InputError(key, Words(problem), "finite numbers, none missing", file)
     return numbers
 
 
@@ -95,7 +98,7 @@ def mean_step(positions: Array, key: str, file: Path) -> float:
     row = int(np.argmax(off)) + 1
     if mean == 0 or off[row - 1] > TOLERANCE * abs(mean):
         problem = f"{off[row - 1]:.6g} nm off the mean step {mean:.6g} nm from row {row} to {row + 1}"
-        raise InputError(key, problem, f"equal steps to {TOLERANCE:g} of the mean step", file)
+        raise InputError(key, Words(problem), f"equal steps to {TOLERANCE:g} of the mean step", file)
     return mean
 
 
@@ -107,6 +110,13 @@ def check_spacing(spacing: float, given: float | None, file: Path) -> float:
 
 
 def load_npy(file: Path) -> NDArray[Any]:
-    """Return the array in a .npy file; pickled objects are not loaded."""
-    with file.open("rb") as stream:
-        return np.lib.format.read_array(stream, allow_pickle=False)
+    """Return the array in a .npy file, mapped, so that nothing is read before its size is known; no pickled objects."""
+    array = np.lib.format.open_memmap(file, mode="r")
+    check_count(array.shape, "heights", file)
+    return array
+
+
+def check_count(shape: Sequence[int], key: str, file: object) -> None:
+    """Raise an InputError for more numbers than a measurement may have, before memory is taken for them."""
+    if math.prod(map(int, shape)) > MAX_HEIGHTS:
+        raise InputError(key, Words(f"shape {tuple(shape)}"), f"at most {MAX_HEIGHTS} numbers", file)

@@ -30,6 +30,7 @@ def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: 
             places = _positions_along(name, data, field, unit, file)
             steps.append(None if places is None else io.mean_step(places, name, file))
         scale = io.unit_factor(field.name, _stated_unit(field), unit, file)
+        io.check_count(field.shape, field.name, file)
         heights = io.finite_numbers(field[:], field.name, file, scale, dimensions)
         heights = heights[tuple(slice(None, None, -1 if step and step < 0 else 1) for step in steps)]
         spacing = tuple(step and abs(step) for step in steps)
@@ -57,6 +58,7 @@ def _positions_along(
     for place in (data.variables[name] for name in names):
         if place.dimensions == (dimension,):
             scale = io.unit_factor(place.name, _stated_unit(place) or unit, None, file)
+            io.check_count(place.shape, place.name, file)
             return io.finite_numbers(place[:], place.name, file, scale)
     return None
 

@@ -13,7 +13,7 @@ from typing import NamedTuple, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.io import TOLERANCE, RawHeights
@@ -64,7 +64,7 @@ class Text:
         named = bool(rows) and (rows[0][1][0].isalpha() or rows[0][1][0] in "\"'")
         header = rows.pop(0) if named and set(_numbers(rows[0][1], mark)) == {None} else (0, "")
         if len(rows) < 2:
-            raise InputError("heights", f"{len(rows)} rows", "two or more rows of numbers", file)
+            raise InputError("heights", Words(f"{len(rows)} rows"), "two or more rows of numbers", file)
         return cls(file, header, rows[0][0], len(_numbers(rows[0][1], mark)), mark)
 
     def units(self, columns: int) -> list[str]:
@@ -135,7 +135,7 @@ def _convert_line(text: Text, table: Array, unit: str | None) -> RawHeights:
     ]
     positions.sort(key=lambda place: float(np.ptp(place)), reverse=True)  # of x and y the one that runs first
     if len(positions) == 2 and np.ptp(positions[1]) > TOLERANCE * np.ptp(positions[0]) / (heights.size - 1):
-        raise InputError("positions", "x and y that both vary", "a line scan: x or y constant", text.file)
+        raise InputError("positions", Words("x and y that both vary"), "a line scan: x or y constant", text.file)
     scale = io.unit_factor("heights", units[-1], unit, text.file)
     heights = io.finite_numbers(heights, "heights", text.file, scale)
     if not positions:
@@ -190,7 +190,7 @@ def _convert_points(text: Text, table: Array, unit: str | None) -> RawHeights:
         if count:
             place_text = f"x = {left + place % nx * dx:.6g} nm, y = {low + place // nx * dy:.6g} nm"
             problem = f"{count} of {ny} × {nx} points {kind}, the first at {place_text}"
-            raise InputError("positions", problem, "each point of a complete grid once", file)
+            raise InputError("positions", Words(problem), "each point of a complete grid once", file)
     heights = np.empty((ny, nx))
     heights[row, column] = z
     return io.finite_numbers(heights, "heights", file, scale, 2), (dy, dx)
@@ -202,13 +202,13 @@ def _levels(places: Array, key: str, file: Path | None) -> tuple[NDArray[np.int6
     low, count = places.min(), np.count_nonzero(steps > steps.max() / 10)  # what is smaller is scatter about one level
     step = float(places.max() - low) / max(int(count), 1)
     if step == 0:
-        raise InputError(key, f"{low:.6g} nm in every row", "two or more values on a grid", file)
+        raise InputError(key, Words(f"{low:.6g} nm in every row"), "two or more values on a grid", file)
     index = np.rint((places - low) / step)
     off = np.abs(places - low - index * step)
     if off.max() > TOLERANCE * step:
         row = int(np.argmax(off))
         problem = f"{places[row]:.6g} nm in row {row + 1}, {off[row]:.6g} nm off equal steps of {step:.6g} nm"
-        raise InputError(key, problem, f"equal steps to {TOLERANCE:g} of the mean step", file)
+        raise InputError(key, Words(problem), f"equal steps to {TOLERANCE:g} of the mean step", file)
     return index.astype(np.int64), float(low), step
 
 

@@ -13,18 +13,23 @@ from contactsim.error_control.knobs import MIN_PRESSING_INCREMENT
 from contactsim.error_control.scaling import FAMILIES, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.errors import InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
-from contactsim.study.reading import Key, listed, mapping, pair, positive, read, tiered, whole
+from contactsim.study.reading import Key, interval, listed, mapping, positive, read, tiered, whole
 from contactsim.study.run import Run
 from contactsim.study.study import Study
 
-DRAW_KEYS = {"seed": Key(whole(0), "a whole number, 0 or more"), "scenes": Key(whole(1), "how many of each kind")}
+MAX_SCENES = 1000
+"""Most scenes of a kind."""
+DRAW_KEYS = {
+    "seed": Key(whole(0), "a whole number, 0 or more"),
+    "scenes": Key(whole(1, MAX_SCENES), "how many of each kind"),
+}
 KEYS = FIGURE_KEYS | {
     "calibration": Key(mapping, "a mapping with `seed` and `scenes`"),
     "trial": Key(mapping, "a mapping with `seed` and `scenes`"),
     "errors": Key(listed(positive), "a list of relative errors that are asked for"),
     "kinds": Key(mapping, f"a mapping from some of {', '.join(FAMILIES)} to ranges"),
 }
-RANGE = Key(pair, "a pair of numbers, the least and the largest")
+RANGE = Key(interval, "a pair of numbers, the least and the largest")
 SHARE = Key(positive, "share of cylinders or spheres")
 PERIODS = {LINE: 8, SURFACE: 4, ROUGH_PATH: 8}
 """Roll-off wavelengths in a period."""

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Setup
@@ -81,10 +81,15 @@ def read_variants(folder: str | Path, seed: int, over: dict, tier: str) -> Effec
     for name, variant in settings["variants"].items():
         if not isinstance(variant, dict):
             raise InputError(f"variants.{name}", variant, "a mapping of keys of a study", file)
-        study = Study.read(name, {"title": name} | overlaid(settings["scene"], variant), file, seed)
+        try:
+            study = Study.read(name, {"title": name} | overlaid(settings["scene"], variant), file, seed, [])
+        except InputError as error:
+            prefix = f"studies.{name}."
+            own = error.key.removeprefix(prefix).partition(".")[0] in variant
+            raise error.renamed(prefix, f"variants.{name}." if own else "scene.") from error
         runs = study.runs()
         if len(runs) != 1:
-            raise InputError(f"variants.{name}", f"{len(runs)} runs", "one: nothing varied, one member", file)
+            raise InputError(f"variants.{name}", Words(f"{len(runs)} runs"), "one: nothing varied, one member", file)
         variants.append(Variant(name, study.settings["title"], runs[0].settings))
     return EffectCosts(**settings | {"variants": variants})
 

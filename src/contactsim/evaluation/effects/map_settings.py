@@ -9,13 +9,25 @@ from pathlib import Path
 from typing import Any
 
 from contactsim.contact.simplification import SIMPLIFICATIONS
-from contactsim.errors import InputError, is_number
+from contactsim.errors import InputError, Words, is_number
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.interface.registry import EFFECTS
 from contactsim.study.keys import any_of
 from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.kinds import problem_kind
-from contactsim.study.reading import Key, keys_of, listed, mapping, number, pair, read, text, tiered
+from contactsim.study.reading import (
+    SAFE_NAME,
+    SAFE_NAME_FORM,
+    Key,
+    keys_of,
+    listed,
+    mapping,
+    number,
+    pair,
+    read,
+    text,
+    tiered,
+)
 from contactsim.study.study import Study
 
 KEYS = FIGURE_KEYS | {
@@ -72,14 +84,17 @@ class EffectMap:
         axes = {name: Axis(**axis) for name, axis in settings["axes"].items()}
         return cls(**{**settings, "axes": axes})
 
-    def study(self, values: Mapping[str, float], name: str, file: str) -> Study:
+    def study(self, values: Mapping[str, float], name: str, file: object) -> Study:
         """Return the study of one run at the values of some axes; name and file: for messages."""
         section = dict(self.scene)
         for axis_name, value in values.items():
             axis = self.axes[axis_name]
             unit = math.prod(_number_at(section, key) for key in axis.per)
             section = _replace_value(section, axis.key, value * unit)
-        return Study.read(name, {"title": name} | section, file, 0)
+        try:
+            return Study.read(name, {"title": name} | section, file, 0, [])
+        except InputError as error:
+            raise error.renamed(f"studies.{name}.", f"maps.{name}.scene.") from error
 
 
 @dataclass(frozen=True)
@@ -108,12 +123,15 @@ def read_maps(folder: str | Path, over: dict, tier: str) -> EffectMaps | None:
         return None
     section, file = source
     settings = read(section, KEYS, file)
+    for name in settings["maps"]:
+        if not SAFE_NAME.fullmatch(name):
+            raise InputError("maps", name, SAFE_NAME_FORM, file)
     maps = {name: _read_map(name, entry, file) for name, entry in settings["maps"].items()}
     panels = [_read_panel(panel, count, maps, file) for count, panel in enumerate(settings["panels"])]
     return EffectMaps(**settings | {"maps": maps, "panels": panels})
 
 
-def _read_map(name: str, section: object, file: str) -> EffectMap:
+def _read_map(name: str, section: object, file: object) -> EffectMap:
     """Return a map, checked down to the scenes of all values of its axes."""
     prefix = f"maps.{name}"
     settings = read(section, MAP_KEYS, file, prefix)
@@ -127,7 +145,7 @@ def _read_map(name: str, section: object, file: str) -> EffectMap:
         for value in axis.values:
             runs = effect_map.study(first | {axis_name: value}, name, file).runs()
     if len(runs) != 1:
-        raise InputError(f"{prefix}.scene", f"{len(runs)} runs", "one: nothing varied, one member", file)
+        raise InputError(f"{prefix}.scene", Words(f"{len(runs)} runs"), "one: nothing varied, one member", file)
     comparable = KIND_QUANTITIES[problem_kind(runs[0].settings["effects"])].comparable
     for quantity in effect_map.of:
         if quantity not in comparable:
@@ -135,7 +153,7 @@ def _read_map(name: str, section: object, file: str) -> EffectMap:
     return effect_map
 
 
-def _check_axes(effect_map: EffectMap, file: str, prefix: str) -> None:
+def _check_axes(effect_map: EffectMap, file: object, prefix: str) -> None:
     """Refuse an axis whose key the scene lacks, or that is counted in something other than numbers."""
     for name, axis in effect_map.axes.items():
         head, _, tail = axis.key.partition(".")
@@ -146,7 +164,7 @@ def _check_axes(effect_map: EffectMap, file: str, prefix: str) -> None:
                 raise InputError(f"{prefix}.axes.{name}.per", key, "keys of the map's scene that hold numbers", file)
 
 
-def _read_panel(section: dict, count: int, maps: Mapping[str, EffectMap], file: str) -> Panel:
+def _read_panel(section: dict, count: int, maps: Mapping[str, EffectMap], file: object) -> Panel:
     """Return a panel; every axis of its map is across, up, or at a value of its own."""
     prefix = f"panels.{count}"
     panel = Panel(**read(section, PANEL_KEYS, file, prefix))

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import qmc
 
+CELL = (("surface", "length"), ("counter_body", "thickness"), ("pairing", "lattice_constant"))
+"""Keys of a study that make the cell of its probe."""
 DIGITS = 5
 """Significant digits of a number that is drawn."""
 
@@ -63,6 +65,11 @@ def _rounded(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 
+def has_cell(section: Mapping) -> bool:
+    """Return True for a section of a study with a cell: the period, the thickness and the lattice of a probe."""
+    return all(key in section.get(part, {}) for part, key in CELL)
+
+
 def named_candidates(named: Mapping[str, str], sections: Mapping[str, Mapping]) -> list[Candidate]:
     """Return the cells of studies.
 
@@ -76,9 +83,7 @@ def named_candidates(named: Mapping[str, str], sections: Mapping[str, Mapping]) 
     return [
         Candidate(
             name,
-            sections[study]["surface"]["length"],
-            sections[study]["counter_body"]["thickness"],
-            sections[study]["pairing"]["lattice_constant"],
+            *(sections[study][part][key] for part, key in CELL),
         )
         for name, study in named.items()
     ]

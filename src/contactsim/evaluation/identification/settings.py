@@ -14,21 +14,45 @@ from contactsim.evaluation.identification.sampling import (
     Candidate,
     CandidateRanges,
     draw_candidates,
+    has_cell,
     named_candidates,
 )
 from contactsim.evaluation.identification.simulation import CandidateJob, RunSettings
+from contactsim.grid import MAX_POINTS
 from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
+from contactsim.study.plain_yaml import load_yaml
 from contactsim.study.plan import Plan, boolean
-from contactsim.study.reading import Key, keys_of, listed, load_yaml, mapping, pair, positive, read, text, tiered, whole
+from contactsim.study.reading import (
+    SAFE_NAME,
+    SAFE_NAME_FORM,
+    Key,
+    choice,
+    interval,
+    keys_of,
+    listed,
+    mapping,
+    positive,
+    read,
+    text,
+    tiered,
+    whole,
+)
 from contactsim.study.stages import computing_stage_digest, stage_digest
 
 NAME = "identification"
 POSITIVE = "a positive number"
+
+
+def positive_interval(value: object) -> list[float]:
+    """Return two positive numbers, the smaller one first."""
+    return [positive(entry) for entry in interval(value)]
+
+
 KEYS = FIGURE_KEYS | {
     "chapter": Key(text, "the name of a chapter"),
     "seed": Key(whole(0), "a whole number, 0 or more"),
-    "candidates": Key(whole(1), "how many are drawn"),
+    "candidates": Key(whole(1, 10_000), "how many are drawn"),
     "ranges": Key(mapping, "a mapping from a length to its range"),
     "named": Key(mapping, "a mapping from names to studies whose cells are judged too"),
     "interfaces": Key(listed(text), "a list of studies of the chapter, the strong interface first"),
@@ -38,7 +62,8 @@ KEYS = FIGURE_KEYS | {
     "from_package": Key(boolean, "true or false"),
 }
 RANGE_KEYS = dict.fromkeys(
-    ("width", "thickness_ratio", "lattice_constant"), Key(pair, "a pair of numbers, the least and the largest")
+    ("width", "thickness_ratio", "lattice_constant"),
+    Key(positive_interval, "a pair of positive numbers, the least and the largest"),
 )
 RUN_KEYS = {
     "approaches": keys_of(RunSettings)["approaches"],
@@ -94,11 +119,19 @@ def read_identification(folder: str | Path, plan: Plan) -> Identification | None
     section, file = source
     settings: dict[str, Any] = read(section, KEYS, file)
     chapter = settings["chapter"]
+    own = [name for name, other in plan.chapters.items() if other == chapter]
+    if not own:
+        raise InputError("chapter", chapter, f"one of {', '.join(dict.fromkeys(plan.chapters.values()))}", file)
     studies = load_yaml(Path(folder) / f"{chapter}.yaml")["studies"]
-    for key in ("interfaces", "named"):
-        for study in settings[key] if key == "interfaces" else settings[key].values():
-            if study not in studies:
-                raise InputError(key, study, f"one of {', '.join(studies)}", file)
+    for name in settings["interfaces"]:
+        if name not in own:
+            raise InputError("interfaces", name, f"some of {', '.join(own)}", file)
+    for name in settings["named"]:
+        if not SAFE_NAME.fullmatch(name):
+            raise InputError("named", name, SAFE_NAME_FORM, file)
+    cells = [name for name in own if has_cell(studies[name])]
+    cell = Key(choice(tuple(cells)), f"one of {', '.join(cells)}")
+    settings["named"] = read(settings["named"], dict.fromkeys(settings["named"], cell), file, "named")
     ranges = CandidateRanges(**read(settings["ranges"], RANGE_KEYS, file, "ranges"))
     drawn = draw_candidates(settings["seed"], settings["candidates"], ranges)
     claims = {name: claim.settings for name, claim in plan.claims.get(chapter, {}).items()}
@@ -107,10 +140,18 @@ def read_identification(folder: str | Path, plan: Plan) -> Identification | None
         candidates=[*named_candidates(settings["named"], studies), *drawn],
         sections={name: studies[name] for name in settings["interfaces"]},
         claims=claims_on(claims, settings["interfaces"], settings["not_judged"]),
-        runs=RunSettings(**read(settings["runs"], RUN_KEYS, file, "runs")),
+        runs=_read_runs(settings["runs"], ranges.width[1], file),
         limits=Limits(**read(settings["admit"], keys_of(Limits), file, "admit")),
         seed=plan.seed,
     )
+
+
+def _read_runs(section: dict, width: float, file: object) -> RunSettings:
+    """Return grid and increments of the candidates, the widest of which has a width in nm."""
+    runs = RunSettings(**read(section, RUN_KEYS, file, "runs"))
+    if runs.grid(width) > MAX_POINTS:
+        raise InputError("runs.spacing", runs.spacing, f"at least {width / MAX_POINTS:g} nm", file)
+    return runs
 
 
 def claims_on(claims: Mapping[str, dict], studies: Sequence[str], left_out: Sequence[str]) -> dict[str, dict]:

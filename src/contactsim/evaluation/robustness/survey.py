@@ -54,7 +54,7 @@ class Robustness(FigureSettings):
     hazards: Sequence[str]
 
 
-def read_robustness_section(section: object, file: str | Path) -> Robustness:
+def read_robustness_section(section: object, file: object) -> Robustness:
     """Return the survey, checked down to the options of every solver."""
     settings = read(section, ROBUSTNESS_KEYS, file)
     kinds = Key(mapping, "a mapping of the solver's options, {} for none", None)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from contactsim.error_control.forecast import forecast_setup
-from contactsim.errors import InputError
+from contactsim.errors import NOTHING, InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.evaluation.work_precision.baselines import measured_dates
 from contactsim.evaluation.work_precision.cases import REFERENCE, Case, CaseSettings, case_job
@@ -25,9 +24,22 @@ from contactsim.paths.driver import path_driver
 from contactsim.provenance import digest
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import SOLVERS, solver_class
+from contactsim.study.plain_yaml import load_yaml
 from contactsim.study.plan import Plan
 from contactsim.study.quantity_names import quantities
-from contactsim.study.reading import Key, choice, listed, load_yaml, mapping, number, positive, read, text, whole
+from contactsim.study.reading import (
+    SAFE_NAME,
+    SAFE_NAME_FORM,
+    Key,
+    choice,
+    listed,
+    mapping,
+    number,
+    positive,
+    read,
+    text,
+    whole,
+)
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study
 from contactsim.traits import Trait
@@ -57,10 +69,7 @@ def read_cases(folder: str | Path, plan: Plan) -> dict[str, Case]:
     if not file.exists():
         return {}
     tiers, kept_tiers = _read_tiers(file)
-    if plan.tier not in tiers:
-        raise InputError("accuracy", plan.tier, f"one of the tiers {', '.join(tiers)}", file)
-    if not isinstance(tiers[plan.tier], dict):
-        raise InputError(plan.tier, tiers[plan.tier], "a mapping of cases", file)
+    tiers = read(tiers, {name: Key(mapping, "a mapping of cases", {}) for name in plan.tiers}, file)
     cases = {name: _read_case(name, section, plan, file) for name, section in tiers[plan.tier].items()}
     if plan.tier in kept_tiers:
         return {name: replace(case, kept=measured_dates(case)) for name, case in cases.items()}
@@ -109,8 +118,8 @@ def overview_figure_job(overview: FigureSettings, cases: Mapping[str, Case], tie
 
 def _read_case(name: str, section: object, plan: Plan, file: Path) -> Case:
     target = f"accuracy_{name}"
-    if not re.fullmatch("[A-Za-z0-9_]+", str(name)) or target in (*plan.reserved_names, *plan.studies, *plan.figures):
-        allowed = "letters, digits and underscores; with accuracy_ before it no study's, figure's or rule's name"
+    if not SAFE_NAME.fullmatch(str(name)) or target in (*plan.reserved_names, *plan.studies, *plan.figures):
+        allowed = f"{SAFE_NAME_FORM}; with accuracy_ before it no study's, figure's or rule's name"
         raise InputError(plan.tier, name, allowed, file)
     prefix = f"{plan.tier}.{name}"
     settings = read(section, CASE_KEYS, file, prefix)
@@ -159,7 +168,7 @@ def _check_keys(settings: CaseSettings, study: Study, kind: SingleLoads | WholeP
         if value is not None:
             raise InputError(f"{prefix}.{key}", value, why, file)
     if settings.load is None and "load" not in kind.unused_keys:
-        raise InputError(f"{prefix}.load", "nothing", f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
+        raise InputError(f"{prefix}.load", NOTHING, f"{CASE_KEYS['load'].allowed} (the key is missing)", file)
     measured = [name for name in kind.quantities if name in quantities(study)]
     for key, allowed in (("load", study.settings["load"]["values"]), ("quantities", measured)):
         for value in getattr(settings, key) or ():
@@ -181,8 +190,7 @@ def _select_values(study: Study, vary: Mapping[str, list], file: Path, prefix: s
 
 def read_all_tiers(folder: str | Path, plan: Plan) -> dict[str, Plan]:
     """Return the plans of all tiers by name; plan: the one that is not read again."""
-    tiers = load_yaml(Path(folder) / "tiers.yaml")
-    return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in tiers}
+    return {tier: plan if tier == plan.tier else Plan.read(folder, tier) for tier in plan.tiers}
 
 
 def case_figure_job(case: Case, plan: Plan, tiers: Mapping[str, Plan]) -> dict[str, Any]:
