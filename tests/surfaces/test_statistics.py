@@ -20,6 +20,16 @@ def test_a_wave_has_the_rms_values_known_by_hand():
     assert rms_curvature(heights, length / points) == pytest.approx(np.sqrt(2) * q**2, rel=4e-6)
 
 
+def test_crossed_waves_have_the_height_of_one_side_and_the_slopes_of_both():
+    shape, spacing = (512, 1024), (0.02, 0.03)
+    y, x = (2 * np.pi * waves * np.arange(n) / n for waves, n in zip((2, 3), shape, strict=True))
+    heights = 5.0 + np.outer(np.cos(y), np.cos(x))
+    q = [2 * np.pi * waves / (n * step) for waves, n, step in zip((2, 3), shape, spacing, strict=True)]
+    assert rms_height(heights) == pytest.approx(0.5, rel=1e-12)
+    assert rms_gradient(heights, spacing) == pytest.approx(np.hypot(*q) / 2, rel=1e-4)
+    assert rms_curvature(heights, spacing) == pytest.approx((q[0] ** 2 + q[1] ** 2) / 4, rel=1e-4)
+
+
 def test_the_gradient_converges_at_second_order():
     errors = [abs(rms_gradient(wave(n), 10.0 / n) - np.sqrt(2) * 2 * np.pi * 0.3) for n in (64, 128, 256)]
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
