@@ -134,6 +134,11 @@ def test_proportionality_factors_follow_from_area_gradient_and_pressure(runs):
         corrected = found["rms_gradient_contact_corrected"]
         expected = pressure / (corrected * MODULUS)
         np.testing.assert_allclose(one.reduced_pressure_contact_corrected, expected, rtol=1e-14)
+        for estimator in ("corrected", "subgrid"):
+            area, gradient = found[f"relative_contact_area_{estimator}"], found[f"rms_gradient_contact_{estimator}"]
+            np.testing.assert_allclose(one[f"kappa_{estimator}"], area / PRESSURES, rtol=1e-14)
+            expected = area * gradient * MODULUS / pressure
+            np.testing.assert_allclose(one[f"kappa_r_{estimator}"], expected, rtol=1e-14)
 
 
 def test_a_cylinder_has_its_half_width_beside_the_exact_one(runs):
