@@ -15,6 +15,7 @@ from contactsim.analysis.ensemble import unconverged
 from contactsim.observables import derived
 from contactsim.observables.dataset_forms import AVERAGED, load_dimension
 from contactsim.status import Status
+from support import rough_study
 
 PRESSURES = [0.01, 0.1, 0.3]
 HURSTS = [0.2, 0.8]
@@ -276,3 +277,20 @@ def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_fro
     both = made(listed)
     assert np.array_equal(data.mean_gap_tolerance_error, both.mean_gap_grid_error)
     assert "solving more tightly" in data.mean_gap_tolerance_error.long_name
+
+
+def test_the_grid_error_of_a_summary_is_the_largest_change_of_a_member(tmp_path):
+    grids = {"surface/rms_gradient": 0.3, "points": 64, "coarse_grid": {"points": 32, "members": 3}}
+    paths = rough_study.study(rough_study.WALKED | grids | {"vary": {}, "members": 3})
+    listed = rough_study.executed(paths, tmp_path)
+    data = aggregate.aggregate(listed, paths.settings, "source")
+    fine, coarse = (
+        np.array(
+            [dataset.load_dataset(run["path"]).line_load.values[-1] for run in listed if run["measures_error"] is of]
+        )
+        for of in (False, True)
+    )
+    change = fine - coarse
+    assert np.abs(change).max() > 1.1 * abs(change.mean())
+    assert float(data.final_load_grid_error) == pytest.approx(np.abs(change).max(), rel=1e-12)
+    assert float(data.final_load_grid_change) == pytest.approx(change.mean(), rel=1e-12)
