@@ -1,0 +1,70 @@
+"""Increments by the error of the predictions, and what lies between the states that were solved: by hand."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from contactsim.contact.pose_cohesive import pose_cohesive
+from contactsim.contact.steps import LoadStep
+from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.paths.increment_control import SAFETY, IncrementController
+from contactsim.paths.legs import Leg
+from contactsim.paths.segments import Segment
+from contactsim.solvers.cohesive.base import Equilibrium
+from contactsim.status import Status
+from contactsim.surfaces.shapes import Flat
+from contactsim.traits import Trait
+from support.smooth import scene_of
+
+
+@pytest.mark.parametrize("order", [0, 1, 3])
+@pytest.mark.parametrize("increment", [0.08, 0.12])
+def test_one_increment_is_enough_to_find_the_one_whose_error_is_allowed(order, increment):
+    exact = 0.1  # the error is that of a polynomial of the order: it is 0.005 there
+    controller = IncrementController(error=0.005, smallest=1e-3, largest=10.0, increment=increment)
+    controller.accept(0.005 * (increment / exact) ** (order + 1), order, flowed=False)
+    assert controller.increment == pytest.approx(SAFETY * exact, rel=1e-12)
+
+
+def test_the_last_two_increments_are_equal_and_the_path_ends_where_it_shall():
+    for end in (2.7, -2.7):
+        controller, places = IncrementController(0.005, 0.01, 1.0, 1.0), [0.0]
+        while places[-1] != end:
+            places.append(controller.propose(places[-1], end))
+        increments = np.abs(np.diff(places))
+        assert increments == pytest.approx([1.0, 0.85, 0.85])
+
+
+def test_a_jump_between_two_requested_states_is_told_once_wherever_its_far_side_lies():
+    leg = Leg([LoadStep(Trait.APPROACH, value) for value in (0.0, 1.0, 2.0)])
+    jump, state = SimpleNamespace(distance=3.0), SimpleNamespace()
+    for parameter, jumps in ((0.0, ()), (1.0, (jump,)), (1.5, (jump,)), (2.0, ())):
+        leg.add(parameter, state, jumps)
+    assert [len(leg.jumps_before(value)) for value in (0.0, 1.0, 2.0)] == [0, 1, 1]
+
+
+def states_of(problem, parameters, residual):
+    """States of a uniform displacement that is a cubic of the parameter from 2 to 5, and far from it elsewhere."""
+    for parameter in parameters:
+        value = parameter**3 / 100 if 2 <= parameter <= 5 else 7.0
+        displacement = np.zeros(problem.unknowns, complex)
+        displacement[0, 0] = value
+        gap = np.full((1, problem.grid.size), value)
+        yield parameter, Equilibrium(displacement, gap, problem.traction(gap), Status.CONVERGED, residual, 0.0, 1)
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_a_state_between_others_follows_from_the_two_nearest_on_each_side_and_inherits_their_residuals(direction):
+    scene, residual = scene_of(NormalCohesiveZone(2.0), surface=Flat(100.0)), 1e-5
+    problem, segment = pose_cohesive(scene, scene.heights(8), 1e-7), Segment()
+    for parameter, state in states_of(problem, [*range(8)][::direction], residual):
+        segment.add(float(parameter), state)
+    found = segment.interpolate(problem, 3.5)
+    assert found.displacement[0, 0].real == pytest.approx(3.5**3 / 100, rel=1e-12)
+    weights = np.array([-1, 9, 9, -1]) / 16
+    traction = weights @ [problem.traction(np.full((1, 8), n**3 / 100))[0, 0] for n in (2, 3, 4, 5)]
+    own = abs(problem.traction(found.gap)[0, 0] - traction) / problem.strength
+    assert found.residual == pytest.approx(own + residual * np.abs(weights).sum(), rel=1e-9)
