@@ -225,3 +225,12 @@ def test_the_pull_off_of_maugis_lies_between_a_crack_and_rigid_bodies():
     between = adhesion.maugis_cylinder_pull_off(work, radius, modulus, 1.0)
     assert (between < adhesion.cylinder_pull_off(work, radius, modulus)).all()
     assert (between < 2 * np.sqrt(2 * radius * work)).all()
+
+
+@pytest.mark.parametrize("strength", [1e-4, 1e-3, 1e-2])
+def test_the_weakest_contacts_of_maugis_pull_off_as_a_strip_under_uniform_traction(strength):
+    work, radius, modulus = 1.0, 1e4, 1.0
+    bulge = 4 * strength * np.log(2) / (np.pi * modulus)  # middle over edge of a strip, per half-width (Johnson 1985)
+    half_width = radius * (np.sqrt(bulge**2 + 2 * work / (strength * radius)) - bulge)  # a²/2R + bulge a = w/σ
+    pull_off = adhesion.maugis_cylinder_pull_off(work, radius, modulus, strength)
+    assert pull_off == pytest.approx(2 * strength * half_width, rel=1e-8)
