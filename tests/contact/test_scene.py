@@ -1,4 +1,4 @@
-"""The grid step, by which tolerances are counted, and the modulus of two bodies."""
+"""The grid step, by which tolerances are counted, the modulus of two bodies, and the steps of a path."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact.grid_step import SAMPLE_SIZE, grid_step
-from contactsim.contact.loading import pressures
+from contactsim.contact.loading import approaches, pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.hard_wall import HardWall
@@ -47,3 +47,9 @@ def test_two_half_spaces_give_way_as_one_of_the_modulus_of_the_pair():
     pair = Scene(*bodies, HardWall(), pressures([0.1]))
     assert pair.contact_modulus == pytest.approx(1.2)
     np.testing.assert_allclose(pair.compliance(wave), HalfSpace(pair.contact_modulus).compliance(wave), rtol=1e-14)
+
+
+def test_increments_divide_a_leg_also_where_their_number_is_whole_but_for_rounding():
+    places = [step.value for step in approaches([0.0, 0.3, -0.4], 0.1).steps]  # 0.3 / 0.1 is a little below 3
+    assert places == pytest.approx([0.1, 0.2, 0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.3, -0.4], abs=1e-12)
+    assert [step.value for step in approaches([0.0, 1.0], 0.3).steps] == pytest.approx([1 / 3, 2 / 3, 1.0])
