@@ -445,6 +445,14 @@ def test_curvature_is_a_square_term_in_its_errors():
     assert bent.threshold_curvature > 5
 
 
+def test_curvature_and_its_error_are_those_of_another_code():
+    rng, length = np.random.default_rng(3), np.linspace(0, 5, 6)
+    force = 2 * length + 0.3 * length**2 + rng.normal(size=6)
+    (square, _, _), covariance = np.polyfit(length, force, 2, cov=True)
+    found = threshold.fit_threshold_law(length, force).threshold_curvature
+    assert found == pytest.approx(square / np.sqrt(covariance[0, 0]), rel=1e-9)
+
+
 def test_leaving_out_approaches_measures_the_scatter_of_a_slope():
     rng = np.random.default_rng(2)
     length = np.linspace(0, 5, 9)

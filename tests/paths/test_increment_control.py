@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from contactsim.contact.loading import approaches, sliding
 from contactsim.contact.pose_cohesive import pose_cohesive
+from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.elasticity.layer import Layer
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.lattice import Lattice
+from contactsim.paths.adaptive import Adaptive
+from contactsim.paths.continuation import Continuation
 from contactsim.paths.increment_control import SAFETY, IncrementController
+from contactsim.paths.jumps import JumpCriterion
 from contactsim.paths.legs import Leg
 from contactsim.paths.segments import Segment
 from contactsim.solvers.cohesive.base import Equilibrium
+from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
-from support.smooth import scene_of
+from support.smooth import along, residual_of, scene_of, walk
 
 
 @pytest.mark.parametrize("order", [0, 1, 3])
@@ -68,3 +77,45 @@ def test_a_state_between_others_follows_from_the_two_nearest_on_each_side_and_in
     traction = weights @ [problem.traction(np.full((1, 8), n**3 / 100))[0, 0] for n in (2, 3, 4, 5)]
     own = abs(problem.traction(found.gap)[0, 0] - traction) / problem.strength
     assert found.residual == pytest.approx(own + residual * np.abs(weights).sum(), rel=1e-9)
+
+
+def test_where_increments_cannot_be_short_enough_states_are_solved_as_asked_for():
+    error = 1e-4
+    path = along(-4.0, 4.0, 0.25)
+    found = walk(scene_of(NormalCohesiveZone(2.0), path), 64, increments=Adaptive(error=error, least=2.0, most=2.0))
+    problem = found.problem
+    allowed = problem.tolerance + error * problem.law_stiffness / problem.strength
+    residuals = [residual_of(state.problem, state.displacement) for state in found.states]
+    assert max(residuals) <= 1.02 * allowed
+    assert [state.residual for state in found.states] == pytest.approx(residuals, rel=0.02, abs=3e-7)
+
+
+def sliding_flats():
+    """Flats over a lattice of 2.44 nm: their problem, a step of the slide, and a state at rest."""
+    surface = Flat(100.0)
+    path = approaches([0.0]) >> sliding([0.0, 8.0], 1.0, approach=0.0)
+    bodies = Body(Flat.facing(surface)), Body(surface, Layer(77.0, 0.3, 500.0))
+    scene = Scene(*bodies, (CohesiveZone(2.0, 0.1),), path, Lattice(2.44))
+    problem, step = pose_cohesive(scene, scene.heights(8), 1e-7), path.steps[-1]
+    gap = problem.at(step).gap(np.zeros(problem.unknowns, complex))
+    state = Equilibrium(np.zeros(problem.unknowns, complex), gap, gap, Status.CONVERGED, 0.0, 0.0, 1)
+    return problem, step, state
+
+
+def test_a_motion_by_half_a_cell_is_a_slip_however_long_the_step():
+    problem, step, _ = sliding_flats()
+    jumps = JumpCriterion(problem)
+    assert [jumps.is_jump(step, 1.0, share * 2.44) for share in (0.45, 0.55, 0.95)] == [False, True, True]
+    assert not jumps.is_jump(step.held, 1.0, 0.95 * 2.44)  # pressing: five steps
+    assert jumps.is_jump(step.held, 1.0, 5.1)
+
+
+@pytest.mark.parametrize(("share", "opening", "is_same"), [(0.45, 0.0, True), (0.55, 0.0, False), (0.95, 4.0, True)])
+def test_a_state_half_a_cell_on_is_on_another_branch_unless_the_surfaces_are_apart(share, opening, is_same):
+    problem, step, state = sliding_flats()
+    path = Continuation(problem, make_solver("newton"))
+    path.current = step, state
+    moved = replace(state, gap=state.gap + [[opening], [share * 2.44]])
+    assert path.is_on_branch(moved) is is_same
+    assert not path.is_on_branch(replace(state, largest_change=1.0))
+    assert not path.is_on_branch(replace(state, unstable=True))
