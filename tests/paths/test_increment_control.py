@@ -21,6 +21,7 @@ from contactsim.paths.increment_control import SAFETY, IncrementController
 from contactsim.paths.jumps import JumpCriterion
 from contactsim.paths.legs import Leg
 from contactsim.paths.segments import Segment
+from contactsim.simulation import simulate
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -119,3 +120,21 @@ def test_a_state_half_a_cell_on_is_on_another_branch_unless_the_surfaces_are_apa
     assert path.is_on_branch(moved) is is_same
     assert not path.is_on_branch(replace(state, largest_change=1.0))
     assert not path.is_on_branch(replace(state, unstable=True))
+
+
+def test_an_instability_between_two_stable_states_is_not_stepped_over():
+    # flats on a layer hardly soft enough: they are stable, and even, at gaps above and below those of a jump
+    scene = scene_of(NormalCohesiveZone(2.0), along(-8.0, 1.0, 1.0), Layer(220.0, 0.3, 1000.0), surface=Flat(10000.0))
+    asked, adaptive = walk(scene, 64), walk(scene, 64, increments=Adaptive(error=2.0, least=0.01, most=4.0))
+    assert len(asked.jumps) == 1
+    assert adaptive.jumps == asked.jumps
+
+
+def test_the_loads_beside_a_jump_are_those_of_the_branches_that_it_leaves_and_reaches():
+    data = simulate(scene_of(NormalCohesiveZone(2.0), along(-8.0, 0.0, 0.5)), points=128)
+    step, load = int(data.fold_step[0]), data.line_load.values
+    before, after = float(data.fold_load_before[0]), float(data.fold_load_after[0])
+    fall = load[step - 1] - load[step]
+    assert fall > 0 > load[step]  # the jump pulls the bodies together
+    assert abs(before - load[step - 1]) < 0.3 * fall
+    assert abs(after - load[step]) < 0.3 * fall
