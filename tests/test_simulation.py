@@ -134,3 +134,17 @@ def test_an_unknown_option_is_named_with_those_that_there_are(function, options,
         getattr(contactsim, function)(**options)
     assert (caught.value.key, caught.value.value) == list(options.items())[-1]
     assert caught.value.allowed.startswith(f"no such option, but {allowed}")
+
+
+@pytest.mark.parametrize("body", [contactsim.Layer(77.0, 0.3, 5000.0), contactsim.HalfSpace(77.0)], ids=repr)
+@pytest.mark.parametrize(
+    "path", [contactsim.approaches([-1.0, 3.0]), contactsim.pressures([0.0, 0.01])], ids=["h", "p"]
+)
+def test_the_stored_gap_is_what_heights_approach_and_displacement_leave(path, body):
+    cylinder, law = contactsim.Cylinder(10000.0, 25000.0), contactsim.NormalCohesiveZone(2.0)
+    scene = contactsim.Scene(body, cylinder, law, path)
+    data = contactsim.simulate(scene, points=64, tolerance=1e-10, snapshots=[path.steps[-1].value])
+    gap = -data.heights - data.approach[-1] - data.normal_displacement[0]
+    np.testing.assert_allclose(data.normal_gap[0], gap, atol=1e-12 * np.ptp(data.heights.values))
+    mean = body.compliance(np.zeros(1))[0] * data.mean_pressure[-1]
+    assert float(data.normal_displacement.mean()) == pytest.approx(-float(mean), abs=1e-6)

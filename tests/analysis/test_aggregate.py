@@ -15,6 +15,7 @@ from contactsim.analysis.ensemble import unconverged
 from contactsim.observables import derived
 from contactsim.observables.dataset_forms import AVERAGED, load_dimension
 from contactsim.status import Status
+from support import rough_study
 
 PRESSURES = [0.01, 0.1, 0.3]
 HURSTS = [0.2, 0.8]
@@ -134,6 +135,11 @@ def test_proportionality_factors_follow_from_area_gradient_and_pressure(runs):
         corrected = found["rms_gradient_contact_corrected"]
         expected = pressure / (corrected * MODULUS)
         np.testing.assert_allclose(one.reduced_pressure_contact_corrected, expected, rtol=1e-14)
+        for estimator in ("corrected", "subgrid"):
+            area, gradient = found[f"relative_contact_area_{estimator}"], found[f"rms_gradient_contact_{estimator}"]
+            np.testing.assert_allclose(one[f"kappa_{estimator}"], area / PRESSURES, rtol=1e-14)
+            expected = area * gradient * MODULUS / pressure
+            np.testing.assert_allclose(one[f"kappa_r_{estimator}"], expected, rtol=1e-14)
 
 
 def test_a_cylinder_has_its_half_width_beside_the_exact_one(runs):
@@ -271,3 +277,20 @@ def test_the_tolerance_error_is_the_change_on_solving_more_tightly_and_apart_fro
     both = made(listed)
     assert np.array_equal(data.mean_gap_tolerance_error, both.mean_gap_grid_error)
     assert "solving more tightly" in data.mean_gap_tolerance_error.long_name
+
+
+def test_the_grid_error_of_a_summary_is_the_largest_change_of_a_member(tmp_path):
+    grids = {"surface/rms_gradient": 0.3, "points": 64, "coarse_grid": {"points": 32, "members": 3}}
+    paths = rough_study.study(rough_study.WALKED | grids | {"vary": {}, "members": 3})
+    listed = rough_study.executed(paths, tmp_path)
+    data = aggregate.aggregate(listed, paths.settings, "source")
+    fine, coarse = (
+        np.array(
+            [dataset.load_dataset(run["path"]).line_load.values[-1] for run in listed if run["measures_error"] is of]
+        )
+        for of in (False, True)
+    )
+    change = fine - coarse
+    assert np.abs(change).max() > 1.1 * abs(change.mean())
+    assert float(data.final_load_grid_error) == pytest.approx(np.abs(change).max(), rel=1e-12)
+    assert float(data.final_load_grid_change) == pytest.approx(change.mean(), rel=1e-12)

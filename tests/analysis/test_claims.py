@@ -177,6 +177,7 @@ def test_the_largest_block_in_which_a_claim_holds_is_its_condition():
     row = judge(claim(), [made_up(2.25, tilt=0.25)])  # 2, 2.25 and 2.5 at the three loads: two in three are too large
     assert (row["verdict"], row["condition"]) == (NOT_REPRODUCED, "")
     assert np.isnan(row["condition_value"])
+    assert (row["verdict_half"], row["verdict_double"]) == (NOT_REPRODUCED, CONDITION)  # each band has its own
     row = judge(claim(tolerance=0.2), [made_up(2.25, tilt=0.25)])
     assert (row["verdict"], row["condition"]) == (CONDITION, "p* from 0.001 to 0.01")
     assert (row["value"], row["condition_value"]) == pytest.approx((2.25, 2.125))

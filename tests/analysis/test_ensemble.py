@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from contactsim.analysis.ensemble import relative_change
+from contactsim.analysis.ensemble import ratio_of_means, relative_change
 from support.ensembles import bodies
 
 
@@ -26,3 +27,12 @@ def test_the_relative_change_of_one_member_has_no_error():
     found = relative_change(bodies(np.ones((2, 1, 3))), "kappa", "poisson_ratio", 0.0)
     assert (found.kappa_change == 0).all()
     assert found.kappa_change_standard_error.isnull().all()
+
+
+def test_the_error_of_a_ratio_is_that_of_two_independent_ensembles():
+    above, below = (
+        xr.Dataset({"kappa_mean": mean, "kappa_standard_error": error}) for mean, error in ((3, 0.09), (2, 0.08))
+    )
+    ratio = ratio_of_means(above, below, "kappa")
+    assert ratio.value.item() == 1.5
+    assert ratio.error.item() == pytest.approx(1.5 * 0.05)  # 3 % and 4 %

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.special import ndtr, ndtri
+from scipy.stats import kstest
 
 from contactsim import dataset
 from contactsim.analysis.height_distribution import gaussian_distance
@@ -23,6 +24,13 @@ def test_one_wave_is_as_far_from_a_gaussian_as_theory_says():
     angles = np.linspace(0, np.pi, 200001)  # of a wave of amplitude √2 rms heights: F(h) = 1 - arccos(h/√2)/π
     exact = abs(1 - angles / np.pi - ndtr(np.sqrt(2) * np.cos(angles))).max()
     assert gaussian_distance(heights) == pytest.approx(exact, abs=1e-4)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_skewed_heights_have_the_distance_that_another_code_finds(sign):
+    heights = sign * np.random.default_rng(1).exponential(size=50)
+    standard = (heights - heights.mean()) / heights.std()
+    assert gaussian_distance(heights) == pytest.approx(kstest(standard, "norm").statistic, rel=1e-12)
 
 
 def test_two_heights_are_far_from_a_gaussian():

@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.comparison import Comparison
@@ -39,6 +40,11 @@ def noisy(members=10, seed=0, scatter=0.05):
     data = made_up(members=members)
     noise = np.random.default_rng(seed).standard_normal(data.kappa.shape)
     return data.assign(kappa=data.kappa + scatter * noise)
+
+
+def with_settings(data, **changes):
+    """The dataset of a study with other settings."""
+    return data.assign_attrs(settings=json.dumps(dataset.settings_of(data) | changes))
 
 
 # --- members ------------------------------------------------------------------------------------------------------
@@ -168,6 +174,19 @@ def test_increments_of_variants_err_independently_and_count_with_the_grid():
     assert (result.ensemble_error, result.grid_error) == (0, pytest.approx(np.sqrt(0.2**2 + 2 * 0.15**2)))
 
 
+def test_increments_of_members_err_independently():
+    one = paths([10.0], grid=0.2, increment=0.3, work_ratio=[1.0]).isel(work_ratio=0)
+    four = xr.concat([one] * 4, "member", data_vars="minimal")
+    assert number(path_claim(reduce="mean"), four).grid_error == pytest.approx(np.hypot(0.2, 0.3 / np.sqrt(4)))
+
+
+def test_a_grid_that_changes_all_members_in_proportion_does_not_change_their_relative_scatter():
+    bars = claim(quantity="relative_contact_area_bar_share", reduce="largest", **BANDLESS, at_most=0.1)
+    scattered = with_settings(made_up(scatter=0.1, grid=0.2), members=4)
+    assert number(bars, scattered).value > 0.01
+    assert number(bars, scattered).grid_error == pytest.approx(0, abs=1e-12)
+
+
 def test_on_the_grid_of_the_thesis_a_number_has_no_grid_error_and_on_another_an_unknown_one():
     def on_thesis_grid(points):
         return estimate_on_thesis_grid(selected(claim(), made_up(grid=0.5, points=points))).grid_error
@@ -206,6 +225,15 @@ def test_over_a_second_study_the_number_is_the_ratio_of_the_means():
     two = [made_up(1.8, scatter=0.1), made_up(2.0, scatter=0.3, members=7)]
     assert number(claim(**RATIO), *two).value == pytest.approx(0.9)
     assert number(claim(**RATIO), *two[::-1]).value == pytest.approx(1 / 0.9)
+
+
+def test_studies_of_the_same_surfaces_scatter_together_and_others_on_their_own():
+    one, two = made_up(1.8, scatter=0.09), made_up(2.0, scatter=0.1)  # the same members are 5 % too high in both
+    alike = with_settings(one, name="a"), with_settings(two, name="b", same_surfaces_as="a")
+    assert number(claim(**RATIO), *alike).ensemble_error == pytest.approx(0, abs=1e-12)
+    apart = with_settings(one, name="a"), with_settings(two, name="b")
+    single = number(claim(expect=1.8), one).ensemble_error / 1.8
+    assert number(claim(**RATIO), *apart).ensemble_error == pytest.approx(0.9 * np.sqrt(2) * single, rel=0.01)
 
 
 def test_minus_a_second_study_the_number_is_the_difference_of_the_means():

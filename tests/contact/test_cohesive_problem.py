@@ -14,6 +14,7 @@ from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.solvers.cohesive.base import largest_change
 from contactsim.solvers.registry import make_solver
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
@@ -215,3 +216,23 @@ def test_a_flat_that_faces_a_flat_gives_way_as_springs_in_series():
     spring = float(LAYER.coupled_stiffness(np.zeros(1)).diagonal[0, 0]) * LAYER.thickness / 10.0
     assert np.ptp(gap) < 1e-12
     assert spring * (gap[0] + place) + law.traction(gap[None, :1])[0, 0] == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("points", [128, 127])
+def test_on_fewer_points_the_heights_keep_their_waves_but_the_shortest(points):
+    scene = scene_of(LAWS["frictional"])
+    whole = pose_cohesive(scene, np.random.default_rng(6).normal(size=points), 1e-7)
+    before, after = (np.fft.rfft(problem.shape[0], norm="forward") for problem in (whole, whole.coarser(32, 1e-3)))
+    assert np.allclose(after[:-1], before[:16], rtol=0, atol=1e-14)
+    assert after[-1] == pytest.approx(0, abs=1e-14)  # its phase is lost on the grid
+
+
+def test_bounds_of_changes_and_residuals_are_never_too_small():
+    scene, rng = scene_of(LAWS["frictional"]), np.random.default_rng(7)
+    problem = replace(pose_cohesive(scene, scene.heights(32), 1e-7), tolerance=np.inf)  # so that bounds are returned
+    for _ in range(50):
+        change = problem.coefficients(rng.normal(size=(2, 32)) ** 9)  # some are a single peak
+        largest = np.abs(problem.field(change)).max()
+        assert largest_change(problem, change) == pytest.approx(largest, rel=1e-12)
+        assert largest_change(problem, change, enough=np.inf) >= largest
+        assert problem.norm(change) >= largest / problem.strength

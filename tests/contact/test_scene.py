@@ -1,4 +1,4 @@
-"""The typical height difference of neighbouring points, by which tolerances are counted."""
+"""The grid step, by which tolerances are counted, the modulus of two bodies, and the steps of a path."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import numpy as np
 import pytest
 
 from contactsim.contact.grid_step import SAMPLE_SIZE, grid_step
+from contactsim.contact.loading import approaches, pressures
+from contactsim.contact.scene import Body, Scene
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.interface.hard_wall import HardWall
+from contactsim.surfaces.shapes import Cylinder, Flat
 
 
 def texture(points, period, along_both):
@@ -27,3 +32,24 @@ def test_of_a_small_surface_all_points_count():
     heights = np.zeros((16, 2 * SAMPLE_SIZE // 16 - 1))
     heights[3, 5] = 1.0  # one pit of 2^19 points, which a sample would most likely miss
     assert grid_step(heights) == pytest.approx(np.sqrt(4 / (2 * heights.size)), rel=1e-12)
+
+
+@pytest.mark.parametrize("shape", [(2**16,), (200, 300)])
+def test_of_gaussian_heights_the_median_difference_says_as_much_as_the_rms(shape):
+    heights = np.random.default_rng(5).normal(size=shape)
+    heights.flat[1000] = 300.0  # the rms alone would follow one pit
+    assert grid_step(heights) == pytest.approx(np.sqrt(2), rel=0.02)
+
+
+def test_two_half_spaces_give_way_as_one_of_the_modulus_of_the_pair():
+    surface, wave = Cylinder(100.0, 1000.0), np.array([0.1, 1.0])
+    bodies = Body(Flat.facing(surface), HalfSpace(2.0)), Body(surface, HalfSpace(3.0))
+    pair = Scene(*bodies, HardWall(), pressures([0.1]))
+    assert pair.contact_modulus == pytest.approx(1.2)
+    np.testing.assert_allclose(pair.compliance(wave), HalfSpace(pair.contact_modulus).compliance(wave), rtol=1e-14)
+
+
+def test_increments_divide_a_leg_also_where_their_number_is_whole_but_for_rounding():
+    places = [step.value for step in approaches([0.0, 0.3, -0.4], 0.1).steps]  # 0.3 / 0.1 is a little below 3
+    assert places == pytest.approx([0.1, 0.2, 0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.3, -0.4], abs=1e-12)
+    assert [step.value for step in approaches([0.0, 1.0], 0.3).steps] == pytest.approx([1 / 3, 2 / 3, 1.0])

@@ -11,6 +11,8 @@ from contactsim.elasticity.layer import Layer
 from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import layer_response
+from contactsim.grid import Grid
+from contactsim.reference.hard_wall import complete_contact
 from contactsim.traits import Trait
 
 RATIOS = (-0.5, 0.0, 0.1, 0.3, 0.45, 0.49999, 0.5)
@@ -110,3 +112,11 @@ def test_what_is_no_layer_is_refused(change, key):
 def test_each_body_declares_what_it_demands_of_a_solver():
     assert HalfSpace(1.0).traits == {Trait.HALF_SPACE}
     assert Layer(1.0, 0.3, 1.0).traits == {Trait.LAYER}
+
+
+@pytest.mark.parametrize("points", [64, 63])
+def test_the_pressure_of_complete_contact_displaces_a_half_space_by_the_heights(points):
+    heights, grid = np.random.default_rng(8).normal(size=points), Grid((points,), (50.0,))
+    pressure = complete_contact(heights, 50.0, 3.0)
+    displacement = grid.backward(grid.forward(pressure) * HalfSpace(3.0).compliance(grid.wavenumber))
+    np.testing.assert_allclose(displacement, heights - heights.mean(), atol=1e-13)

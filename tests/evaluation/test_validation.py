@@ -118,6 +118,17 @@ def test_a_straight_line_through_logarithms_is_found_again():
     assert fit.fit_power_law(rows[:3], "error_a", ("one", "grid"), {}) is None
 
 
+def test_a_relation_gives_the_size_of_errors_that_scatter_and_not_their_middle():
+    rng = np.random.default_rng(2)
+    grid, noise = rng.uniform(-3, -2, 200), rng.normal(scale=0.8, size=200)
+    rows = pd.DataFrame({"kind": PATH, "knob": "increment", "one": 1.0, "grid": grid})
+    rows["error_a"] = np.exp(2 * grid + noise - 1.0)
+    law = fit.fit_power_law(rows, "error_a", ("one", "grid"), {"grid": 2.0})
+    sizes = rows.error_a / np.exp(law.coefficients["one"] + 2 * grid)
+    assert np.sqrt(np.mean(sizes**2)) == pytest.approx(1.0, rel=1e-3)
+    assert law.spread == pytest.approx(noise.std(), rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("over", "key", "allowed"),
     [

@@ -130,6 +130,13 @@ def test_the_tangential_strength_is_that_of_eq_2_18():
     assert traction.max() == pytest.approx(expected, rel=1e-8)
 
 
+def test_friction_falls_as_eq_2_17_however_far_the_slip():
+    law, slip = CohesiveZone(2.0, 0.7, tangential_length=1.7), np.linspace(-8.0, 8.0, 401)
+    traction = law.traction(np.stack([0 * slip + 0.3, 1.7 * slip]))[1]
+    exact = 2 * law.tangential_work / 1.7 * slip * np.exp(-(slip**2) - 0.3)
+    assert np.allclose(traction, exact, rtol=1e-12, atol=0)
+
+
 def test_the_mixed_law_has_no_potential_and_lacks_it_by_the_amount_derived():
     law = CohesiveZone(2.0, 0.6, normal_length=0.8, tangential_length=1.3)
     gap = gaps(law)

@@ -60,6 +60,29 @@ def test_springs_are_the_literal_sum_over_all_pairs_of_nodes(rough):
     np.testing.assert_allclose(springs.lower_traction(gap), below, rtol=0, atol=1e-12 * np.abs(upper).max())
 
 
+def test_a_wave_below_is_met_at_the_sites_also_between_points_of_the_mesh():
+    points, lattice, length = 32, 1.234, 54.4
+    x, gap = np.arange(points) * length / points, gaps(points)
+
+    def lower(place: np.ndarray) -> np.ndarray:
+        return 0.3 * np.sin(2 * np.pi * place / length) + 0.1 * np.cos(6 * np.pi * place / length)
+
+    springs = Lattice(lattice, tangential_cutoff=8.0).join(LAW, lower(x), length)
+    sites = np.rint(gap[1] / lattice) + np.arange(-6.0, 7.0)[:, None]
+    each = np.stack((gap[0] + lower(x) - lower(x + sites * lattice), gap[1] - sites * lattice))
+    expected = LAW.traction(each.reshape(2, -1)).reshape(2, *sites.shape).sum(1)
+    np.testing.assert_allclose(springs.traction(gap), expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("cutoff", [0.0, 0.4, 1.0, 2.0, 5.0])
+def test_no_site_within_the_cutoff_is_left_out(cutoff):
+    lattice = 1.5
+    sites = Lattice(lattice, tangential_cutoff=cutoff).join(LAW, np.zeros(4), 6.0).offsets
+    assert np.array_equal(sites, np.arange(-sites.max(), sites.max() + 1))
+    nearest_without = lattice * (sites.max() + 0.5)  # of a surface half a cell beside its nearest site
+    assert nearest_without >= cutoff * LAW.tangential_length
+
+
 @pytest.mark.parametrize("lattice", [1.7, 1.234])
 @pytest.mark.parametrize("rough", [False, True])
 def test_action_equals_reaction(lattice, rough):

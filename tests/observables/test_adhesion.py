@@ -14,6 +14,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import (
     FINAL,
     SUMMARY,
+    contact_length,
     find_peaks,
     gradients,
     histograms,
@@ -49,6 +50,13 @@ def test_pull_off_is_found_on_each_leg_with_what_the_increments_leave_open():
     assert found["pull_off_load_loading_increment_error"] == pytest.approx(0.5)  # the nearer state, not 4.9 away
     assert found["pull_off_load_unloading_increment_error"] == pytest.approx(1.5)
     assert found["pull_off_approach_loading_increment_error"] == 1.0
+
+
+def test_a_contact_ends_where_the_gap_between_two_nodes_is_zero():
+    x = np.arange(64.0)
+    for middle, half in ((31.3, 10.2), (2.0, 5.75), (0.0, 0.4)):  # two lie across the seam
+        distance = np.abs((x - middle + 32) % 64 - 32)
+        assert contact_length(0.7 * (distance - half), 3.0) == pytest.approx(6.0 * half, rel=1e-12)
 
 
 def test_a_path_that_only_loads_has_no_unloading():
@@ -217,3 +225,12 @@ def test_the_pull_off_of_maugis_lies_between_a_crack_and_rigid_bodies():
     between = adhesion.maugis_cylinder_pull_off(work, radius, modulus, 1.0)
     assert (between < adhesion.cylinder_pull_off(work, radius, modulus)).all()
     assert (between < 2 * np.sqrt(2 * radius * work)).all()
+
+
+@pytest.mark.parametrize("strength", [1e-4, 1e-3, 1e-2])
+def test_the_weakest_contacts_of_maugis_pull_off_as_a_strip_under_uniform_traction(strength):
+    work, radius, modulus = 1.0, 1e4, 1.0
+    bulge = 4 * strength * np.log(2) / (np.pi * modulus)  # middle over edge of a strip, per half-width (Johnson 1985)
+    half_width = radius * (np.sqrt(bulge**2 + 2 * work / (strength * radius)) - bulge)  # a²/2R + bulge a = w/σ
+    pull_off = adhesion.maugis_cylinder_pull_off(work, radius, modulus, strength)
+    assert pull_off == pytest.approx(2 * strength * half_width, rel=1e-8)

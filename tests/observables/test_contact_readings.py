@@ -79,6 +79,21 @@ def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
     assert PATH.reading_names <= set(data)
 
 
+def test_errors_of_long_and_of_short_waves_add_in_squares():
+    data, long, short = rough_path().isel(step=slice(0, 30)), 3e-4, 4e-4  # without the last, 20 nm is left out once
+    curves = {
+        "conformity_long": ("step", long * STEPS[:30] ** 2),
+        "conformity_short": ("step", short * STEPS[:30] ** 2),
+    }
+    found = summarise_readings(data.assign(curves), PATH)
+    assert float(found.conformity_at_20nm_long_increment_error) == pytest.approx(long)
+    assert float(found.conformity_at_20nm_contrast_increment_error) == pytest.approx(5e-4)
+    left = 1 - 400 * long, 1 - 400 * short
+    error = left[0] / left[1] * np.hypot(long / left[0], short / left[1])
+    assert float(found.gap_at_20nm_long_over_short) == pytest.approx(left[0] / left[1])
+    assert float(found.gap_at_20nm_long_over_short_increment_error) == pytest.approx(error)
+
+
 def test_the_largest_slip_is_that_up_to_twenty_nm_and_unknown_where_the_path_ends_before():
     slips = {"rms_slip": ("step", STEPS / 10), "slipped_share": ("step", 0.8 - abs(STEPS - 10) / 20)}
     data = summarise_readings(rough_path().assign(slips), SLIPPING)

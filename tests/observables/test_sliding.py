@@ -336,6 +336,53 @@ def test_the_error_beside_a_slip_follows_from_its_width():
     assert line([0, 1, 2], [0, 1, 0]).extreme_error(1) == pytest.approx(0.25)
 
 
+def sawtooth(direction: float) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """A spring of 1 N/m/nm that slips by 2 nm at 2.5 N/m and at 2.25 N/m, and keeps its contact."""
+    states = {
+        "sliding_distance": direction * np.arange(7.0),
+        "friction_force": direction * np.array([0.0, 1.0, 2.0, 1.0, 2.0, 1.0, 2.0]),
+        "elastic_energy": np.array([0.0, 1.0, 4.0, 1.0, 4.0, 1.0, 4.0]) / 2,
+    }
+    states |= {name: np.full(7, 8.0) for name in ("line_load", "contact_length", "contact_leading_edge")}
+    states |= {"mean_gap": np.ones(7), "contact_trailing_edge": np.zeros(7)}
+    before, after = np.array([2.5, 2.25]), np.array([0.5, 0.25])
+    events = {
+        "event_step": np.array([3.0, 5.0]),
+        "event_sliding_distance": direction * np.array([2.5, 4.25]),
+        "event_width": np.full(2, 1e-6),
+        "event_force_before": direction * before,
+        "event_force_after": direction * after,
+        "event_length_before": np.full(2, 8.0),
+        "event_length_after": np.full(2, 8.0),
+        "event_released_energy": (before**2 - after**2) / 2,
+        "event_slip": np.full(2, 2.0),
+    }
+    return states, events
+
+
+def test_the_numbers_of_a_sawtooth_are_those_by_hand():
+    numbers, errors = friction.summarise_slide(*sawtooth(1.0), period=2.0)
+    assert numbers["static_friction"] == 2.5
+    assert numbers["mean_friction"] == (2.5 + 0.25) / 2  # from the onset on
+    assert (numbers["slip_count"], numbers["first_slip_periods"], numbers["first_force_drop"]) == (2.0, 1.0, 2.0)
+    assert numbers["first_slip_released_energy"] == 3.0
+    assert numbers["sticking_stiffness"] == pytest.approx(1.0)
+    assert numbers["stored_energy"] == 0.5
+    assert errors["mean_friction"] <= 1e-5
+
+
+def test_a_slip_backwards_drops_releases_and_stores_as_one_forwards():
+    forwards, backwards = (friction.summarise_slide(*sawtooth(sign), period=2.0)[0] for sign in (1.0, -1.0))
+    for name in ("first_force_drop", "first_slip_periods", "first_slip_released_energy", "slip_count"):
+        assert backwards[name] == forwards[name]
+
+
+def test_the_error_of_a_work_is_that_of_the_trapezoidal_rule():
+    places = np.linspace(0.0, 4.0, 81)
+    work, error = line(places, places**2).work()
+    assert work - 4.0**3 / 3 == pytest.approx(error, rel=0.02)  # but for one of 80 steps
+
+
 def test_the_quadratic_law_is_fitted_to_data_that_follow_it():
     force = np.linspace(0, 3, 40)
     coefficient, agreement = peeling.fit_quadratic_law(force, 100 - 2.5 * force**2)
@@ -343,6 +390,13 @@ def test_the_quadratic_law_is_fitted_to_data_that_follow_it():
     assert agreement == pytest.approx(1.0)
     assert np.isnan(peeling.fit_quadratic_law(force[:2], force[:2])).all()
     assert np.isnan(peeling.fit_quadratic_law(force, np.full(40, 5.0))).all()
+
+
+def test_the_agreement_of_the_quadratic_law_is_that_by_hand():
+    force, length = np.sqrt([0.0, 1.0, 2.0]), np.array([5.0, 4.0, 4.0])
+    coefficient, agreement = peeling.fit_quadratic_law(force, length)
+    assert coefficient == pytest.approx(0.6)  # (1·1 + 2·1)/(1² + 2²)
+    assert agreement == pytest.approx(1 - 0.2 / (2 / 3))  # what is left of the squares about the mean
 
 
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 6.5])
@@ -390,6 +444,14 @@ def test_curvature_is_a_square_term_in_its_errors():
     assert spread == pytest.approx(np.sqrt(6 / 4), rel=0.2)  # of Student's t with six degrees of freedom
     bent = threshold.fit_threshold_law(length, 2 * length + 0.5 * length**2 + 0.1 * rng.normal(size=9))
     assert bent.threshold_curvature > 5
+
+
+def test_curvature_and_its_error_are_those_of_another_code():
+    rng, length = np.random.default_rng(3), np.linspace(0, 5, 6)
+    force = 2 * length + 0.3 * length**2 + rng.normal(size=6)
+    (square, _, _), covariance = np.polyfit(length, force, 2, cov=True)
+    found = threshold.fit_threshold_law(length, force).threshold_curvature
+    assert found == pytest.approx(square / np.sqrt(covariance[0, 0]), rel=1e-9)
 
 
 def test_leaving_out_approaches_measures_the_scatter_of_a_slope():

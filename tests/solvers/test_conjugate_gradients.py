@@ -19,6 +19,7 @@ from contactsim.interface.hard_wall import HardWall
 from contactsim.reference import hard_wall
 from contactsim.solvers.base import check_solver, solve
 from contactsim.solvers.hard_wall.conjugate_gradients import NestedConjugateGradients
+from contactsim.solvers.hard_wall.contact_iteration import refine_signed_field
 from contactsim.solvers.hard_wall.tamaas import Tamaas, TamaasState
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -292,3 +293,12 @@ def test_an_error_of_tamaas_is_a_solution_that_is_not_finite():
     result = contactsim.press(rough(64), spacing=UNIT, contact_modulus=2.0, mean_pressure=0.1, solver=FailingTamaas())
     assert result.status is Status.NON_FINITE
     assert np.isfinite(result.pressure).all()
+
+
+def test_a_smooth_pressure_is_refined_to_the_fourth_order():
+    def field(points):
+        x = 2 * np.pi * np.arange(points) / points
+        return 2.0 + np.sin(x + 0.3)[:, None] * np.cos(x - 0.7)
+
+    errors = [np.abs(refine_signed_field(field(n), (2 * n, 2 * n), 1) - field(2 * n)).max() for n in (16, 32, 64)]
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([4, 4], abs=0.1)

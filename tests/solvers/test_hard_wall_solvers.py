@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from contactsim.explanation import explain_setup
 from contactsim.interface.hard_wall import HardWall
 from contactsim.paths.options import RunOptions, Setup
 from contactsim.reference import hard_wall
-from contactsim.solvers.base import check_solver, solve
+from contactsim.solvers.base import State, check_solver, solve
 from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, GapExtension
 from contactsim.solvers.registry import SOLVERS, make_solver
@@ -159,6 +160,25 @@ def test_a_spent_budget_is_an_honest_status_and_still_a_certificate():
     assert result.record.certificate.max_contact_gap > 1e-9
     assert result.pressure.min() >= 0
     assert result.mean_pressure == pytest.approx(0.1)
+
+
+def test_what_a_solver_believes_is_not_believed_until_it_is_certified():
+    scene = Scene(Body(Flat(256.0), HalfSpace(1.0)), Body(Flat(256.0)), (HardWall(),), loading.pressures([0.1]))
+    problem, scale = pose_hard_wall(scene, scene.path.steps[0], rough(256), 1e-9, 1)
+    exact = solve(ActiveSet(), problem, scale).pressure / scale.pressure
+    spoiled = problem.project(exact * (1 + 1e-3 * np.cos(np.arange(256))))
+    error = problem.certify(spoiled)[0]
+
+    class Believing(ActiveSet):
+        def start(self, problem, guess=None):
+            return State(spoiled, False)
+
+        def step(self, problem, state):
+            return State(spoiled, True)
+
+    worst = max(error.max_contact_gap, error.penetration)
+    for share, status in ((1.01, Status.CONVERGED), (0.99, Status.MAX_ITERATIONS), (0.2, Status.MAX_ITERATIONS)):
+        assert solve(Believing(budget=3), replace(problem, tolerance=share * worst), scale).status is status
 
 
 def test_a_value_that_is_not_finite_is_caught_and_the_last_good_state_kept():

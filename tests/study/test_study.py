@@ -10,10 +10,13 @@ import pytest
 from contactsim import dataset
 from contactsim.analysis import aggregate
 from contactsim.provenance import canonical
+from contactsim.study.quantity_names import quantities
 from contactsim.study.scenes import build_scene
 from contactsim.study.study import Study
-from contactsim.variables import dimension_name
+from contactsim.variables import ERRORS, dimension_name
 from support.rough_study import GONE, WALKED, changed, executed, profile, refusal, smooth, study
+
+SECOND = {"kind": "half_space", "contact_modulus": 3.0}
 
 
 @pytest.mark.parametrize(
@@ -284,6 +287,22 @@ def test_mean_pressures_are_taken_as_they_are():
     (run,) = smooth("flat", {"mean_pressure": [0.3, 0.1]}).runs()
     assert pressures(run).tolist() == [0.1, 0.3]
     assert (run.coordinates, run.member) == ({}, 0)  # nothing is varied
+
+
+@pytest.mark.parametrize(
+    ("bodies", "modulus"),
+    [({}, 2.0), ({"counter_body": SECOND}, 1.2), ({"body": {"kind": "rigid"}, "counter_body": SECOND}, 3.0)],
+)
+def test_a_reduced_pressure_on_two_bodies_is_counted_by_the_modulus_of_both(bodies, modulus):
+    run = study(bodies).runs()[0]
+    np.testing.assert_allclose(pressures(run), np.array([0.01, 0.1]) * modulus * 0.01, rtol=1e-12)
+
+
+def test_only_errors_that_a_study_measures_are_quantities():
+    tight = {"tight_tolerance": {"tolerance": 1e-4, "members": 1}}
+    for changes, measured in (({}, {"grid"}), ({"coarse_grid": GONE}, set()), (tight, {"grid", "tolerance"})):
+        names = quantities(study(changes))
+        assert {kind for kind in ERRORS if f"kappa_{kind}_error" in names} == measured
 
 
 def test_contact_ratios_are_turned_into_hertzian_loads():

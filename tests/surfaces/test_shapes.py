@@ -180,3 +180,19 @@ def test_the_text_of_a_rough_surface_is_one_line_and_tells_all_that_differ_apart
     )
     changes = {"seed": 2, "amplitudes": "fixed", "dimensions": 2, "low_pass_cutoff": 40.0, "rms_gradient": 0.1 + 1e-15}
     assert len({repr(replace(surface, **{key: value})) for key, value in changes.items()} | {repr(surface)}) == 6
+
+
+@pytest.mark.parametrize("hurst_exponent", [0.2, 0.8])
+@pytest.mark.parametrize("dimensions", [1, 2])
+def test_fixed_amplitudes_have_the_spectrum_of_eq_3_10(dimensions, hurst_exponent):
+    surface = SelfAffine(
+        100.0, hurst_exponent, 25.0, 4.9, rms_gradient=0.1, amplitudes="fixed", dimensions=dimensions, seed=3
+    )
+    along = np.arange(surface.modes + 1)
+    across = np.concatenate((along, -along[:0:-1]))
+    waves = along if dimensions == 1 else np.hypot(across[:, None], along)
+    drawn = (waves > 0) & (waves <= surface.modes)
+    power = np.abs(surface.coefficients[drawn]) ** 2
+    slope = -1 - 2 * hurst_exponent if dimensions == 1 else -2 * (1 + hurst_exponent)
+    expected = np.maximum(waves[drawn] / 4, 1.0) ** slope  # flat down to the roll-off wavelength of a quarter
+    np.testing.assert_allclose(power / power.max(), expected, rtol=1e-10)

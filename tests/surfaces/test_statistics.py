@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from contactsim.surfaces.squared_gradient import squared_gradient
 from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_pairs, rms_height
 
 
@@ -18,6 +19,26 @@ def test_a_wave_has_the_rms_values_known_by_hand():
     # differences see q as 2 sin(ql/2)/l: relative change (ql)²/24 ≈ 9e-7, twice that for the curvature
     assert rms_gradient(heights, length / points) == pytest.approx(np.sqrt(2) * q, rel=2e-6)
     assert rms_curvature(heights, length / points) == pytest.approx(np.sqrt(2) * q**2, rel=4e-6)
+
+
+def test_crossed_waves_have_the_height_of_one_side_and_the_slopes_of_both():
+    shape, spacing = (512, 1024), (0.02, 0.03)
+    y, x = (2 * np.pi * waves * np.arange(n) / n for waves, n in zip((2, 3), shape, strict=True))
+    heights = 5.0 + np.outer(np.cos(y), np.cos(x))
+    q = [2 * np.pi * waves / (n * step) for waves, n, step in zip((2, 3), shape, spacing, strict=True)]
+    assert rms_height(heights) == pytest.approx(0.5, rel=1e-12)
+    assert rms_gradient(heights, spacing) == pytest.approx(np.hypot(*q) / 2, rel=1e-4)
+    assert rms_curvature(heights, spacing) == pytest.approx((q[0] ** 2 + q[1] ** 2) / 4, rel=1e-4)
+
+
+@pytest.mark.parametrize(("modes", "within"), [(None, 1e-3), (3, 1e-13)])
+def test_the_squared_gradient_of_crossed_waves_is_that_of_both_directions(modes, within):
+    shape, lengths = (512, 768), (10.0, 3.0)
+    y, x = (2 * np.pi * waves * np.arange(n) / n for waves, n in zip((2, 3), shape, strict=True))
+    heights = np.outer(np.cos(y), np.sin(x))
+    q = [2 * np.pi * waves / length for waves, length in zip((2, 3), lengths, strict=True)]
+    exact = (q[0] * np.outer(np.sin(y), np.sin(x))) ** 2 + (q[1] * np.outer(np.cos(y), np.cos(x))) ** 2
+    np.testing.assert_allclose(squared_gradient(heights, lengths, modes), exact, rtol=0, atol=within * exact.max())
 
 
 def test_the_gradient_converges_at_second_order():

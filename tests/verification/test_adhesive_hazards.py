@@ -109,6 +109,15 @@ def test_every_fault_of_a_state_is_found(case):
     assert "symmetric" in find_path_violation(lax, problem, [replace(states[-1], displacement=moved)])
 
 
+@pytest.mark.parametrize(("error", "fault"), [(5e-5, ""), (3e-4, "smaller increments")])
+def test_a_force_off_by_more_than_a_ten_thousandth_of_the_largest_is_found(error, fault):
+    case = replace(CASE)
+    problem, states = case.follow(make_solver("newton"))
+    vars(case)["branch"] = CASE.branch + error * np.abs(CASE.branch).max()
+    assert fault in find_path_violation(case, problem, states)
+    assert fault or not find_path_violation(case, problem, states)
+
+
 def test_a_state_of_another_branch_is_found():
     # unloading, at -8 nm, is still in contact
     there = replace(CASE, scene=replace(CASE.scene, path=along(-8.0, 0.0, 4.0) >> along(-0.5, -8.0, 0.5)), parts=0)
