@@ -78,7 +78,8 @@ def test_mirror_keeps_the_rms_slope_of_a_line(heights: np.ndarray) -> None:
 def test_tilt_subtracts_a_line_and_closes_the_seam(heights: np.ndarray) -> None:
     tilted = prepared(heights, periodic="tilt")
     assert tilted[0] == tilted[-1] == 0
-    assert np.abs(np.diff(heights - tilted, n=2)).max(initial=0) <= 1e-14 * 8 * np.abs(heights).max()
+    rounding = 1e-14 * 8 * np.abs(heights).max() + 1e-320  # subnormal numbers have few digits
+    assert np.abs(np.diff(heights - tilted, n=2)).max(initial=0) <= rounding
 
 
 @given(fields)
