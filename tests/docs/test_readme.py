@@ -111,7 +111,7 @@ def project(tmp_path_factory):
     project.configure("tiers", {"standard": {}, "quick": {}, "full": {}})
     scene = {key: value for key, value in CYLINDER.items() if key != "title"}
     (folder / "scene.yaml").write_text(yaml.safe_dump(scene | {"title": "A cylinder"}), encoding="utf-8")
-    for name in ("Makefile", "pyproject.toml", *PROJECT[:4], "tests/test_grid.py", "profiles/slurm/config.yaml"):
+    for name in ("Makefile", "pyproject.toml", *PROJECT[:-1], "tests/test_grid.py", "profiles/slurm/config.yaml"):
         (folder / name).parent.mkdir(exist_ok=True, parents=True)
         shutil.copy2(ROOT / name, folder / name)
     (folder / ".venv").mkdir()

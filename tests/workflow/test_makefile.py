@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import shutil
 import subprocess
@@ -20,7 +21,10 @@ def makefile(tmp_path):
         (tmp_path / name).touch()
 
     def command(*arguments):
-        shown = subprocess.run(["make", "-n", *arguments], cwd=tmp_path, capture_output=True, text=True, check=True)
+        alone = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+        shown = subprocess.run(
+            ["make", "-n", *arguments], cwd=tmp_path, env=alone, capture_output=True, text=True, check=True
+        )
         return shlex.split(shown.stdout.splitlines()[-1])
 
     return command
