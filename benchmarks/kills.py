@@ -3,8 +3,8 @@
     python benchmarks/kills.py FOLDER REFERENCE [COUNT]    # 60 kills by default: half an hour
 
 FOLDER is a clone with its environment and no results, REFERENCE another one in which `make all TIER=quick` was done
-without disturbance by the same code. Victims in turn: the main process, a job, the whole group of processes. After each
-kill what still runs half a minute later is counted. At the end the same command finishes, and all reproducible results
+without disturbance by the same code. Victims in turn: the main process, a job (and two seconds later all), the whole group of processes. After
+each kill what still runs half a minute later is counted. At the end the same command finishes, and all reproducible results
 are compared byte for byte. The table `kills.csv` beside this file names the rules at work at each kill.
 """
 
@@ -22,7 +22,7 @@ import time
 from pathlib import Path
 
 TABLE = Path(__file__).with_suffix(".csv")
-COUNT, TIER, PATIENCE = 60, "quick", 30.0
+COUNT, TIER, PATIENCE, PAUSE = 60, "quick", 30.0, 2.0
 START, WINDOW = 6.0, 12.0
 """Seconds after the start until the first moment of a kill, and from there to the last."""
 MARK = "CONTACTSIM_KILLS"
@@ -103,12 +103,12 @@ def main() -> int:
             break
         at_work = rules_at_work(log)
         kill(victim, running, mark, draw)
+        if victim == "job":  # the others go on; so does the workflow, until it is killed too
+            time.sleep(PAUSE)
+            kill("all", running, mark, draw)
         end = time.monotonic() + PATIENCE
         while (left := processes(mark)) and time.monotonic() < end:
             time.sleep(0.1)
-        if victim == "job" and left:  # jobs that were not killed may go on to their end; then nothing new begins
-            running.wait()
-            left = processes(mark)
         done = len(digests(clone))
         row = {"kill": len(rows) + 1, "victim": victim, "second": round(moment, 1), "at work": "; ".join(at_work)}
         rows.append(row | {"left": len(left), "results": done})

@@ -7,7 +7,14 @@ import yaml
 from contactsim.study.study import Study
 from support.places import ROOT
 
-PROJECT = ("CITATION.cff", "LICENSE", "environment.txt", "environment.lock.txt", "examples/reanalyse.py", "config/ch3.yaml")
+PROJECT = (
+    "CITATION.cff",
+    "LICENSE",
+    "environment.txt",
+    "environment.lock.txt",
+    "examples/reanalyse.py",
+    "config/ch3.yaml",
+)
 SMALL = {
     "ch3": {
         "rough_line": {
