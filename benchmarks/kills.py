@@ -3,9 +3,10 @@
     python benchmarks/kills.py FOLDER REFERENCE [COUNT]    # 60 kills by default: half an hour
 
 FOLDER is a clone with its environment and no results, REFERENCE another one in which `make all TIER=quick` was done
-without disturbance by the same code. Victims in turn: the main process, a job (and two seconds later all), the whole group of processes. After
-each kill what still runs half a minute later is counted. At the end the same command finishes, and all reproducible results
-are compared byte for byte. The table `kills.csv` beside this file names the rules at work at each kill.
+without disturbance by the same code. Victims in turn: the main process; a job, and two seconds later all; all processes
+of the main one's group. After each kill what still runs half a minute later is counted. At the end the same command
+finishes, and all reproducible results are compared byte for byte. The table `kills.csv` beside this file names the jobs
+at work at each kill.
 """
 
 from __future__ import annotations
