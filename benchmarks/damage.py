@@ -62,8 +62,8 @@ class Tier:
         return self.folder / "seals" / f"{path.relative_to(self.folder)}.json"
 
     def digests(self) -> dict[str, str]:
-        """Digest of each result that is reproducible: no times, no pictures' time stamps."""
-        patterns = ("runs/**/*.nc", "datasets/*.nc", "figures/*.csv", "figures/*.png")
+        """Digest of each result that is reproducible: no times, and no pictures, in which times stand."""
+        patterns = ("runs/**/*.nc", "datasets/*.nc", "figures/*.csv")
         found = sorted(path for pattern in patterns for path in self.folder.glob(pattern) if path.is_file())
         return {
             str(path.relative_to(self.folder)): hashlib.sha256(path.read_bytes()).hexdigest()

@@ -76,6 +76,9 @@ def damage(results: Path, kind: str) -> None:
         dataset.write_bytes(dataset.read_bytes()[:-1])
     elif kind == "gone":
         dataset.unlink()
+    elif kind == "a folder":
+        dataset.unlink()
+        dataset.mkdir()
     elif kind == "another result":
         shutil.copy(results / "runs/a/0.nc", dataset)
     elif kind == "without a seal":
@@ -95,6 +98,7 @@ def damage(results: Path, kind: str) -> None:
         ("emptied", "was changed since it was made"),
         ("shortened", "was changed since it was made"),
         ("gone", "is gone"),
+        ("a folder", "was changed since it was made"),
         ("another result", "was changed since it was made"),
         ("without a seal", "has no seal"),
         ("a new run", "was made from another runs/a/0.nc"),
@@ -109,7 +113,7 @@ def test_each_kind_of_damage_is_told(results: Path, kind: str, reason: str, caps
     assert f"{results / 'datasets/a.nc'} {reason}" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("kind", ["emptied", "another result", "without a seal"])
+@pytest.mark.parametrize("kind", ["emptied", "a folder", "another result", "without a seal"])
 def test_a_job_refuses_a_result_that_is_not_the_one_that_was_made(results: Path, kind: str) -> None:
     dataset = results / "datasets/a.nc"
     assert check_inputs(results, [dataset, Path("config.yaml")]) == {"datasets/a.nc": content_digest(dataset)}

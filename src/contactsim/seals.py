@@ -112,7 +112,7 @@ def check_inputs(results: Path, paths: Iterable[Path]) -> dict[str, str]:
         remedy = "remove it, and it is made again"
         if not seal.exists():
             raise InputError("result", path, f"one that the workflow made, with a seal; {remedy}")
-        found[place] = content_digest(path)
+        found[place] = content_digest(path) if path.is_file() else ""
         if found[place] != Seal.read(seal).outputs.get(place):
             raise InputError("result", path, f"what was written when it was made; since then it was changed: {remedy}")
     return found
@@ -137,7 +137,7 @@ def verify(results: Path) -> tuple[int, dict[str, str]]:
         path = results / place
         if not path.exists():
             wrong[place] = "is gone"
-        elif content_digest(path) != seal.outputs.get(place):
+        elif not path.is_file() or content_digest(path) != seal.outputs.get(place):
             wrong[place] = "was changed since it was made"
         else:
             others = [name for name, digest in seal.inputs.items() if digest_of(seals, name) != digest]

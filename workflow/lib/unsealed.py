@@ -105,7 +105,7 @@ class SealCheck:
             return self._set_aside(path, "has no seal, so it was not made here")
         if not all((self._results / mark).exists() for mark in seal.outputs if mark.endswith(DONE)):
             return False  # the run was begun again and did not end
-        if self._known.digest(path) != seal.outputs[place]:
+        if not path.is_file() or self._known.digest(path) != seal.outputs[place]:
             return self._set_aside(path, "was changed since it was made", seal)
         reason = self._outdated(path, seal)
         if reason is None:
