@@ -63,3 +63,5 @@ def test_what_overlaps_pulls_or_carries_another_load_is_no_solution():
     assert solved.met(1e-3)
     for change in ({"max_contact_gap": 2e-3}, {"penetration": 2e-3}, {"min_pressure": -1e-9}, {"load_error": 1e-9}):
         assert not replace(solved, **change).met(1e-3)
+    for name in ("max_contact_gap", "penetration", "min_pressure", "load_error"):
+        assert not replace(solved, **{name: float("nan")}).met(1e-3)

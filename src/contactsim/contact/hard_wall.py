@@ -240,5 +240,5 @@ class Certificate:
 
     def met(self, tolerance: float) -> bool:
         """Return whether this is a solution to within `tolerance` grid steps; NaN is none."""
-        worst = max(self.max_contact_gap, self.penetration)
-        return worst <= tolerance and self.min_pressure >= 0 and self.load_error <= 1e-12
+        is_close = self.max_contact_gap <= tolerance and self.penetration <= tolerance
+        return is_close and self.min_pressure >= 0 and self.load_error <= 1e-12
