@@ -212,7 +212,7 @@ def main() -> int:
         damage(tier)
         code, text = tier.make()
         what = outcome(code, text)
-        told = "set aside" in text or "Error" in text
+        told = any(words in text for words in ("set aside", "It is made again", "Error"))
         if code:  # it says what to do: remove the file
             for path in [path for path in tier.folder.rglob("*") if str(path) in text or f"{path.name}:" in text]:
                 shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink(missing_ok=True)
