@@ -1,4 +1,4 @@
-"""Differences between studies of the two kinds of problem, and the modules of the kinds that a run names."""
+"""Differences between studies of the two kinds of problem: their keys, loads and options."""
 
 from __future__ import annotations
 
