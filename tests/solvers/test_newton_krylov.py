@@ -14,6 +14,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone,
 from contactsim.paths.adaptive import Adaptive
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.cohesive.gmres import gmres
+from contactsim.solvers.cohesive.linearised import find_growth
 from contactsim.solvers.cohesive.zone_preconditioner import COARSENING, ZonePreconditioner
 from contactsim.solvers.registry import make_solver, solver_class
 from contactsim.surfaces.shapes import Cylinder, Sinusoid
@@ -113,11 +114,27 @@ def test_the_preconditioner_is_the_inverse_for_long_waves_whatever_tangents_a_zo
     scattered = np.random.default_rng(0).uniform(-0.3, 0.3, (*shape, 20))
     values[..., 50:70] = problem.law_stiffness * (scattered + 0.5 * np.eye(*shape)[..., None])
     tangent = Tangent(problem, values)
-    stiffness = matrix_of(lambda u: problem.regularised_stiffness.apply(u) + tangent(u), problem, 64)
+    stiffness = matrix_of(lambda u: problem.add_elastic(tangent(u), u), problem, 64)
     for shift in (0.0, 0.7):
         forward = stiffness + shift * np.eye(len(stiffness))
         inverse = matrix_of(ZonePreconditioner(problem, tangent, shift), problem, 64)
         assert np.abs(inverse @ forward - np.eye(len(forward))).max() <= 1e-11
+
+
+@pytest.mark.parametrize(("path", "grows"), [(approaches([0.0]), False), (pressures([0.01]), True)])
+@pytest.mark.parametrize("name", LAWS)
+def test_bodies_that_soften_all_over_part_under_a_load_and_stay_under_an_approach(name, path, grows):
+    scene = scene_of(LAWS[name], path)
+    problem = pose_cohesive(scene, scene.heights(64), 1e-7).at(scene.path.steps[0])
+    shape = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1].values.shape[:2]
+    values = np.zeros((*shape, 64)) + 0.1 * problem.law_stiffness * np.eye(*shape)[..., None]
+    values[0, 0] = -0.1 * min(problem.law_stiffness, problem.stiffness.diagonal[0, 1])
+    tangent = Tangent(problem, values)
+    growth = find_growth(tangent, ZonePreconditioner(problem, tangent))
+    assert (growth is not None) is grows
+    if growth is not None:
+        assert growth.rate == pytest.approx(-values[0, 0, 0])
+        assert np.abs(growth.wave).argmax() == 0
 
 
 @pytest.mark.parametrize("kind", ["newton", "damped_verlet", "mass_weighted_verlet", "energy_minimisation"])

@@ -10,6 +10,7 @@ import pytest
 from contactsim import (
     Body,
     CohesiveZone,
+    Cylinder,
     Flat,
     FrictionalRepulsiveZone,
     HalfSpace,
@@ -166,3 +167,18 @@ def test_the_load_of_an_approach_leads_back_to_it(number):
     assert (found.status == 0).all()
     assert np.abs(found.approach.values - plain.approach.values[rises]).max() < 1e-5 * setting.law.normal_length
     assert np.abs(found.mean_pressure.values - loads).max() <= 1e-8 * setting.law.strength
+
+
+@pytest.mark.parametrize("slides", [False, True])
+@pytest.mark.parametrize("work", [1e-6, 1e-12, 1e-18, 1e-30])
+def test_bodies_far_stiffer_than_the_law_carry_a_load_as_rigid_ones(work, slides):
+    law, surface = CohesiveZone(work, 0.5, 1.0, 1.0), Cylinder(radius=1000.0, length=200.0)
+    path = sliding([0.0, 1.0], 0.25, mean_pressure=0.1 * work) if slides else pressures([0.01 * work, 0.2 * work])
+    scene = Scene(Body(Flat.facing(surface)), Body(surface, HalfSpace(1e4, 0.3)), law, path)
+    data = simulate(scene, points=128, tolerance=1e-9)
+    assert (data.status == 0).all()
+    for place, step in enumerate(path.steps):
+        gap = -surface.heights(128) - float(data.approach[place])
+        traction = law.traction(np.stack([gap, np.full(128, step.sliding_distance)]))[0]
+        assert -traction.mean() == pytest.approx(step.normal.value, rel=1e-5)
+    assert data.transforms.sum() < 400 * len(path.steps)

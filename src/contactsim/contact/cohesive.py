@@ -114,11 +114,11 @@ class CohesiveProblem:
 
     @cached_property
     def regularised_stiffness(self) -> Symbol:
-        """Stiffness in which a uniform mode that a load leaves free has that of the longest wave."""
+        """Stiffness in which a uniform mode that a load leaves free has that of the longest wave, or of softer laws."""
         if self.load is None:
             return self.stiffness
         diagonal = self.stiffness.diagonal.copy()
-        diagonal[0, 0] = diagonal[0, 1]
+        diagonal[0, 0] = min(diagonal[0, 1], self.law_stiffness)
         return self.stiffness.with_diagonal(diagonal)
 
     @cached_property

@@ -1,7 +1,8 @@
 """Summarise slides: static and mean friction, peeling before the onset of sliding, slips and dissipated energy.
 
 The onset is the state of largest tangential force before the first slip or, where sliding is smooth, of the first
-maximum of the force.
+maximum of the force. A slide that begins along -x is read in a mirror: its distances, forces and edges count along its
+motion.
 """
 
 from __future__ import annotations
@@ -47,6 +48,8 @@ STATE_NUMBERS = (
     *("contact_trailing_edge", "contact_leading_edge", "elastic_energy"),
 )
 """Numbers of the states that the summary is computed from."""
+EDGES = (("trailing", "leading"), ("leading", "trailing"))
+"""Edges of a contact, and which of them each becomes in a mirror."""
 SLIDE_INPUTS = (*STATE_NUMBERS, *EVENT)
 """Variables that only a dataset of slides has all of."""
 MIN_STATES = 3
@@ -80,6 +83,7 @@ def summarise_slide(
     states = {name: values[on_slide] for name, values in columns.items()}
     if on_slide.sum() < MIN_STATES or np.isnan(states["friction_force"]).any():
         return dict.fromkeys(ONSET, np.nan), dict.fromkeys(ONSET, np.nan)
+    states, events = _along_motion(states, events)
     touches_all_over = np.abs(states["mean_gap"]) <= TOUCHING
     states["contact_length"] = np.where(touches_all_over, np.nan, states["contact_length"])
     events = {**events, "event_step": events["event_step"] - np.flatnonzero(on_slide)[0]}
@@ -87,6 +91,19 @@ def summarise_slide(
     fewer = [_slide_numbers(*every_second(states, events, begin), period)[0] for begin in (1, 2)]
     changes = {name: float(max(abs(numbers[name] - part[name]) for part in fewer)) for name in ONSET}
     return numbers, changes | errors
+
+
+def _along_motion(
+    states: Mapping[str, Array], events: Mapping[str, Array]
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Return the states and slips of a slide, in a mirror if it begins along -x."""
+    moves = np.diff(states["sliding_distance"])
+    if not moves.any() or moves[moves != 0][0] > 0:
+        return dict(states), dict(events)
+    mirrored = {name: -states[name] for name in ("sliding_distance", "friction_force")}
+    mirrored |= {f"contact_{edge}_edge": -states[f"contact_{other}_edge"] for edge, other in EDGES}
+    slips = {name: -events[name] for name in ("event_sliding_distance", "event_force_before", "event_force_after")}
+    return {**states, **mirrored}, {**events, **slips}
 
 
 def _slide_numbers(
@@ -167,7 +184,8 @@ def _slip_numbers(
     if not line.slips.size:
         return {}, {}
     first = line.slips[0]
-    direction = np.sign(line.sliding_distance[first] or 1.0)
+    following = int(line.state[first]) + 1
+    direction = np.sign(states["sliding_distance"][following] - states["sliding_distance"][following - 1])
     numbers = {
         "first_force_drop": (line.force[first - 1] - line.force[first]) * direction,
         "first_slip_periods": events["event_slip"][0] / period,

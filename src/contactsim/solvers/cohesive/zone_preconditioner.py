@@ -6,8 +6,14 @@ w = C (r - t) with the tractions t = D w. As D is not zero on the process zone Z
     (1 + D_Z C_ZZ) t_Z = D_Z (C r)_Z,   w = C (r - t_Z),
 
 which is one dense factorisation of the size of the zone (`zone_factors`). Short waves have the
-stiffness plus a constant shift. A uniform mode that is free (its stiffness is zero, under a prescribed load) has the
-stiffness of the longest wave.
+stiffness plus a constant shift.
+
+Under a prescribed load the uniform mode has no stiffness, and C no entry for it. It first gets a stiffness k, which
+then is taken away again (Sherman and Morrison): with e the uniform mode and y = (K + k e eᵀ + D)⁻¹ e,
+
+    (K + D)⁻¹ r = w + k (eᵀ w) / (1 - k eᵀ y) y,   w = (K + k e eᵀ + D)⁻¹ r.
+
+A negative 1 - k eᵀ y is one more negative eigenvalue of K + D.
 """
 
 from __future__ import annotations
@@ -30,6 +36,8 @@ SHIFT_RATIO = 2.0
 """Ratio of the largest tangents of two states up to which they share the shift of short waves."""
 ZONE_THRESHOLD = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
+MIN_REST = 1e-9
+"""Smallest size of 1 - k eᵀ y that rounding leaves right."""
 MAX_UNKNOWNS = 300
 """Unknowns of the zone above which its factorisation costs more than it saves: the coarse grid gets coarser."""
 
@@ -75,6 +83,7 @@ class ZonePreconditioner:
         self._set_short_waves(shift, before)
         self._set_long_waves(shift, before)
         self._factor(values)
+        self._set_free_mode()
 
     def _set_short_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
         """Invert the stiffness of short waves plus a shift, or share it with another preconditioner."""
@@ -126,6 +135,19 @@ class ZonePreconditioner:
         compliance = np.stack([response[:, apart] for response in self._responses], 2)
         self._factors = GeneralFactors(tangent, compliance)
 
+    def _set_free_mode(self) -> None:
+        """Find how the stiffness of a uniform mode that a load leaves free is taken away again."""
+        self._free_wave: Array | None = None
+        problem = self._problem
+        if problem.load is None or self._factors is None:
+            return
+        uniform = np.zeros(problem.unknowns, complex)
+        uniform[0, 0] = problem.regularised_stiffness.diagonal[0, 0]
+        wave = self._solve(uniform)  # k y
+        rest = 1 - wave[0, 0].real
+        if abs(rest) > MIN_REST:
+            self._free_wave, self._rest = wave, rest
+
     def growing(self) -> Array | None:
         """Return the displacement (exerted, m) that would grow most on its own, in this approximation; None if none.
 
@@ -133,7 +155,7 @@ class ZonePreconditioner:
         """
         traction = None if self._factors is None else self._factors.growing()
         if traction is None:
-            return None
+            return self._free_wave if self._free_wave is not None and self._rest < 0 else None
         wave = np.zeros(self._problem.unknowns, complex)
         wave[:, : self._low] = self._spread(traction)
         return wave
@@ -146,6 +168,13 @@ class ZonePreconditioner:
 
     def __call__(self, residual: Array) -> Array:
         """Return the displacement (exerted, m) for a residual of the same shape."""
+        out = self._solve(residual)
+        if self._free_wave is not None:
+            out += out[0, 0].real / self._rest * self._free_wave
+        return out
+
+    def _solve(self, residual: Array) -> Array:
+        """Return the displacement (exerted, m) where a free uniform mode has a stiffness."""
         out = np.empty_like(residual)
         out[:, self._low :] = self._high.apply(residual[:, self._low :])
         long = self._compliance.apply(residual[:, : self._low])
