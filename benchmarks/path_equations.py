@@ -99,7 +99,14 @@ class Equations:
             total[2, -1] = 0.0
         return total[0], total[1], total[2]
 
-    def judge(self, data: xr.Dataset, place: int, heights: Array) -> dict[str, float]:
+    @property
+    def is_small(self) -> bool:
+        """True for a grid on which the growth at every state can be looked at."""
+        return self.points <= STABILITY_POINTS[self.has_potential]
+
+    def judge(
+        self, data: xr.Dataset, place: int, heights: Array, looks_at_growth: bool | None = None
+    ) -> dict[str, float]:
         """Return the errors of a state that is called converged, each over what it may be.
 
         Parameters
@@ -110,11 +117,14 @@ class Equations:
             Number of its step.
         heights
             Heights of the surfaces together, nm.
+        looks_at_growth
+            True where all eigenvalues are computed; on small grids without it.
         """
         state = State(self, data, self.scene.path.steps[place], heights)
         if not all(np.isfinite(values).all() for values in (state.normal, state.slip, state.pull, state.shear)):
             return {"finite": math.inf}
-        return {**state.law_errors(), **state.mean_errors(), **state.equilibrium_errors(), **state.growth_error()}
+        growth = state.growth_error() if (self.is_small if looks_at_growth is None else looks_at_growth) else {}
+        return {**state.law_errors(), **state.mean_errors(), **state.equilibrium_errors(), **growth}
 
 
 class State:
@@ -195,9 +205,9 @@ class State:
         return np.stack([np.fft.irfft(row, points) for row in rows])
 
     def growth_error(self) -> dict[str, float]:
-        """Return the largest rate at which a displacement grows; nothing where that is too much work."""
+        """Return the largest rate at which a displacement grows; nothing where laws are continued."""
         equations, points = self._equations, self.normal.size
-        if points > STABILITY_POINTS[equations.has_potential] or self.normal.min() < DEEPEST * self._length:
+        if self.normal.min() < DEEPEST * self._length:
             return {}
         nn, tt, _ = equations.compliance
         (pull_normal, shear_normal), (pull_slip, shear_slip) = self._derivatives()
@@ -220,6 +230,11 @@ class State:
             whole = away @ whole @ away + 10 * equations.interface.stiffness * np.outer(mean, mean)
         values = np.linalg.eigvalsh(whole) if equations.has_potential else np.linalg.eigvals(whole).real
         return {"stability": float(-values.min() / (GROWTH * equations.interface.stiffness))}
+
+    def zone(self) -> int:
+        """Return the number of points where the law's tangent is a thousandth of its largest or more."""
+        derivatives = np.abs(np.stack([part for parts in self._derivatives() for part in parts]))
+        return int(np.count_nonzero(derivatives.max(axis=0) >= 1e-3 * self._equations.interface.stiffness))
 
     def _stiffness(self) -> list[list[Array]]:
         """Return the stiffness of the components that are exerted."""

@@ -1,7 +1,9 @@
 """Random paths of smooth laws, each state judged by equations that are written once more (`path_equations`).
 
     python benchmarks/random_paths.py [COUNT [FIRST]]    # 3000 scenes by default, on all cores: an hour
+    python benchmarks/random_paths.py --large [COUNT [FIRST]]    # 100 by default, on 1024 and 2048 points
 
+On large grids all eigenvalues are computed at two states of each scene.
 Bodies, surfaces, laws, lattices, paths, increments, tolerances and grids are drawn at random, each scene from its
 number. What is wrong with a scene is written with its number.
 """
@@ -18,19 +20,23 @@ import warnings
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from path_equations import Bodies, Equations
+from path_equations import Bodies, Equations, State
 from records import on_one_thread
 
 import contactsim as cs
 from contactsim.grid import Array
 
-COUNT, BUDGET = 3000, 60.0
-"""Scenes, and CPU seconds after which a scene counts as endless."""
+COUNT, LARGE_COUNT, BUDGET = 3000, 100, 60.0
+"""Scenes, those on large grids, and CPU seconds after which a scene counts as endless."""
+GRIDS, LARGE_GRIDS = (64, 81, 100, 128, 200, 256, 512), (1024, 2048)
+"""Points of a scene."""
+LARGE_ZONE = 1024
+"""Points of a process zone that is large."""
 LIMIT = 1.001
 """Error, over what it may be, from which it is told."""
 
@@ -92,10 +98,10 @@ class Draw:
         return values / values.std()
 
 
-def draw_case(number: int) -> Case:
+def draw_case(number: int, grids: tuple[int, ...] = GRIDS) -> Case:
     """Return the random scene of a number."""
     draw = Draw(number)
-    points = draw.one_of(64, 81, 100, 128, 200, 256, 512)
+    points = draw.one_of(*grids)
     length, normal_length = draw.power(0, 5), 1.0
     normal_length = length * draw.power(-4, -1.5)
     height = normal_length * draw.power(-1, 1.3)
@@ -221,11 +227,11 @@ def draw_increments(draw: Draw, path: cs.LoadPath, unit: float, points: int) -> 
     return cs.Requested()
 
 
-def judge(number: int) -> list[tuple[int, str, float, str]]:
+def judge(number: int, grids: tuple[int, ...] = GRIDS) -> list[tuple[int, str, float, str]]:
     """Return what is wrong with a scene: its number, what, by how much, and where; one row if nothing is."""
     begin, worst = time.process_time(), {}
     try:
-        case = draw_case(number)
+        case = draw_case(number, grids)
         with warnings.catch_warnings():
             warnings.simplefilter("error", RuntimeWarning)
             data = cs.simulate(case.scene, **case.options)
@@ -236,13 +242,20 @@ def judge(number: int) -> list[tuple[int, str, float, str]]:
     seconds, solved = time.process_time() - begin, 0
     if seconds > BUDGET:
         worst["endless"] = number, "endless", seconds, case.words
-    for place, state in solved_states(case, data):
+    states = list(solved_states(case, data))
+    looked_at = {len(states) // 2, len(states) - 1} if grids == LARGE_GRIDS else None
+    for place, state in states:
+        looks = None if looked_at is None else solved in looked_at
         solved += 1
-        for name, error in case.equations.judge(state, place, data.heights.values).items():
+        for name, error in case.equations.judge(state, place, data.heights.values, looks).items():
             if not error <= LIMIT and (name not in worst or error > worst[name][2]):
                 worst[name] = number, name, float(error), f"step {place}; {case.words}"
     unsolved = len(case.scene.path.steps) - solved
     right = "right, some unsolved" if unsolved else "right"
+    if looked_at is not None and states:
+        place, state = states[-1]
+        zone = State(case.equations, state, case.scene.path.steps[place], data.heights.values).zone()
+        right += f", {'large' if zone >= LARGE_ZONE else 'smaller'} zone"
     return list(worst.values()) or [(number, right, seconds, f"{solved} states")]
 
 
@@ -264,11 +277,13 @@ def main() -> None:
     """Judge many scenes and write what was found."""
     on_one_thread()
     logging.getLogger("contactsim").setLevel(logging.ERROR)
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else COUNT
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    is_large = "--large" in sys.argv
+    numbers = [int(word) for word in sys.argv[1:] if word != "--large"]
+    count, first = (*numbers, *(LARGE_COUNT if is_large else COUNT, 0)[len(numbers) :])
     found: Counter[str] = Counter()
     with multiprocessing.Pool(os.cpu_count()) as pool:
-        for rows in pool.imap_unordered(judge, range(first, first + count)):
+        judge_one = partial(judge, grids=LARGE_GRIDS) if is_large else judge
+        for rows in pool.imap_unordered(judge_one, range(first, first + count)):
             for number, name, error, words in rows:
                 found[name] += 1
                 if not name.startswith("right"):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import fields
-from functools import wraps
+from functools import cache, wraps
 from inspect import signature
 from numbers import Real
 from pathlib import PurePath
@@ -120,10 +120,16 @@ def is_whole(value: object, least: int = 1) -> TypeGuard[int]:
 
 def keep_floats(instance: Any) -> None:
     """Keep the numbers of a frozen dataclass as floats: those of its fields that are said to be floats."""
-    for entry in fields(instance):
-        value = getattr(instance, entry.name)
-        if entry.type in ("float", "float | None") and value is not None and type(value) is not float:
-            object.__setattr__(instance, entry.name, float(value))
+    for name in _float_fields(type(instance)):
+        value = getattr(instance, name)
+        if value is not None and type(value) is not float:
+            object.__setattr__(instance, name, float(value))
+
+
+@cache
+def _float_fields(kind: type) -> tuple[str, ...]:
+    """Return the names of a dataclass's fields that are said to be floats."""
+    return tuple(entry.name for entry in fields(kind) if entry.type in ("float", "float | None"))
 
 
 def read_numbers(key: str, values: object, least: int = 1) -> tuple[float, ...]:

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from contactsim.contact.grid_step import SAMPLE_SIZE, grid_step
-from contactsim.contact.loading import approaches, pressures
+from contactsim.contact.loading import approaches, pressures, sliding
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.interface.hard_wall import HardWall
 from contactsim.surfaces.shapes import Cylinder, Flat
+from contactsim.traits import Trait
 
 
 def texture(points, period, along_both):
@@ -53,3 +54,21 @@ def test_increments_divide_a_leg_also_where_their_number_is_whole_but_for_roundi
     places = [step.value for step in approaches([0.0, 0.3, -0.4], 0.1).steps]  # 0.3 / 0.1 is a little below 3
     assert places == pytest.approx([0.1, 0.2, 0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.3, -0.4], abs=1e-12)
     assert [step.value for step in approaches([0.0, 1.0], 0.3).steps] == pytest.approx([1 / 3, 2 / 3, 1.0])
+
+
+PATHS = {
+    "loads": pressures([0.1, 0.4, 0.2]),
+    "sweep of loads": pressures([0.5, 0.1, 0.3], 0.07),
+    "approaches": approaches([-1.0, 2.0], 0.5) >> approaches([1.0]),
+    "slide under a load": sliding([0.0, 1.0, -1.0], 0.3, mean_pressure=0.2),
+    "slide at an approach": approaches([-1.0, 0.5], 0.5) >> sliding([0.0, 1.0], 0.5, approach=0.5),
+}
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_controls_and_extreme_loads_of_a_path_are_those_of_its_steps(path):
+    held = [step.normal for step in path.steps]
+    loads = [step.value for step in held if step.control is Trait.MEAN_PRESSURE]
+    assert path.traits == {step.control for step in [*path.steps, *held]}
+    for extreme in (min, max):
+        assert extreme(path.mean_pressures, default=0.0) == pytest.approx(extreme(loads, default=0.0))

@@ -21,7 +21,7 @@ from contactsim.figures.diagnostics import overview
 from contactsim.figures.diagnostics import trials as trial_figure
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
-from contactsim.study.reading import tiered
+from contactsim.study.tier_overrides import tiered
 from contactsim.variables import RESULTS
 from support.cases import refused
 from support.places import ROOT

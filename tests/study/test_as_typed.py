@@ -7,7 +7,7 @@ import pytest
 from contactsim.errors import NOTHING, InputError
 from contactsim.study.as_typed import as_typed
 from contactsim.study.plain_yaml import load_yaml
-from contactsim.study.reading import TieredFile
+from contactsim.study.tier_overrides import TieredFile
 
 CHAPTER = """studies:
   rough: &rough

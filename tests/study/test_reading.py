@@ -9,19 +9,9 @@ import pytest
 import yaml
 
 from contactsim.errors import InputError
-from contactsim.study.reading import (
-    Key,
-    choice,
-    keys_of,
-    listed,
-    mapping,
-    number,
-    overlaid,
-    positive,
-    read,
-    text,
-)
+from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, positive, read, text
 from contactsim.study.reading import whole as whole_number
+from contactsim.study.tier_overrides import overlaid
 
 KEYS = {
     "length": Key(number, "a number of nm"),

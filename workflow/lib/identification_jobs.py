@@ -31,7 +31,7 @@ class CandidateJobs:
     @property
     def names(self) -> list[str]:
         """Return the names of all candidates."""
-        return [candidate.name for candidate in self._settings.candidates]
+        return self._settings.names
 
     def datasets(self, candidate: str) -> list[str]:
         """Return the datasets of a candidate: of each interface, and of the strong one in twice the period."""

@@ -124,7 +124,12 @@ class LoadPath:
     @cached_property
     def traits(self) -> frozenset[Trait]:
         """Kinds of control in use."""
-        return frozenset(kind for step in self.steps for kind in (step.control, step.normal.control))
+        return frozenset().union(*(part.controls for part in self.parts))
+
+    @cached_property
+    def mean_pressures(self) -> tuple[float, ...]:
+        """Mean pressures (GPa) of the steps, the smallest and the largest among them; empty without any."""
+        return tuple(value for part in self.parts for value in part.mean_pressures)
 
 
 def pressures(

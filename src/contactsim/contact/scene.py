@@ -119,9 +119,9 @@ class Scene:
             raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
         if not self.effects:
             raise InputError("effects", self.effects, "at least one, which resists overlap")
-        for step in self.path.steps if self.kind is ProblemKind.HARD_WALL else ():
-            if step.control is Trait.MEAN_PRESSURE and step.value < 0:
-                raise InputError("mean_pressure", step.value, "0 or more, in GPa: without adhesion nothing can pull")
+        for pressure in self.path.mean_pressures if self.kind is ProblemKind.HARD_WALL else ():
+            if pressure < 0:
+                raise InputError("mean_pressure", pressure, "0 or more, in GPa: without adhesion nothing can pull")
 
     def _check_sliding(self) -> None:
         """Raise InputError for tangential displacements that nothing determines."""
@@ -137,7 +137,7 @@ class Scene:
         """Raise InputError for surfaces that the pairing cannot join, or of different periods."""
         self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits, self.laws)
         lengths = self.lower.surface.lengths, self.upper.surface.lengths
-        if len(lengths[0]) != len(lengths[1]) or not np.allclose(*lengths, rtol=1e-9, atol=0):
+        if len(lengths[0]) != len(lengths[1]) or not all(map(_are_equal, *lengths)):
             raise InputError("length", lengths, "the same periods for both surfaces")
 
     def _check_lengths(self) -> None:
@@ -151,15 +151,15 @@ class Scene:
 
     def _check_loads(self) -> None:
         """Raise InputError for a mean pressure that the laws could bear under a very deep overlap alone."""
-        if self.kind is not ProblemKind.COHESIVE:
+        if self.kind is not ProblemKind.COHESIVE or not self.path.mean_pressures:
             return
         bearable = sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in self.acting_laws)
-        for step in (step.normal for step in self.path.steps):
-            if step.control is Trait.MEAN_PRESSURE and step.value > bearable:
+        for pressure in self.path.mean_pressures:
+            if pressure > bearable:
                 allowed = (
                     f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
                 )
-                raise InputError("mean_pressure", step.value, allowed)
+                raise InputError("mean_pressure", pressure, allowed)
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:
@@ -260,6 +260,11 @@ class Scene:
 def _is_law(effect: Effect) -> TypeGuard[Law]:
     """Return True if an effect is a smooth function of the gap."""
     return Trait.SMOOTH in effect.traits
+
+
+def _are_equal(length: float, other: float) -> bool:
+    """Return True for lengths that differ by rounding alone."""
+    return math.isclose(length, other, rel_tol=1e-9)
 
 
 def _repulsion(law: Law, overlap: float) -> float:

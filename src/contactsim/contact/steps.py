@@ -42,6 +42,16 @@ class PathPart(Protocol):
         """True where the part moves the surfaces along each other."""
         ...
 
+    @property
+    def controls(self) -> frozenset[Trait]:
+        """Kinds of control of its steps."""
+        ...
+
+    @property
+    def mean_pressures(self) -> tuple[float, ...]:
+        """Mean pressures (GPa) of its steps, the smallest and the largest among them; empty without any."""
+        ...
+
     def with_increment(self, increment: float) -> PathPart:
         """Return the same part in increments of about that size."""
         ...
@@ -102,6 +112,16 @@ class LoadStep:
         """True for a step of a slide."""
         return self.control is Trait.SLIDE
 
+    @property
+    def controls(self) -> frozenset[Trait]:
+        """Its kind of control, and that of what it holds."""
+        return frozenset({self.control, self.normal.control})
+
+    @property
+    def mean_pressures(self) -> tuple[float, ...]:
+        """The mean pressure (GPa) that it prescribes or holds; empty without one."""
+        return (self.normal.value,) if self.normal.control is Trait.MEAN_PRESSURE else ()
+
     def with_increment(self, increment: float) -> LoadStep:
         """Return the step itself."""
         return self
@@ -144,6 +164,18 @@ class Sweep:
         """Load steps in their order."""
         return _sweep_steps(self.control, self.turning_points, self.increment)
 
+    @property
+    def controls(self) -> frozenset[Trait]:
+        """Its kind of control."""
+        return frozenset({self.control})
+
+    @property
+    def mean_pressures(self) -> tuple[float, ...]:
+        """Mean pressures (GPa) of the first step and of those that turn; empty under approaches."""
+        if self.control is not Trait.MEAN_PRESSURE:
+            return ()
+        return (_leg(*self.turning_points[:2], self.increment)[0], *self.turning_points[1:])
+
     def with_increment(self, increment: float) -> Sweep:
         """Return the same sweep in increments of about that size."""
         return replace(self, increment=increment)
@@ -175,6 +207,16 @@ class Slide:
     def steps(self) -> tuple[LoadStep, ...]:
         """Load steps in their order."""
         return _slide_steps(self.turning_points, self.increment, self.held)
+
+    @property
+    def controls(self) -> frozenset[Trait]:
+        """A slide, and the kind of control of what it holds."""
+        return frozenset({Trait.SLIDE, self.held.control})
+
+    @property
+    def mean_pressures(self) -> tuple[float, ...]:
+        """The mean pressure (GPa) that is held; empty for a held approach."""
+        return self.held.mean_pressures
 
     def with_increment(self, increment: float) -> Slide:
         """Return the same slide in increments of about that size."""

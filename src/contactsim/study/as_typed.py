@@ -10,7 +10,7 @@ import yaml
 
 from contactsim.errors import InputError, Words
 from contactsim.study.plain_yaml import SettingsLoader, read_text
-from contactsim.study.reading import TieredFile
+from contactsim.study.tier_overrides import TieredFile
 
 
 def as_typed(error: InputError) -> InputError:

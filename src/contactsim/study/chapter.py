@@ -10,8 +10,9 @@ from contactsim.errors import InputError
 from contactsim.study.claim_plan import Claim, read_claim
 from contactsim.study.figure_plan import Figure, read_figure
 from contactsim.study.plain_yaml import load_yaml
-from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, TieredFile, mapping, overlaid, read
+from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, mapping, read
 from contactsim.study.study import Study
+from contactsim.study.tier_overrides import TieredFile, overlaid
 
 CHAPTER_KEYS = {
     "studies": Key(mapping, "a mapping from names to studies", {}),

@@ -1,8 +1,7 @@
 """Read settings strictly.
 
 Every mapping in a config file is read against a table of keys. An unknown, missing or ill-typed key is a `InputError`
-that names the file, the key, the value and what is allowed; nothing is ever silently ignored. A tier's overrides are
-laid over a study before it is read, so they are checked by the same table.
+that names the file, the key, the value and what is allowed; nothing is ever silently ignored.
 """
 
 from __future__ import annotations
@@ -13,13 +12,11 @@ import re
 import typing
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
 
 from contactsim.errors import LARGEST, NOTHING, SMALLEST, InputError, is_number, is_positive
-from contactsim.study.plain_yaml import load_yaml
 
 REQUIRED = object()
 MAX_WHOLE = 2**63 - 1
@@ -44,35 +41,6 @@ class Key:
     kind: Callable[[object], object]
     allowed: str
     default: object = REQUIRED
-
-
-@dataclass(frozen=True)
-class TieredFile:
-    """A file beside tiers.yaml with what a tier changes in it; messages name both."""
-
-    file: Path
-    tier: str
-
-    @property
-    def tiers(self) -> Path:
-        """File of the tiers."""
-        return self.file.with_name("tiers.yaml")
-
-    def __str__(self) -> str:
-        return f"{self.file} with tier {self.tier} of {self.tiers}"
-
-
-def tiered(file: Path, over: dict, tier: str) -> tuple[dict, Path | TieredFile] | None:
-    """Return the mapping in a file beside tiers.yaml with the overrides of a tier, and its name for messages.
-
-    None without that file; InputError where a tier overrides a file that does not exist.
-    """
-    tiers = file.with_name("tiers.yaml")
-    if not file.exists():
-        if over:
-            raise InputError(f"{tier}.{file.stem}", over, f"left out, as there is no {file}", tiers)
-        return None
-    return overlaid(load_yaml(file), over), TieredFile(file, tier) if over else file
 
 
 def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "") -> dict:
@@ -250,15 +218,3 @@ def keys_of(kind: type) -> Mapping[str, Key]:
             default = REQUIRED if required else entry.default
             keys[entry.name] = Key(convert, allowed, default)
     return MappingProxyType(keys)
-
-
-def overlaid(base: dict, over: dict) -> dict:
-    """Return `base` with the entries of `over` in their place: mappings are merged, null removes a key."""
-    merged = dict(base)
-    for name, value in over.items():
-        if value is None and name in merged:
-            del merged[name]
-            continue
-        both = isinstance(value, dict) and isinstance(merged.get(name), dict)
-        merged[name] = overlaid(merged[name], value) if both else value
-    return merged

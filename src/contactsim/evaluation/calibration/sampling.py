@@ -13,9 +13,10 @@ from contactsim.error_control.knobs import MIN_PRESSING_INCREMENT
 from contactsim.error_control.scaling import FAMILIES, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.errors import InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
-from contactsim.study.reading import Key, interval, listed, mapping, positive, read, tiered, whole
+from contactsim.study.reading import Key, interval, listed, mapping, positive, read, whole
 from contactsim.study.run import Run
 from contactsim.study.study import Study
+from contactsim.study.tier_overrides import tiered
 
 MAX_SCENES = 1000
 """Most scenes of a kind."""

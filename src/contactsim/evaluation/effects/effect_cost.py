@@ -22,10 +22,11 @@ from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
 from contactsim.status import is_solved
-from contactsim.study.reading import Key, mapping, overlaid, read, tiered, whole
+from contactsim.study.reading import Key, mapping, read, whole
 from contactsim.study.scenes import build_setup
 from contactsim.study.stages import computing_stage_digest, stage_digest
 from contactsim.study.study import Study
+from contactsim.study.tier_overrides import overlaid, tiered
 
 KEYS = FIGURE_KEYS | {
     "repeats": Key(whole(1), "how often each variant is timed, 1 or more", 1),

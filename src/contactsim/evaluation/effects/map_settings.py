@@ -15,20 +15,9 @@ from contactsim.interface.registry import EFFECTS
 from contactsim.study.keys import any_of
 from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.kinds import problem_kind
-from contactsim.study.reading import (
-    SAFE_NAME,
-    SAFE_NAME_FORM,
-    Key,
-    keys_of,
-    listed,
-    mapping,
-    number,
-    pair,
-    read,
-    text,
-    tiered,
-)
+from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, keys_of, listed, mapping, number, pair, read, text
 from contactsim.study.study import Study
+from contactsim.study.tier_overrides import tiered
 
 KEYS = FIGURE_KEYS | {
     "maps": Key(mapping, "a mapping from names to maps"),

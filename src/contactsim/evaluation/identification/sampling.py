@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import qmc
 
 CELL = (("surface", "length"), ("counter_body", "thickness"), ("pairing", "lattice_constant"))
 """Keys of a study that make the cell of its probe."""
@@ -46,18 +45,25 @@ def draw_candidates(seed: int, count: int, ranges: CandidateRanges) -> list[Cand
     ranges
         Ranges of a candidate; width and thickness ratio are uniform in their logarithms.
     """
+    from scipy.stats import qmc  # takes longer to import than all settings to read
+
     places = qmc.LatinHypercube(d=3, rng=np.random.default_rng(seed)).random(count)
     low, high = np.array([np.log(ranges.width), np.log(ranges.thickness_ratio), ranges.lattice_constant], dtype=float).T
     drawn = qmc.scale(places, low, high)
     return [
         Candidate(
-            f"c{number:02d}",
+            drawn_name(number),
             _rounded(math.exp(log_width)),
             _rounded(math.exp(log_width + log_ratio)),
             _rounded(lattice),
         )
         for number, (log_width, log_ratio, lattice) in enumerate(drawn, start=1)
     ]
+
+
+def drawn_name(number: int) -> str:
+    """Return the name of a candidate that is drawn, the first of which has number 1."""
+    return f"c{number:02d}"
 
 
 def _rounded(value: float) -> float:

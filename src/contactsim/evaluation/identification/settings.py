@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from contactsim.evaluation.identification.sampling import (
     Candidate,
     CandidateRanges,
     draw_candidates,
+    drawn_name,
     has_cell,
     named_candidates,
 )
@@ -35,10 +37,10 @@ from contactsim.study.reading import (
     positive,
     read,
     text,
-    tiered,
     whole,
 )
 from contactsim.study.stages import computing_stage_digest, stage_digest
+from contactsim.study.tier_overrides import tiered
 
 NAME = "identification"
 POSITIVE = "a positive number"
@@ -82,8 +84,10 @@ class Identification(FigureSettings):
     ----------
     chapter
         Chapter whose statements are judged.
-    candidates
-        The cells of studies, then those that are drawn.
+    named
+        Candidates that are the cells of studies.
+    drawn, draw_seed, ranges
+        Number of the candidates that are drawn, the seed of their draw, and their ranges.
     sections
         Section of each interface by its name, the strong one first.
     claims
@@ -97,13 +101,26 @@ class Identification(FigureSettings):
     """
 
     chapter: str
-    candidates: Sequence[Candidate]
+    named: Sequence[Candidate]
+    drawn: int
+    draw_seed: int
+    ranges: CandidateRanges
     sections: Mapping[str, dict]
     claims: Mapping[str, dict]
     runs: RunSettings
     limits: Limits
     seed: int
     from_package: bool
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all candidates."""
+        return [candidate.name for candidate in self.named] + [drawn_name(number + 1) for number in range(self.drawn)]
+
+    @cached_property
+    def candidates(self) -> list[Candidate]:
+        """The cells of studies, then those that are drawn."""
+        return [*self.named, *draw_candidates(self.draw_seed, self.drawn, self.ranges)]
 
     def job(self, name: str, tier: str) -> CandidateJob:
         """Return the job of a candidate."""
@@ -133,11 +150,13 @@ def read_identification(folder: str | Path, plan: Plan) -> Identification | None
     cell = Key(choice(tuple(cells)), f"one of {', '.join(cells)}")
     settings["named"] = read(settings["named"], dict.fromkeys(settings["named"], cell), file, "named")
     ranges = CandidateRanges(**read(settings["ranges"], RANGE_KEYS, file, "ranges"))
-    drawn = draw_candidates(settings["seed"], settings["candidates"], ranges)
     claims = {name: claim.settings for name, claim in plan.claims.get(chapter, {}).items()}
     return Identification(
         **{key: settings[key] for key in (*FIGURE_KEYS, "chapter", "from_package")},
-        candidates=[*named_candidates(settings["named"], studies), *drawn],
+        named=named_candidates(settings["named"], studies),
+        drawn=settings["candidates"],
+        draw_seed=settings["seed"],
+        ranges=ranges,
         sections={name: studies[name] for name in settings["interfaces"]},
         claims=claims_on(claims, settings["interfaces"], settings["not_judged"]),
         runs=_read_runs(settings["runs"], ranges.width[1], file),

@@ -26,9 +26,9 @@ from contactsim.paths.requested import Requested
 from contactsim.paths.state import PathState
 from contactsim.reference import adhesion
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.study.reading import overlaid
 from contactsim.study.run import Run
 from contactsim.study.study import Study
+from contactsim.study.tier_overrides import overlaid
 from contactsim.variables import GRID_CHANGE
 
 RADIUS_PER_WIDTH = 2.5

@@ -24,8 +24,9 @@ from contactsim.evaluation.robustness.registry import HAZARDS, describe_hazard
 from contactsim.provenance import digest
 from contactsim.solvers.registry import SOLVERS, make_solver, solver_class, solver_module
 from contactsim.study.plan import Plan
-from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read, tiered
+from contactsim.study.reading import Key, choice, keys_of, listed, mapping, number, read
 from contactsim.study.stages import computing_stage_digest, stage_digest
+from contactsim.study.tier_overrides import tiered
 
 logger = logging.getLogger(__name__)
 

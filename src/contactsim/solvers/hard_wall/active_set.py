@@ -49,7 +49,7 @@ class ActiveSet:
     Parameters
     ----------
     direct_points
-        Most contact points whose matrix is solved directly. From about a hundred on, BLAS would start threads.
+        Most contact points whose matrix is solved directly: the matrix of more of them costs more than iterations.
     reduction
         Factor by which an inner solution by conjugate gradients lowers the residual. It is squared every tenth outer
         step, so that a set which does not settle gets exact inner solutions.
@@ -59,7 +59,7 @@ class ActiveSet:
         Largest number of outer steps.
     """
 
-    direct_points: int = 96
+    direct_points: int = 160
     reduction: float = 0.2
     inner_budget: int = 200
     budget: int = 200
@@ -170,7 +170,7 @@ class NestedActiveSet(ActiveSet):
         Largest number of outer steps on a coarse level.
     """
 
-    coarsest: int = 64
+    coarsest: int = 160
     coarse_tolerance: float = 0.3
     coarse_budget: int = 30
 
