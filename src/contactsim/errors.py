@@ -120,14 +120,14 @@ def is_whole(value: object, least: int = 1) -> TypeGuard[int]:
 
 def keep_floats(instance: Any) -> None:
     """Keep the numbers of a frozen dataclass as floats: those of its fields that are said to be floats."""
-    for name in _float_fields(type(instance)):
+    for name in _float_fields(instance.__class__):
         value = getattr(instance, name)
         if value is not None and type(value) is not float:
             object.__setattr__(instance, name, float(value))
 
 
 @cache
-def _float_fields(kind: type) -> tuple[str, ...]:
+def _float_fields(kind: Any) -> tuple[str, ...]:
     """Return the names of a dataclass's fields that are said to be floats."""
     return tuple(entry.name for entry in fields(kind) if entry.type in ("float", "float | None"))
 

@@ -174,7 +174,8 @@ class Sweep:
         """Mean pressures (GPa) of the first step and of those that turn; empty under approaches."""
         if self.control is not Trait.MEAN_PRESSURE:
             return ()
-        return (_leg(*self.turning_points[:2], self.increment)[0], *self.turning_points[1:])
+        begin, *turns = self.turning_points
+        return (_leg(begin, turns[0], self.increment)[0], *turns)
 
     def with_increment(self, increment: float) -> Sweep:
         """Return the same sweep in increments of about that size."""
