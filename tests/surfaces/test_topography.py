@@ -5,6 +5,7 @@ Files of instruments go through a stub of the library that reads them.
 
 from __future__ import annotations
 
+import gzip
 import sys
 import tracemalloc
 from collections.abc import Callable
@@ -113,7 +114,19 @@ TEXTS = [
     (".xyz", POINTS_TEXT, {"unit": "nm"}, POINTS, (2.0, 0.5)),
     (".xyz", "x [um] y [nm] z [mm]|0 10 1e-6|5e-4 10 2e-6|0 12 5e-6|5e-4 12 6e-6", {}, [[1, 2], [5, 6]], (2.0, 0.5)),
     (".xyz", "0 0 1|1 0.0006 2|0.0008 2 5|1 2 6", {"unit": "nm"}, [[1, 2], [5, 6]], (2.0, 1.0)),
-]
+    (".csv", POINTS_TEXT, {"unit": "nm"}, POINTS, (2.0, 0.5)),
+    (".csv", "# x [um], z [nm]|0.010,1|0.0105,3|0.011,-2", {}, LINE, LINE_STEP),
+    (".txt", "10,0\t1,0|10,5\t3,0|11,0\t-2,0", {"unit": "nm"}, LINE, LINE_STEP),
+    (".csv", "10;1|10,5;3|11;-2", {"unit": "nm"}, LINE, LINE_STEP),
+    (".txt", "1,0 2,0 3,0 4,0|5,0 6,0 7,0 8,5", {"unit": "nm", "spacing": SPACING}, AREA, SPACING),
+    (".csv", "Scan,A|Tip,Radius: 2 um|||Lateral um,Raw Micrometer,|0.010,1e-3,,|0.0105,3e-3,,|0.011,-2e-3,,", {}, LINE,
+     LINE_STEP),
+    (".txt", "# Channel: Z|# Width: 2 nm|# Height: 5e-3 µm|# Value units: m|1e-9 2e-9 3e-9 4e-9|5e-9 6e-9 7e-9 8.5e-9",
+     {}, AREA, SPACING),
+    (".txt", "# Breite: 0,002 µm|# Höhe: 5 nm|# Value units: nm|1 2 3 4|5 6 7 8,5", {}, AREA, SPACING),
+    (".txt", "h=2 w=4|pixel size=5e-10 m|data unit=rad|height conversion factor (-> m)=2e-9|.5 1 1.5 2|2.5 3 3.5 4.25",
+     {}, AREA, (0.5, 0.5)),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("suffix", "text", "options", "heights", "spacing"), TEXTS)
@@ -133,7 +146,7 @@ BAD_TEXTS = [
     (".csv", "x [nm], z [furlong]|1,2|2,4", {}, "unit", "furlong", "angstrom"),
     (".csv", "x [um], z [nm]|1,2|2,4", {"unit": "um"}, "unit", "um", "that in the file, nm"),
     (".csv", "1,2|3,4", {"unit": "Mm"}, "unit", "Mm", "nm"),
-    (".csv", "# x [nm], z [nm]|1,2|2,4", {}, "unit", None, "`unit`"),
+    (".csv", "# x, z [nm or so]|1,2|2,4", {}, "unit", None, "`unit`"),
     (".csv", "x, z [nm]|1,2|2,4", NM, "line 1", "x, z [nm]", "each of 2 columns"),
     (".csv", "a [nm], b [um], c [nm], d [nm]|1,2,3,4|1,2,3,4", NM, "line 1", None, "each of 1 columns"),
     (".csv", "1|2", {"unit": "nm"}, "spacing", None, "a spacing in nm, since"),
@@ -157,8 +170,14 @@ BAD_TEXTS = [
     (".csv", "1|2|3", AREA_NM, "line 1", "1", "two or more heights"),
     (".csv", "1,2,nan,4|1,inf,3,4", NM, "heights",
      "2 of 8 points missing or not finite, the first nan in row 1, column 3", "none"),
-    (".csv", POINTS_TEXT, NM, "heights", None, ".xyz"),
-    (".txt", "X;Y;Z|0;0;1|1;0;2|0;1;3", NM, "heights", None, ".xyz"),
+    (".csv", "1 0 0|2 0 1|5 1 0|4 1 1", NM, "heights", None, "in the order x y z"),
+    (".txt", "X;Y;Z|0;0;1|1;0;2|0;1;3", NM, "positions", "1 of 2 × 2 points missing, the first at x = 1 nm, y = 1 nm",
+     "once"),
+    (".txt", "Width: 5|1 2|3 4", {"unit": "nm", "dimensions": 2}, "line 1", "5", "a number and its unit"),
+    (".txt", "Width: 5 parsec|1 2|3 4", {"unit": "nm", "dimensions": 2}, "unit", "parsec", "for width one of"),
+    (".txt", "# h=3 w=2|1 2|3 4", {"unit": "nm", "dimensions": 2}, "heights", "2 rows", "3, as line 1 says"),
+    (".txt", "Value units: rad|1 2|3 4", {"spacing": 1, "dimensions": 2}, "unit", "rad", "for heights one of"),
+    (".txt", "a|b|" * 600 + "1 2", NM, "heights", "1001 lines of words", "rows of numbers"),
     (".xyz", "1 2 3 4|1 2 3 4", NM, "line 1", "1 2 3 4", "x, y and z"),
     (".xyz", "1 2|3 4", AREA_NM, "line 1", "1 2", "x, y and z"),
     (".xyz", POINTS_TEXT[:-7], NM, "positions", "1 of 2 × 3 points missing, the first at x = 1 nm, y = 10 nm", "once"),
@@ -187,6 +206,34 @@ BAD_ROWS = ["2,abc", "2,", "2", "2,3,4", "2;3", "2 3", "2,3 # why", "1_0,2", "x 
 def test_a_row_that_does_not_parse_is_refused_with_its_line(tmp_path: Path, row: str) -> None:
     file = write(tmp_path, f"# comment|x [nm], z [nm]|0,1||1,1|{row}|3,1")
     assert refusal("line 6", file, lambda: read_topography(file)).value == row
+
+
+@pytest.mark.parametrize("text", ["1 2 3 4|5 6 7 8.5", "1;2;3;4|5;6;7;8.5"])
+def test_a_compressed_text_is_read_as_it_is(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "t.txt.gz"
+    file.write_bytes(gzip.compress(text.replace("|", "\n").encode()))
+    same(read_topography(file, unit="nm", spacing=SPACING), AREA)
+    file.write_bytes(file.read_bytes()[:-9])
+    refusal("path", file, lambda: read_topography(file, unit="nm", spacing=SPACING))
+
+
+def test_a_compressed_text_that_grows_too_long_is_refused(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr("contactsim.surfaces.text.MAX_TEXT", 10**6)
+    file = tmp_path / "t.txt.gz"
+    file.write_bytes(gzip.compress(b"1 2\n" * 10**6))
+    assert "a text of at most" in refusal("path", file, lambda: read_topography(file, unit="nm", spacing=1)).allowed
+
+
+def test_positions_rounded_to_their_last_digit_are_equally_spaced_where_there_are_many(tmp_path: Path) -> None:
+    step, count = 0.15624544, 400
+    rows = [f"{number * step:.1f},1.5" for number in range(count)]
+    topography = read_topography(write(tmp_path, "|".join(rows)), unit="um")
+    assert topography.spacing[0] == pytest.approx(1e3 * step, rel=1e-3)
+    rows[200] = f"{200 * step + 0.3:.1f},1.5"
+    file = write(tmp_path, "|".join(rows))
+    refusal("positions", file, lambda: read_topography(file, unit="um"))
+    few = write(tmp_path, "0,1|1,1|2,1|4,1")
+    refusal("positions", few, lambda: read_topography(few, unit="um"))
 
 
 @pytest.mark.parametrize("row", ["1.O5", "1,5;2,3", "[nm]", "-"])

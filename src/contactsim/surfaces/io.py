@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import unicodedata
+import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,6 +23,11 @@ MAX_HEIGHTS = 2**28
 """Most heights of a measurement: 2 GiB."""
 TOLERANCE = 1e-3
 """Tolerance of positions, in mean spacings."""
+MIN_ROUNDED = 100
+"""Fewest positions that may be rounded: fewer could have any steps."""
+
+UNREADABLE = (EOFError, MemoryError, OSError, OverflowError, RuntimeError, ValueError, zlib.error)
+"""What readers raise on a damaged file."""
 
 RawHeights = tuple[Array, tuple[float | None, ...]]
 """Heights (n,) or (ny, nx), and the spacing in each direction, x last, None where the file states none; nm."""
@@ -34,23 +40,30 @@ def existing_path(path: object) -> Path:
     return Path(path)
 
 
+def suffix_of(file: Path) -> str:
+    """Return the suffix of a file in small letters, of a compressed text that of the text."""
+    suffix = file.suffix.lower()
+    inner = Path(file.stem).suffix.lower()
+    return inner if suffix == ".gz" and inner in TEXT else suffix
+
+
 def refuse_unused(key: str, value: object, suffixes: tuple[str, ...], file: Path) -> None:
     """Raise an InputError if a value is given that files with this suffix do not use."""
-    if value is not None and file.suffix.lower() not in suffixes:
-        raise InputError(key, value, f"none for {file.suffix.lower()}, only for {', '.join(suffixes)}", file)
+    if value is not None and suffix_of(file) not in suffixes:
+        raise InputError(key, value, f"none for {suffix_of(file)}, only for {', '.join(suffixes)}", file)
 
 
 @contextmanager
 def report_unreadable(file: Path, *more: type[Exception]) -> Iterator[None]:
     """Turn the errors that a reader raises on a damaged file, and `more`, into an InputError."""
-    errors: tuple[type[Exception], ...] = (MemoryError, OSError, OverflowError, RuntimeError, ValueError, *more)
+    errors: tuple[type[Exception], ...] = (*UNREADABLE, *more)
     try:
         yield
     except InputError:
         raise
     except errors as error:
         why = " ".join(str(error).split())[:200]
-        raise InputError("path", str(file), f"a readable {file.suffix.lower()} file ({why})", file) from error
+        raise InputError("path", str(file), f"a readable {suffix_of(file)} file ({why})", file) from error
 
 
 def positive_spacing(spacing: object, file: object) -> float:
@@ -91,12 +104,17 @@ def unit_factor(key: str, stated: str | None, unit: str | None, file: Path) -> f
     return UNITS[names[0]]
 
 
-def mean_step(positions: Array, key: str, file: Path) -> float:
-    """Return the step of positions (n,), negative if they descend; InputError unless they are equally spaced."""
+def mean_step(positions: Array, key: str, file: Path, rounding: float = 0.0) -> float:
+    """Return the step of positions (n,), negative if they descend; InputError unless they are equally spaced.
+
+    Many positions may be off by the rounding to the last digit that is written, which is at most half of that digit.
+    """
     mean = float(positions[-1] - positions[0]) / (positions.size - 1)
     off = np.abs(np.diff(positions) - mean)
     row = int(np.argmax(off)) + 1
-    if mean == 0 or off[row - 1] > TOLERANCE * abs(mean):
+    drift = np.abs(positions - np.linspace(positions[0], positions[-1], positions.size)).max()
+    is_rounded = positions.size >= MIN_ROUNDED and drift <= 2.1 * rounding  # of the position and of the ends
+    if mean == 0 or (off[row - 1] > TOLERANCE * abs(mean) and not is_rounded):
         problem = f"{off[row - 1]:.6g} nm off the mean step {mean:.6g} nm from row {row} to {row + 1}"
         raise InputError(key, Words(problem), f"equal steps to {TOLERANCE:g} of the mean step", file)
     return mean

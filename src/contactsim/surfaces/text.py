@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import gzip
 import itertools
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple, TextIO
+from typing import NamedTuple, TextIO, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,17 +18,41 @@ from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.io import TOLERANCE, RawHeights
+from contactsim.surfaces.text_header import Header, bracketed_units
+
+MAX_HEADER_LINES = 1000
+"""Most lines before the numbers."""
+MAX_TEXT, CHUNK = 32 * io.MAX_HEIGHTS, 2**20
+"""Most bytes of a text, and how many of a compressed one are counted at a time."""
+SHOWN_ROWS = 100
+"""Rows that show the separator, the decimal sign and how positions are rounded."""
+DECIMAL_COMMA = re.compile(r"[-+]?\d+(,\d*)?([eE][-+]?\d+)?")
 
 
 def read_text(file: Path, dimensions: int | None, unit: str | None, delimiter: str | None) -> RawHeights:
     """Return the heights of a text file and their spacing; without `dimensions` the columns decide."""
     text = Text.read(file, delimiter)
-    area = POINTS if file.suffix.lower() == ".xyz" else GRID
+    area = POINTS if io.suffix_of(file) == ".xyz" else GRID
     layout = LINE if dimensions == 1 or (dimensions is None and text.width < 3) else area
     table = text.table(layout.widths, layout.allowed)
     if dimensions is None and _is_line_scan(table):
         layout = LINE
+    elif layout is GRID and _are_points(text, table):
+        layout = POINTS
     return layout.convert(text, table, unit)
+
+
+def _are_points(text: Text, table: Array) -> bool:
+    """Return True for three columns x y z: by their names, or as x and y are the positions of a complete grid."""
+    if table.shape[1] != 3:
+        return False
+    names = re.findall(r"[^\W\d_]+", re.sub(r"[\[(].*?[\])]", "", text.header.named[1].lower()))
+    if {*names} >= {"x", "y", "z"} or _fill_a_grid(table[:, 0], table[:, 1]):
+        return True
+    if any(_fill_a_grid(table[:, place], table[:, 2]) for place in (0, 1)):
+        content = Words("three columns, the last of which has positions on a grid")
+        raise InputError("heights", content, "rows of heights, or points in the order x y z", text.file)
+    return False
 
 
 def _is_line_scan(table: Array) -> bool:
@@ -42,38 +67,39 @@ def _is_line_scan(table: Array) -> bool:
 class Text:
     """A text file of numbers.
 
-    `header` is the number and the text of its header line, `first` the number of the first row's line, `width` the
-    number of its fields, and `mark` the separator.
+    `header` is what stands before them, `first` the number of the first row's line, `width` the number of its fields,
+    `mark` the separator, and `decimal` the sign before a fraction.
     """
 
     file: Path
-    header: tuple[int, str]
+    header: Header
     first: int
     width: int
     mark: str
+    decimal: str
 
     @classmethod
     def read(cls, file: Path, delimiter: str | None) -> Text:
         """Return the text of a file; without a delimiter its first rows show the separator."""
         if delimiter not in (None, ",", ";", "\t", " "):
             raise InputError("delimiter", delimiter, 'one of "," ";" tab " "', file)
-        rows = list(itertools.islice(_rows(file), 3))
-        # The second row, surely no header, has the separator: a semicolon, else a comma, else blanks.
-        mark = delimiter or next((sign for sign in ";," if any(sign in line for _, line in rows[1:2])), " ")
-        # A header begins like a name and has no number, so that a mistyped first row, `1.O5`, is not taken for one.
-        named = bool(rows) and (rows[0][1][0].isalpha() or rows[0][1][0] in "\"'")
-        header = rows.pop(0) if named and set(_numbers(rows[0][1], mark)) == {None} else (0, "")
+        _check_size(file)
+        before: list[Line] = []
+        rows: list[Line] = []
+        for line in _lines(file):
+            if not rows and (line.is_comment or _is_words(line.text, delimiter)):
+                before.append(line)
+                if len(before) > MAX_HEADER_LINES:
+                    raise InputError("heights", Words(f"{len(before)} lines of words"), "rows of numbers", file)
+            elif not line.is_comment:
+                rows.append(line)
+                if len(rows) == SHOWN_ROWS:
+                    break
         if len(rows) < 2:
             raise InputError("heights", Words(f"{len(rows)} rows"), "two or more rows of numbers", file)
-        return cls(file, header, rows[0][0], len(_numbers(rows[0][1], mark)), mark)
-
-    def units(self, columns: int) -> list[str]:
-        """Return the units of all columns in the header, like `x [um]`, or no unit; InputError for units of some."""
-        units = re.findall(r"[\[(]([^\])]*)[\])]", self.header[1])
-        if len(units) not in (0, columns):
-            allowed = f"a unit for each of {columns} columns, or none"
-            raise InputError(f"line {self.header[0]}", self.header[1], allowed, self.file)
-        return units
+        mark, decimal = _style([line.text for line in rows], delimiter)
+        header = Header(file, [(line.number, line.text) for line in before], _names_of_columns(before, mark), mark)
+        return cls(file, header, rows[0].number, len(_numbers(rows[0].text, mark, decimal)), mark, decimal)
 
     def table(self, widths: range, allowed: str) -> Array:
         """Return the numbers (rows, columns); InputError for a line whose number of columns is not in `widths`."""
@@ -81,12 +107,12 @@ class Text:
         if table is not None and table.shape[1] in widths:
             return table
         rows: list[Array] = []
-        for number, line in _rows(self.file):
-            if number < self.first:
+        for line in _lines(self.file):
+            if line.number < self.first or line.is_comment:
                 continue
-            values = _numbers(line, self.mark)
+            values = _numbers(line.text, self.mark, self.decimal)
             if None in values or len(values) not in widths or len(values) != len(rows[0] if rows else values):
-                raise InputError(f"line {number}", line, allowed, self.file)
+                raise InputError(f"line {line.number}", line.text, allowed, self.file)
             rows.append(np.array(values, dtype=np.float64))
         return np.array(rows)
 
@@ -94,32 +120,112 @@ class Text:
         """Return all numbers, much faster than line by line; None if a line is anything else, such as a comment."""
         mark = None if self.mark == " " else self.mark
         with _open_text(self.file) as stream:
+            text: Iterable[str] = stream
+            if self.decimal != ".":
+                text = (line.replace(self.decimal, ".") for line in text)
             try:
-                return np.loadtxt(stream, delimiter=mark, comments=None, skiprows=self.first - 1, ndmin=2)
+                return np.loadtxt(text, delimiter=mark, comments=None, skiprows=self.first - 1, ndmin=2)
             except ValueError:
                 return None
 
+    def roundings(self, columns: int) -> list[float]:
+        """Return half of the last digit that is written of each column, in its unit, by the first rows."""
+        digits = [0] * columns
+        for line in itertools.islice(_lines(self.file), self.first - 1, self.first - 1 + SHOWN_ROWS):
+            for column, field in enumerate(_fields(line.text, self.mark)[:columns]):
+                mantissa, _, exponent = field.lower().partition("e")
+                fraction = len(mantissa.partition(self.decimal)[2])
+                if exponent.lstrip("+-").isdigit():
+                    fraction -= int(exponent)
+                digits[column] = max(digits[column], fraction)
+        return [0.5 * 10.0**-count for count in digits]
+
+
+class Line(NamedTuple):
+    """A line that is not blank: its number, its text without the sign of a comment, and whether it is one."""
+
+    number: int
+    text: str
+    is_comment: bool
+
 
 def _open_text(file: Path) -> TextIO:
-    """Open a text file; a byte-order mark is dropped and bytes that are not UTF-8 are kept."""
+    """Open a text file, compressed or not; a byte-order mark is dropped and bytes that are not UTF-8 are kept."""
+    if file.suffix.lower() == ".gz":
+        return cast(TextIO, gzip.open(file, "rt", encoding="utf-8-sig", errors="surrogateescape"))
     return file.open(encoding="utf-8-sig", errors="surrogateescape")
 
 
-def _rows(file: Path) -> Iterator[tuple[int, str]]:
-    """Yield the lines other than comments and blank ones, with their numbers."""
+def _check_size(file: Path) -> None:
+    """Raise an InputError for a text that is too long, before memory is taken for its numbers."""
+    size = file.stat().st_size
+    if file.suffix.lower() == ".gz":
+        with gzip.open(file) as stream:
+            size = 0
+            while size <= MAX_TEXT and (chunk := stream.read(CHUNK)):
+                size += len(chunk)
+    if size > MAX_TEXT:
+        raise InputError("path", str(file), f"a text of at most {MAX_TEXT / 2**30:g} GiB", file)
+
+
+def _lines(file: Path) -> Iterator[Line]:
+    """Yield the lines that are not blank."""
     with _open_text(file) as stream:
         for number, text in enumerate(stream, 1):
             line = text.replace("\udcb5", "\u03bc").strip()  # latin-1 micro sign
-            if line and not line.startswith("#"):
-                yield number, line
+            if line:
+                yield Line(number, line.lstrip("#").strip(), line.startswith("#"))
 
 
-def _numbers(line: str, mark: str) -> list[float | None]:
-    """Return the numbers of a line, None for a field that is not a number; the mark " " stands for any blanks."""
+def _is_words(line: str, delimiter: str | None) -> bool:
+    """Return True for a line before the numbers: it begins like a name, so that a mistyped row, `1.O5`, is none."""
+    if not (line[0].isalpha() or line[0] in "\"'"):
+        return False
+    return None in _numbers(line, *_style([line], delimiter))  # nan and inf are numbers
+
+
+def _names_of_columns(before: Sequence[Line], mark: str) -> tuple[int, str]:
+    """Return the number and text of the line that names the columns: the last one, without a number; 0 without."""
+    candidates = [line for line in before if not line.is_comment] or before
+    if candidates:
+        number, text, is_comment = candidates[-1]
+        units = bracketed_units(text)
+        is_named = not is_comment or (bool(units) and all(unit in io.UNITS for unit in units))
+        if is_named and "=" not in text and set(_numbers(text, mark, ".")) == {None}:
+            return number, text
+    return 0, ""
+
+
+def _style(rows: Sequence[str], delimiter: str | None) -> tuple[str, str]:
+    """Return the separator and the decimal sign that rows show.
+
+    A semicolon separates, else a comma, else blanks. A comma is a decimal sign where something else separates, and in
+    numbers like 1,5 that blanks separate.
+    """
+    has_commas, has_points = (any(sign in row for row in rows) for sign in ",.")
+    mark = delimiter
+    if mark is None:
+        fields = [field for row in rows for field in row.split()]
+        are_decimal = len(fields) > len(rows) and all(map(DECIMAL_COMMA.fullmatch, fields))
+        last = rows[1] if len(rows) > 1 else rows[0]
+        mark = ";" if ";" in last else " " if are_decimal or "," not in last else ","
+    return mark, "," if mark != "," and has_commas and not has_points else "."
+
+
+def _fields(line: str, mark: str) -> list[str]:
+    """Return the fields of a line, without empty ones at its end; the mark " " stands for any blanks."""
+    fields = line.split() if mark == " " else [field.strip() for field in line.split(mark)]
+    while len(fields) > 2 and not fields[-1]:
+        fields.pop()
+    return fields
+
+
+def _numbers(line: str, mark: str, decimal: str) -> list[float | None]:
+    """Return the numbers of a line, None for a field that is not a number."""
     values: list[float | None] = []
-    for field in line.split() if mark == " " else line.split(mark):
+    for field in _fields(line, mark):
         try:
-            values.append(None if "_" in field else float(field))
+            values.append(None if "_" in field else float(field.replace(decimal, ".")))
         except ValueError:
             values.append(None)
     return values
@@ -128,56 +234,52 @@ def _numbers(line: str, mark: str) -> list[float | None]:
 def _convert_line(text: Text, table: Array, unit: str | None) -> RawHeights:
     """Return the heights of columns z, x z or x y z; descending positions are reversed."""
     *places, heights = table.T
-    units = text.units(len(places) + 1) or [""] * (len(places) + 1)
-    positions = [
-        io.finite_numbers(place, "positions", text.file, io.unit_factor("positions", own or unit, None, text.file))
-        for place, own in zip(places, units, strict=False)
+    units = text.header.column_units(len(places) + 1) or [""] * (len(places) + 1)
+    factors = [io.unit_factor("positions", own or unit, None, text.file) for own in units[:-1]]
+    roundings = [half * factor for half, factor in zip(text.roundings(len(places)), factors, strict=True)]
+    scaled = [
+        io.finite_numbers(place, "positions", text.file, factor) for place, factor in zip(places, factors, strict=True)
     ]
-    positions.sort(key=lambda place: float(np.ptp(place)), reverse=True)  # of x and y the one that runs first
-    if len(positions) == 2 and np.ptp(positions[1]) > TOLERANCE * np.ptp(positions[0]) / (heights.size - 1):
+    # Of x and y the one that runs first.
+    positions = sorted(zip(scaled, roundings, strict=True), key=lambda entry: float(np.ptp(entry[0])), reverse=True)
+    if len(positions) == 2 and np.ptp(positions[1][0]) > TOLERANCE * np.ptp(positions[0][0]) / (heights.size - 1):
         raise InputError("positions", Words("x and y that both vary"), "a line scan: x or y constant", text.file)
-    scale = io.unit_factor("heights", units[-1], unit, text.file)
+    scale = text.header.height_factor(units[-1], unit)
     heights = io.finite_numbers(heights, "heights", text.file, scale)
     if not positions:
         return heights, (None,)
-    step = io.mean_step(positions[0], "positions", text.file)
+    step = io.mean_step(positions[0][0], "positions", text.file, positions[0][1])
     return heights if step > 0 else heights[::-1], (abs(step),)
 
 
 def _convert_grid(text: Text, table: Array, unit: str | None) -> RawHeights:
-    """Return a row of heights for each y; InputError for points x y z, which look like three columns of heights."""
-    names = set(re.findall(r"[^\W\d_]+", re.sub(r"[\[(].*?[\])]", "", text.header[1].lower())))
-    if table.shape[1] == 3 and (names >= {"x", "y", "z"} or _has_positions(table)):
-        content = "three columns, of which two are positions on a grid"
-        raise InputError("heights", content, "heights alone; name a file of points x y z .xyz", text.file)
-    scale = io.unit_factor("heights", next(iter(text.units(1)), None), unit, text.file)
-    return io.finite_numbers(table, "heights", text.file, scale, 2), (None, None)
+    """Return a row of heights for each y."""
+    scale = text.header.height_factor(next(iter(text.header.column_units(1)), None), unit)
+    return io.finite_numbers(table, "heights", text.file, scale, 2), text.header.steps(table.shape)
 
 
-def _has_positions(table: Array) -> bool:
-    """Return True if two of the columns (rows, 3) are the coordinates of a complete grid."""
-    for pair in itertools.combinations(table.T, 2):
-        if all(np.isfinite(column).all() and np.ptp(column) > 0 for column in pair):
-            try:
-                (row, *_), (column, *_) = (_levels(place, "heights", None) for place in pair)
-            except InputError:
-                continue
-            places = row * (column.max() + 1) + column
-            if places.max() + 1 == places.size == np.unique(places).size:
-                return True
-    return False
+def _fill_a_grid(row_places: Array, column_places: Array) -> bool:
+    """Return True if two columns of numbers (rows,) are the coordinates of a complete grid, each point once."""
+    if not all(np.isfinite(places).all() and np.ptp(places) > 0 for places in (row_places, column_places)):
+        return False
+    try:
+        (row, *_), (column, *_) = (_levels(places, "heights", None) for places in (row_places, column_places))
+    except InputError:
+        return False
+    places = row * (column.max() + 1) + column
+    return bool(places.max() + 1 == places.size == np.unique(places).size)
 
 
 def _convert_points(text: Text, table: Array, unit: str | None) -> RawHeights:
     """Return the heights of points x y z, in any order."""
     file = text.file
     x, y, z = table.T
-    units = text.units(3) or [""] * 3
+    units = text.header.column_units(3) or [""] * 3
     (column, left, dx), (row, low, dy) = (
         _levels(io.finite_numbers(places, key, file, io.unit_factor(key, own or unit, None, file)), key, file)
         for key, places, own in (("x", x, units[0]), ("y", y, units[1]))
     )
-    scale = io.unit_factor("heights", units[2], unit, file)
+    scale = text.header.height_factor(units[2], unit)
     nx, ny = int(column.max()) + 1, int(row.max()) + 1
     places, times = np.unique(row * nx + column, return_counts=True)
     doubled = places[times > 1]

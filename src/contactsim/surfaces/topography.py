@@ -122,7 +122,7 @@ def read_topography(
     file = io.existing_path(path)
     if dimensions not in (None, 1, 2):
         raise InputError("dimensions", dimensions, "1, a line, or 2, an area; as the file has without it", file)
-    if file.suffix.lower() in SUFFIXES:
+    if io.suffix_of(file) in SUFFIXES:
         io.refuse_unused("variable", variable, (".nc",), file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
     heights, steps = _read(file, dimensions, unit, variable, delimiter)
@@ -138,7 +138,7 @@ def _read(
     file: Path, dimensions: int | None, unit: str | None, variable: str | None, delimiter: str | None
 ) -> RawHeights:
     """Return the heights and their spacing by the reader of the suffix."""
-    suffix = file.suffix.lower()
+    suffix = io.suffix_of(file)
     if suffix not in SUFFIXES:
         return read_instrument(file, dimensions, unit, variable)
     with io.report_unreadable(file):
