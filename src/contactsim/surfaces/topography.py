@@ -18,7 +18,7 @@ from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
 from contactsim.surfaces.io import SUFFIXES, TEXT, RawHeights
 from contactsim.surfaces.netcdf import read_netcdf
-from contactsim.surfaces.text import read_text
+from contactsim.surfaces.text_layouts import read_text
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
