@@ -358,5 +358,7 @@ def test_a_path_that_changes_its_control_goes_on_from_its_last_state():
     assert found.load[-1] == pytest.approx(0.9 * whole.load[-1], rel=1e-5)
     back = walk(scene_of(LAWS["uncoupled"], along(-10, 3, 0.2)))
     assert other.load[-1] == pytest.approx(back.load[-1], rel=1e-5)
-    # a load that this state carries, but no stable one near it: the jump is told
+    # a load that this state carries, but no stable one near it: the jump is told, at once
     assert state.jump > 1
+    small = walk(scene_of(LAWS["uncoupled"], held >> pressures([share * pressure for share in (0.999, 0.99, 0.9)])))
+    assert [state.jump > 1 for state in small.states[-3:]] == [True, False, False]

@@ -61,6 +61,7 @@ class Continuation:
         self.history = History(max_amplification)
         self.displacement = np.zeros(problem.unknowns, complex)
         self._failures = 0
+        self._leaves_unstable = False  # the current state, under a control that has just begun
         self._memory = solver.new_memory()
         self.current: tuple[LoadStep, Equilibrium] | None = None  # step and state accepted last
         self.jumps = JumpCriterion(problem, fold_width)
@@ -95,6 +96,7 @@ class Continuation:
         self.jumps.forget_pace()
         self.current = current, replace(state, displacement=displacement)
         self.history.restart(current.value, displacement)
+        self._leaves_unstable = state.is_stable and self._grows(self.at(current), state.gap)
 
     def at(self, step: LoadStep) -> CohesiveProblem:
         """Return the problem at a load step."""
@@ -151,8 +153,11 @@ class Continuation:
         """
         if self.current is None:
             return False
-        here = self.at(step)
-        tangent = here.tangent((self.current[1].gap + state.gap) / 2)[1]
+        return self._grows(self.at(step), (self.current[1].gap + state.gap) / 2)
+
+    def _grows(self, here: CohesiveProblem, gap: Array) -> bool:
+        """Return True if a small displacement grows on its own at a gap (read, n), nm."""
+        tangent = here.tangent(gap)[1]
         return find_growth(tangent, ZonePreconditioner(here, tangent)) is not None
 
     def flow_to(self, step: LoadStep) -> Equilibrium:
@@ -164,8 +169,10 @@ class Continuation:
         parameter = self.parameter(step)
         increment = np.inf if parameter is None else abs(step.value - parameter)
         jump = None
-        if flowed and self.current is not None and self.jumps.is_jump(step, increment, state.largest_change):
-            jump = Jump(*self.current, step, state, state.largest_change)
+        distance, leaves = state.largest_change, self._leaves_unstable
+        if flowed and self.current is not None and self.jumps.is_jump(step, increment, distance, leaves):
+            jump = Jump(*self.current, step, state, distance)
+        self._leaves_unstable = False
         if step.control is Trait.MEAN_PRESSURE and not jump and 0 < increment < np.inf:
             self.jumps.learn_pace(largest_change(self.problem, state.displacement - self.displacement) / increment)
         if jump or (flowed and not self._divides):  # the branch may have ended

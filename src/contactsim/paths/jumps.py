@@ -82,7 +82,7 @@ class JumpCriterion:
         """True if the surfaces slide over a lattice, where smooth motion may be fast."""
         return bool(np.isfinite(self.problem.lattice_constant))
 
-    def is_jump(self, step: LoadStep, increment: float, distance: float) -> bool:
+    def is_jump(self, step: LoadStep, increment: float, distance: float, leaves_unstable: bool = False) -> bool:
         """Return True if a motion is a jump.
 
         Parameters
@@ -93,10 +93,14 @@ class JumpCriterion:
             Change of the load since the last state, nm or GPa; infinite at the first state, which is no jump.
         distance
             Largest displacement of the surface, nm.
+        leaves_unstable
+            True where the state before is not stable under the control of the step.
         """
         if increment == np.inf:
             return False
-        smooth = max(JUMP_RATIO * self._length(step, increment), JUMP_LENGTH * self.problem.interaction_range)
+        smooth = JUMP_LENGTH * self.problem.interaction_range
+        if not leaves_unstable:
+            smooth = max(JUMP_RATIO * self._length(step, increment), smooth)
         if step.held is not None:  # a slip of half a cell is a jump, however long the step
             smooth = min(smooth, self.problem.lattice_constant / 2)
         return distance > smooth
