@@ -71,8 +71,8 @@ class Case:
 class Draw:
     """Random choices of a scene."""
 
-    def __init__(self, number: int) -> None:
-        self._random = np.random.default_rng([number, 20261125])
+    def __init__(self, number: int, seed: int = 20261125) -> None:
+        self._random = np.random.default_rng([number, seed])
 
     def between(self, least: float, most: float) -> float:
         """Return a number between two."""
@@ -115,6 +115,7 @@ def draw_case(number: int, grids: tuple[int, ...] = GRIDS) -> Case:
     path = draw_path(draw, law, modulus, normal_length, height, surface, points)
     elastic = {side: elasticity(*rest) for *rest, side in bodies}
     lower = cs.Body(cs.Flat.facing(surface), elastic.get(0))
+    path = pulled_off(path, law, number)
     scene = cs.Scene(lower, cs.Body(surface, elastic.get(1)), law, path, *([pairing] if pairing else []))
     options = {
         "points": points,
@@ -212,6 +213,16 @@ def draw_path(
     if draw.chance(0.5):
         return cs.approaches([begin, deep], (deep - begin) / count)
     return cs.approaches([begin, deep, begin - (deep - begin) * 0.437], (deep - begin) / count)
+
+
+def pulled_off(path: cs.LoadPath, law: Any, number: int) -> cs.LoadPath:
+    """Return a path under loads, now and then followed by growing pulls until the bodies part, or not."""
+    draw = Draw(number, seed=20261126)
+    pulls = "Repulsive" not in type(law).__name__
+    if not pulls or path.steps[-1].control.name != "MEAN_PRESSURE" or draw.chance(0.5):
+        return path
+    pull = law.strength * draw.power(-2.5, -0.2)
+    return path >> cs.pressures([-pull * share for share in np.linspace(0, 1, 12)])
 
 
 def draw_increments(draw: Draw, path: cs.LoadPath, unit: float, points: int) -> Any:

@@ -9,7 +9,11 @@ from contactsim.contact.grid_step import SAMPLE_SIZE, grid_step
 from contactsim.contact.loading import approaches, pressures, sliding
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
+from contactsim.errors import InputError
+from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.interface.frictional_repulsion import FrictionalRepulsiveZone
 from contactsim.interface.hard_wall import HardWall
+from contactsim.interface.repulsion import RepulsiveZone
 from contactsim.surfaces.shapes import Cylinder, Flat
 from contactsim.traits import Trait
 
@@ -72,3 +76,13 @@ def test_controls_and_extreme_loads_of_a_path_are_those_of_its_steps(path):
     assert path.traits == {step.control for step in [*path.steps, *held]}
     for extreme in (min, max):
         assert extreme(path.mean_pressures, default=0.0) == pytest.approx(extreme(loads, default=0.0))
+
+
+@pytest.mark.parametrize("law", [RepulsiveZone(1.0), FrictionalRepulsiveZone(1.0, 0.3)])
+def test_a_pull_is_refused_of_laws_that_do_not_pull(law):
+    surface = Cylinder(100.0, 1000.0)
+    with pytest.raises(
+        InputError, match=r"mean_pressure: got -0.1; allowed: 0 or more, in GPa: these laws do not pull"
+    ):
+        Scene(HalfSpace(1.0, 0.3), surface, law, pressures([0.1, -0.1]))
+    Scene(HalfSpace(1.0, 0.3), surface, (law, NormalCohesiveZone(0.1)), pressures([0.1, -0.1]))

@@ -42,6 +42,8 @@ class ProblemKind(Enum):
 
 LAW_LENGTHS = 1e-9, 1e9
 """Smallest and largest length of a law, over the period."""
+PULL_RANGE = 10.0
+"""Gap, in a law's lengths, up to which a pull is looked for."""
 DEEPEST_OVERLAP = 100.0
 """Overlap, in the laws' lengths, under which they bear any pressure that a scene may have."""
 RIGID = None
@@ -150,16 +152,18 @@ class Scene:
                     raise InputError(name, length, f"{ends} nm, for a period of {self.length:g} nm")
 
     def _check_loads(self) -> None:
-        """Raise InputError for a mean pressure that the laws could bear under a very deep overlap alone."""
-        if self.kind is not ProblemKind.COHESIVE or not self.path.mean_pressures:
+        """Raise InputError for a mean pressure that the laws cannot bear, or under a very deep overlap alone."""
+        loads = self.path.mean_pressures
+        if self.kind is not ProblemKind.COHESIVE or not loads:
             return
+        if min(loads) < 0 and not any(map(_pulls, self.acting_laws)):
+            raise InputError("mean_pressure", min(loads), "0 or more, in GPa: these laws do not pull")
         bearable = sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in self.acting_laws)
-        for pressure in self.path.mean_pressures:
-            if pressure > bearable:
-                allowed = (
-                    f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
-                )
-                raise InputError("mean_pressure", pressure, allowed)
+        if max(loads) > bearable:
+            allowed = (
+                f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
+            )
+            raise InputError("mean_pressure", max(loads), allowed)
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:
@@ -272,3 +276,9 @@ def _repulsion(law: Law, overlap: float) -> float:
     gap = np.zeros((len(law.reads), 1))
     gap[0] = -overlap
     return -float(law.traction(gap)[0, 0])
+
+
+def _pulls(law: Law) -> bool:
+    """Return True if a law pulls surfaces together somewhere within a few of its lengths, without slip."""
+    gaps = np.linspace(0.0, PULL_RANGE, 64) * law.interaction_range
+    return bool((law.traction(np.stack([gaps, *np.zeros((len(law.reads) - 1, 64))]))[0] > 0).any())
