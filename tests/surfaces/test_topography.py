@@ -157,7 +157,7 @@ BAD_TEXTS = [
     (".csv", "z [nm]|1.0", NM, "heights", "1 rows", "two or more rows"),
     (".csv", "1;2|2;4", NM | {"delimiter": ","}, "line 1", "1;2", "numbers"),
     (".csv", "1;2|2;4", NM | {"delimiter": "|"}, "delimiter", "|", "tab"),
-    (".csv", "1,2|2,4", NM | {"variable": "z"}, "variable", "z", "only for .nc"),
+    (".csv", "1,2|2,4", NM | {"variable": "z"}, "variable", "z", "only for .npz, .nc"),
     (".csv", "nan|1|2", NM, "heights", "nan in row 1", "finite"),
     (".csv", "1|2|inf", NM, "heights", "inf in row 3", "finite"),
     (".csv", "1,2|inf,3|3,4", NM, "positions", "inf in row 2", "finite"),
@@ -267,6 +267,56 @@ def test_a_diagonal_of_points_is_refused_without_the_memory_of_its_square(tmp_pa
     assert error.value == "399980000 of 20000 × 20000 points missing, the first at x = 1 nm, y = 0 nm"
 
 
+# --- missing points -----------------------------------------------------------------------------------------------
+
+HOLED = np.where((HEIGHTS == -1.0) | (HEIGHTS == 3.0), np.nan, HEIGHTS)
+
+
+@pytest.mark.parametrize(("way", "corner"), [("nearest", -2.25), ("linear", -2.25), ("lowest", -9.0)])
+def test_missing_points_are_filled_by_the_named_way_and_the_share_is_told(tmp_path, way, corner):
+    heights = HEIGHTS.copy()
+    heights[0, 3], heights[1, 3] = np.nan, -2.25
+    topography = read_topography(npy_file(tmp_path, heights), spacing=1.0, fill=way)
+    assert topography.filled == pytest.approx(1 / 12)
+    np.testing.assert_array_equal(topography.values[np.isfinite(heights)], heights[np.isfinite(heights)])
+    assert topography.values[0, 3] == corner
+
+
+def test_a_plane_with_holes_is_filled_linearly(tmp_path: Path) -> None:
+    plane = 2.0 * np.arange(12)[:, None] - 3.0 * np.arange(9)
+    holed = plane.copy()
+    holed[3:6, 4:7] = holed[9, 2] = np.nan
+    filled = read_topography(npy_file(tmp_path, holed), spacing=1.0, fill="linear")
+    np.testing.assert_allclose(filled.values, plane, atol=1e-9)
+    assert filled.filled == pytest.approx(10 / plane.size)
+    line = np.append(plane[0], np.nan)
+    line[3] = np.nan
+    filled = read_topography(npy_file(tmp_path, line), spacing=1.0, fill="linear")
+    np.testing.assert_allclose(filled.values, [*plane[0], plane[0, -1]])
+
+
+def test_points_that_a_grid_lacks_are_filled_where_that_is_asked_for(tmp_path: Path) -> None:
+    file = write(tmp_path, POINTS_TEXT[:-7], ".xyz")
+    topography = read_topography(file, unit="nm", fill="nearest")
+    assert topography.filled == pytest.approx(1 / 6)
+    np.testing.assert_array_equal(topography.values[np.isfinite(POINTS)].shape, (6,))
+    sparse = write(tmp_path, "0 0 1|1 1 2|2 2 3", ".xyz")
+    error = refusal("positions", sparse, lambda: read_topography(sparse, unit="nm", fill="nearest"))
+    assert "50% missing" in error.allowed
+
+
+def test_a_hole_is_refused_with_the_ways_to_fill_it_and_half_of_the_points_cannot_be_filled(tmp_path: Path) -> None:
+    file = npy_file(tmp_path, HOLED)
+    assert (
+        "`fill` as one of linear, nearest, lowest"
+        in refusal("heights", file, lambda: read_topography(file, spacing=1)).allowed
+    )
+    assert refusal("fill", file, lambda: read_topography(file, spacing=1, fill="zero")).value == "zero"
+    empty = npy_file(tmp_path, np.where(HEIGHTS > 0, np.nan, HEIGHTS))
+    error = refusal("heights", empty, lambda: read_topography(empty, spacing=1, fill="lowest"))
+    assert "at most 50% missing" in error.allowed
+
+
 # --- arrays -------------------------------------------------------------------------------------------------------
 
 
@@ -292,6 +342,19 @@ def test_an_array_of_other_dimensions_than_requested_is_refused(tmp_path: Path) 
         file = npy_file(tmp_path, values)
         error = refusal("heights", file, lambda: read_topography(file, spacing=1, dimensions=dimensions))  # noqa: B023
         assert f"{dimensions}D" in error.allowed
+
+
+def test_an_array_in_an_archive_is_read_as_the_array_itself(tmp_path: Path) -> None:
+    file = tmp_path / "t.npz"
+    np.savez(file, elevation=HEIGHTS, dx=DX)
+    same(read_topography(file, spacing=SPACING))
+    np.savez_compressed(file, elevation=HEIGHTS, other=HEIGHTS[0])
+    same(read_topography(file, spacing=SPACING, variable="elevation"))
+    assert "['elevation', 'other']" in refusal("variable", file, lambda: read_topography(file, spacing=1)).allowed
+    np.savez(file, a=np.array([1, None], dtype=object))
+    refusal("path", file, lambda: read_topography(file, spacing=1, variable="a"))
+    file.write_bytes(file.read_bytes()[:-40])
+    refusal("path", file, lambda: read_topography(file, spacing=1))
 
 
 def test_heights_too_large_for_nm_and_objects_and_short_files_are_refused(tmp_path: Path) -> None:

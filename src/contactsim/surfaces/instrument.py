@@ -32,6 +32,6 @@ def read_instrument(file: Path, dimensions: int | None, unit: str | None, variab
             raise InputError("unit", unit, f"none, the file states {scan.unit}", file)
         scale = io.unit_factor("heights", None, unit, file) if scan.unit is None else 1.0
         scan = scan if scan.unit is None else scan.to_unit("nm")
-        heights = io.finite_numbers(scan.heights().T, "heights", file, scale, dimensions or channel.dim)
+        heights = io.real_numbers(scan.heights().T, "heights", file, scale, dimensions or channel.dim)
         steps = tuple(float(step) * scale if sized else None for step in scan.pixel_size)
         return heights, steps[::-1]

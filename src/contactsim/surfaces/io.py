@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import unicodedata
+import zipfile
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -18,7 +19,7 @@ from contactsim.grid import Array
 
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
 TEXT = (".csv", ".txt", ".xyz", ".dat")
-SUFFIXES = (".npy", *TEXT, ".nc")
+SUFFIXES = (".npy", ".npz", *TEXT, ".nc")
 MAX_HEIGHTS = 2**28
 """Most heights of a measurement: 2 GiB."""
 TOLERANCE = 1e-3
@@ -26,7 +27,10 @@ TOLERANCE = 1e-3
 MIN_ROUNDED = 100
 """Fewest positions that may be rounded: fewer could have any steps."""
 
-UNREADABLE = (EOFError, MemoryError, OSError, OverflowError, RuntimeError, ValueError, zlib.error)
+UNREADABLE = (
+    *(EOFError, MemoryError, OSError, OverflowError, RuntimeError, ValueError),
+    *(zipfile.BadZipFile, zlib.error),
+)
 """What readers raise on a damaged file."""
 
 RawHeights = tuple[Array, tuple[float | None, ...]]
@@ -73,23 +77,35 @@ def positive_spacing(spacing: object, file: object) -> float:
     raise InputError("spacing", spacing, f"{POSITIVE}, in nm", file)
 
 
-def finite_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
-    """Return a scaled float64 copy of finite numbers, two or more in each of `dims` directions."""
+def real_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
+    """Return a scaled float64 copy of numbers, two or more in each of `dims` directions; NaN where one is masked."""
     array: np.ma.MaskedArray[Any, Any] = np.ma.asarray(values)
     if array.dtype.kind not in "iuf" or array.ndim != dims or min(array.shape) < 2:
         allowed = f"two or more real numbers{' each way' * (dims > 1)}, in {dims}D"
         raise InputError(key, Words(f"shape {array.shape} of {array.dtype}"), allowed, file)
     with np.errstate(over="ignore", invalid="ignore"):
         numbers: Array = np.ma.filled(array.astype(np.float64), np.nan) * scale
-    bad = ~np.isfinite(numbers)
-    if bad.any():
-        at = np.unravel_index(np.argmax(bad), bad.shape)
-        where = ", ".join(f"{name} {place + 1}" for name, place in zip(("row", "column"), at, strict=False))
-        problem = f"{numbers[at]} in {where}"
-        if dims > 1:
-            problem = f"{bad.sum()} of {bad.size} points missing or not finite, the first {problem}"
-        raise InputError(key, Words(problem), "finite numbers, none missing", file)
     return numbers
+
+
+def finite_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0, dims: int = 1) -> Array:
+    """Return a scaled float64 copy of finite numbers, two or more in each of `dims` directions."""
+    numbers = real_numbers(values, key, file, scale, dims)
+    check_finite(numbers, key, file)
+    return numbers
+
+
+def check_finite(numbers: Array, key: str, file: object, remedy: str = "") -> None:
+    """Raise an InputError for numbers that are missing or not finite; remedy: what else may be done."""
+    bad = ~np.isfinite(numbers)
+    if not bad.any():
+        return
+    at = np.unravel_index(np.argmax(bad), bad.shape)
+    where = ", ".join(f"{name} {place + 1}" for name, place in zip(("row", "column"), at, strict=False))
+    problem = f"{numbers[at]} in {where}"
+    if numbers.ndim > 1:
+        problem = f"{bad.sum()} of {bad.size} points missing or not finite, the first {problem}"
+    raise InputError(key, Words(problem), f"finite numbers, none missing{remedy}", file)
 
 
 def unit_factor(key: str, stated: str | None, unit: str | None, file: Path) -> float:
@@ -132,6 +148,27 @@ def load_npy(file: Path) -> NDArray[Any]:
     array = np.lib.format.open_memmap(file, mode="r")
     check_count(array.shape, "heights", file)
     return array
+
+
+def load_npz(file: Path, variable: str | None) -> NDArray[Any]:
+    """Return the array in a .npz file, by its name if there are several; its size is known before it is read."""
+    with zipfile.ZipFile(file) as archive:
+        shapes = {Path(name).stem: _stored_shape(archive, name) for name in archive.namelist() if name.endswith(".npy")}
+        names = [name for name, shape in shapes.items() if len(shape) in (1, 2)] if variable is None else [variable]
+        if len(names) != 1 or names[0] not in shapes:
+            raise InputError("variable", variable, f"the name of the heights, of those: {list(shapes)}", file)
+        check_count(shapes[names[0]], "heights", file)
+        with archive.open(f"{names[0]}.npy") as stream:
+            array: NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
+    return array
+
+
+def _stored_shape(archive: zipfile.ZipFile, name: str) -> tuple[int, ...]:
+    """Return the shape of an array in an archive, from its header alone."""
+    with archive.open(name) as stream:
+        version = np.lib.format.read_magic(stream)
+        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        return read(stream)[0]
 
 
 def check_count(shape: Sequence[int], key: str, file: object) -> None:

@@ -15,7 +15,7 @@ class MeasuredLine:
 
     Parameters
     ----------
-    file, spacing, unit, variable
+    file, spacing, unit, variable, fill
         As `path` and the options of `contactsim.read_topography`.
     detrend, periodic
         As in `contactsim.surfaces.preparation.prepare`.
@@ -27,13 +27,19 @@ class MeasuredLine:
     spacing: float | None = None
     unit: str | None = None
     variable: str | None = None
+    fill: str | None = None
     topography: Topography = field(init=False, repr=False)
     modes = None
     dimensions = 1
 
     def __post_init__(self) -> None:
         raw = read_topography(
-            self.file, dimensions=self.dimensions, spacing=self.spacing, unit=self.unit, variable=self.variable
+            self.file,
+            dimensions=self.dimensions,
+            spacing=self.spacing,
+            unit=self.unit,
+            variable=self.variable,
+            fill=self.fill,
         )
         object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
 

@@ -31,7 +31,7 @@ def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: 
             steps.append(None if places is None else io.mean_step(places, name, file))
         scale = io.unit_factor(field.name, _stated_unit(field), unit, file)
         io.check_count(field.shape, field.name, file)
-        heights = io.finite_numbers(field[:], field.name, file, scale, dimensions)
+        heights = io.real_numbers(field[:], field.name, file, scale, dimensions)
         heights = heights[tuple(slice(None, None, -1 if step and step < 0 else 1) for step in steps)]
         spacing = tuple(step and abs(step) for step in steps)
         return (heights.T, spacing[::-1]) if field.dimensions == ("x", "y") else (heights, spacing)

@@ -15,11 +15,17 @@ from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.io import TOLERANCE, RawHeights
+from contactsim.surfaces.missing import MAX_SHARE
 from contactsim.surfaces.text import Text
 
 
-def read_text(file: Path, dimensions: int | None, unit: str | None, delimiter: str | None) -> RawHeights:
-    """Return the heights of a text file and their spacing; without `dimensions` the columns decide."""
+def read_text(
+    file: Path, dimensions: int | None, unit: str | None, delimiter: str | None, with_gaps: bool = False
+) -> RawHeights:
+    """Return the heights of a text file and their spacing; without `dimensions` the columns decide.
+
+    with_gaps: points that a grid lacks are NaN; without it they are refused
+    """
     text = Text.read(file, delimiter)
     area = POINTS if io.suffix_of(file) == ".xyz" else GRID
     layout = LINE if dimensions == 1 or (dimensions is None and text.width < 3) else area
@@ -28,7 +34,7 @@ def read_text(file: Path, dimensions: int | None, unit: str | None, delimiter: s
         layout = LINE
     elif layout is GRID and _are_points(text, table):
         layout = POINTS
-    return layout.convert(text, table, unit)
+    return layout.convert(text, table, unit, with_gaps)
 
 
 def _are_points(text: Text, table: Array) -> bool:
@@ -52,7 +58,7 @@ def _is_line_scan(table: Array) -> bool:
     return bool(narrow == 0 < wide)
 
 
-def _convert_line(text: Text, table: Array, unit: str | None) -> RawHeights:
+def _convert_line(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
     """Return the heights of columns z, x z or x y z; descending positions are reversed."""
     *places, heights = table.T
     units = text.header.column_units(len(places) + 1) or [""] * (len(places) + 1)
@@ -66,17 +72,17 @@ def _convert_line(text: Text, table: Array, unit: str | None) -> RawHeights:
     if len(positions) == 2 and np.ptp(positions[1][0]) > TOLERANCE * np.ptp(positions[0][0]) / (heights.size - 1):
         raise InputError("positions", Words("x and y that both vary"), "a line scan: x or y constant", text.file)
     scale = text.header.height_factor(units[-1], unit)
-    heights = io.finite_numbers(heights, "heights", text.file, scale)
+    heights = io.real_numbers(heights, "heights", text.file, scale)
     if not positions:
         return heights, (None,)
     step = io.mean_step(positions[0][0], "positions", text.file, positions[0][1])
     return heights if step > 0 else heights[::-1], (abs(step),)
 
 
-def _convert_grid(text: Text, table: Array, unit: str | None) -> RawHeights:
+def _convert_grid(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
     """Return a row of heights for each y."""
     scale = text.header.height_factor(next(iter(text.header.column_units(1)), None), unit)
-    return io.finite_numbers(table, "heights", text.file, scale, 2), text.header.steps(table.shape)
+    return io.real_numbers(table, "heights", text.file, scale, 2), text.header.steps(table.shape)
 
 
 def _fill_a_grid(row_places: Array, column_places: Array) -> bool:
@@ -91,7 +97,7 @@ def _fill_a_grid(row_places: Array, column_places: Array) -> bool:
     return bool(places.max() + 1 == places.size == np.unique(places).size)
 
 
-def _convert_points(text: Text, table: Array, unit: str | None) -> RawHeights:
+def _convert_points(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
     """Return the heights of points x y z, in any order."""
     file = text.file
     x, y, z = table.T
@@ -110,13 +116,16 @@ def _convert_points(text: Text, table: Array, unit: str | None) -> RawHeights:
         ("given more than once", doubled.size, doubled[0] if doubled.size else 0),
         ("missing", nx * ny - places.size, missing),
     ):
-        if count:
+        if count and not (with_gaps and kind == "missing"):
             place_text = f"x = {left + place % nx * dx:.6g} nm, y = {low + place // nx * dy:.6g} nm"
             problem = f"{count} of {ny} × {nx} points {kind}, the first at {place_text}"
             raise InputError("positions", Words(problem), "each point of a complete grid once", file)
-    heights = np.empty((ny, nx))
+    if places.size < nx * ny * (1 - MAX_SHARE):
+        problem = f"{nx * ny - places.size} of {ny} × {nx} points missing"
+        raise InputError("positions", Words(problem), f"at most {MAX_SHARE:.0%} missing, to be filled", file)
+    heights = np.full((ny, nx), np.nan)
     heights[row, column] = z
-    return io.finite_numbers(heights, "heights", file, scale, 2), (dy, dx)
+    return io.real_numbers(heights, "heights", file, scale, 2), (dy, dx)
 
 
 def _levels(places: Array, key: str, file: Path | None) -> tuple[NDArray[np.int64], float, float]:
@@ -140,7 +149,7 @@ class Layout(NamedTuple):
 
     widths: range
     allowed: str
-    convert: Callable[[Text, Array, str | None], RawHeights]
+    convert: Callable[[Text, Array, str | None, bool], RawHeights]
 
 
 LINE = Layout(range(1, 4), "one to three numbers 1.5, as many as in the first row", _convert_line)

@@ -17,6 +17,7 @@ from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
 from contactsim.surfaces.io import SUFFIXES, TEXT, RawHeights
+from contactsim.surfaces.missing import WAYS, fill_missing
 from contactsim.surfaces.netcdf import read_netcdf
 from contactsim.surfaces.text_layouts import read_text
 
@@ -33,6 +34,8 @@ class Topography:
         Distance between points in nm, one for all directions or one for each, x last; kept as a tuple.
     source : str, optional
         Where the heights come from; errors name it.
+    filled : float
+        Share of the points that were missing, and have been filled.
 
     Raises
     ------
@@ -43,6 +46,7 @@ class Topography:
     values: Array = dataclasses.field(repr=False)
     spacing: tuple[float, ...]
     source: str | None = None
+    filled: float = 0.0
     modes = None
 
     def __post_init__(self) -> None:
@@ -84,16 +88,19 @@ def read_topography(
     unit: str | None = None,
     variable: str | None = None,
     delimiter: str | None = None,
+    fill: str | None = None,
 ) -> Topography:
     """Read measured heights along a line or over an area.
 
     Parameters
     ----------
     path : str or Path
-        - ``.npy``: heights (n,) or (ny, nx).
-        - ``.csv``, ``.txt``, ``.dat``: one column z, two columns x z, or three columns x y z with x or y constant are a
-          line; otherwise there is a row for each y, from the smallest, and a column for each x.
-        - ``.xyz``: the same for a line; over an area the points x y z of a complete grid, in any order.
+        - ``.npy``, ``.npz``: heights (n,) or (ny, nx).
+        - ``.csv``, ``.txt``, ``.dat``, also with ``.gz``: one column z, two columns x z, or three columns x y z with x
+          or y constant are a line; otherwise there is a row for each y, from the smallest, and a column for each x.
+          Sizes and units are read from lines before the numbers, such as ``# Width: 12.3 µm``. Three columns that are
+          the points x y z of a complete grid, in any order, are an area.
+        - ``.xyz``: the same for a line; over an area the points x y z of a grid.
         - ``.nc``: a variable with one or two dimensions.
         - others: files of instruments, if the package SurfaceTopography is installed.
     dimensions : int, optional
@@ -105,14 +112,17 @@ def read_topography(
         Unit of all that the file states no unit for; it must agree with the heights' if they have one. Heights in
         ``.npy`` are in nm by default. In a text a header line like ``x [um], z [nm]`` states the units of all columns.
     variable : str, optional
-        Name of the heights in ``.nc``, of the channel in a file of an instrument.
+        Name of the heights in ``.npz`` and ``.nc``, of the channel in a file of an instrument.
     delimiter : {",", ";", tab, " "}, optional
         Separator in a text, " " for any blanks; the rows show it by default.
+    fill : {"linear", "nearest", "lowest"}, optional
+        How points that are missing or not finite are filled, at most half of them: between the points around a hole,
+        as the nearest point, or as the lowest of all. Without it they are refused.
 
     Returns
     -------
     Topography
-        Heights (n,) or (ny, nx) in nm; descending positions are reversed.
+        Heights (n,) or (ny, nx) in nm; descending positions are reversed. `filled` is the share of points filled.
 
     Raises
     ------
@@ -123,19 +133,28 @@ def read_topography(
     if dimensions not in (None, 1, 2):
         raise InputError("dimensions", dimensions, "1, a line, or 2, an area; as the file has without it", file)
     if io.suffix_of(file) in SUFFIXES:
-        io.refuse_unused("variable", variable, (".nc",), file)
+        io.refuse_unused("variable", variable, (".npz", ".nc"), file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
-    heights, steps = _read(file, dimensions, unit, variable, delimiter)
+    heights, steps = _read(file, dimensions, unit, variable, delimiter, fill is not None)
+    if fill is None:
+        io.check_finite(heights, "heights", file, f"; or `fill` as one of {', '.join(WAYS)}")
+    heights, filled = fill_missing(heights, fill or "lowest", file)
     requested = (None,) * heights.ndim if spacing is None else _read_spacing(spacing, heights.ndim, file)
     if None in steps and None in requested:
         pair = ", or a pair (dy, dx)" * (heights.ndim == 2)
         raise InputError("spacing", None, f"a spacing in nm{pair}, since the file has no positions", file)
     pairs = zip(steps, requested, strict=True)
-    return Topography(heights, tuple(_agreed_step(step, asked, file) for step, asked in pairs), str(file))
+    spacings = tuple(_agreed_step(step, asked, file) for step, asked in pairs)
+    return Topography(heights, spacings, str(file), filled)
 
 
 def _read(
-    file: Path, dimensions: int | None, unit: str | None, variable: str | None, delimiter: str | None
+    file: Path,
+    dimensions: int | None,
+    unit: str | None,
+    variable: str | None,
+    delimiter: str | None,
+    with_gaps: bool,
 ) -> RawHeights:
     """Return the heights and their spacing by the reader of the suffix."""
     suffix = io.suffix_of(file)
@@ -145,10 +164,10 @@ def _read(
         if suffix == ".nc":
             return read_netcdf(file, dimensions, unit, variable)
         if suffix in TEXT:
-            return read_text(file, dimensions, unit, delimiter)
+            return read_text(file, dimensions, unit, delimiter, with_gaps)
         scale = io.unit_factor("heights", None, "nm" if unit is None else unit, file)
-        array = io.load_npy(file)
-        heights = io.finite_numbers(array, "heights", file, scale, dimensions or _dimensions_of(array))
+        array = io.load_npy(file) if suffix == ".npy" else io.load_npz(file, variable)
+        heights = io.real_numbers(array, "heights", file, scale, dimensions or _dimensions_of(array))
         return heights, (None,) * heights.ndim
 
 
