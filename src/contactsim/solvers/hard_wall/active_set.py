@@ -25,6 +25,9 @@ from contactsim.solvers.hard_wall.contact_set import ContactSet, Line
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import block_size
 from contactsim.traits import Trait
 
+FIRST_SHARE, MIN_FIRST = 8.0, 8
+"""Share of the points in the first contact set over a load, which is a reduced pressure, and their smallest number."""
+
 
 @dataclass(frozen=True)
 class ActiveSetState(State):
@@ -75,12 +78,12 @@ class ActiveSet:
         return 2 + 2 / block_size(points)
 
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> ActiveSetState:
-        """Return the first state: a guess, the load on the higher half, or at an approach the overlap of the bodies."""
+        """Return the first state: a guess, or the load on the highest points, or at an approach on the overlap."""
         heights = problem.heights
         pressure = np.zeros_like(heights) if guess is None else problem.project(guess)
         touches = pressure > 0
         if not touches.any():
-            touches = heights >= heights.mean() if problem.approach is None else heights > -problem.approach
+            touches = _highest(problem) if problem.approach is None else heights > -problem.approach
             pressure = problem.project(np.where(touches, problem.load or 0.0, 0.0))
         contact = ContactSet(_solvable(problem, touches), Line(problem))
         return ActiveSetState(contact.only(pressure), False, contact, 0)
@@ -142,6 +145,13 @@ def _residual(problem: HardWallProblem, gap: Array) -> tuple[Array, float]:
     """Return the approach less the gap on the contact set, and the approach: prescribed, or the mean of the gap."""
     approach = float(gap.mean()) if problem.approach is None else problem.approach
     return approach - gap, approach
+
+
+def _highest(problem: HardWallProblem) -> Array:
+    """Return the highest points, several times as many as carry a light load, and at most about half; bool (n,)."""
+    heights = problem.heights
+    count = int(min(heights.size / 2, max(MIN_FIRST, FIRST_SHARE * problem.prescribed_load * heights.size)))
+    return heights >= np.partition(heights, -count)[-count]
 
 
 def _solvable(problem: HardWallProblem, contact: Array) -> Array:
