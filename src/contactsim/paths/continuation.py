@@ -27,6 +27,8 @@ BOND_LENGTH = 3.0
 """Gaps, in the laws' length, over which sites of a lattice hold each other."""
 MAX_HALVINGS = 8
 """Largest number of times that a step, or a part of it, is halved."""
+MAX_RESTLESS = 2
+"""Motions that do not come to rest, after which a step has no state, and the path ends."""
 MAX_FAILURES = 3
 """Steps in a row without a solution, each sought from the last stable state, after which a path ends."""
 
@@ -189,7 +191,7 @@ class Continuation:
             return PathState(step, here, self.displacement, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
         before = counter.transforms
         state, jumps, iterations = self.advance_to(step)
-        is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)
+        is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE, Status.NO_REST)
         self._failures = 0 if state.is_stable else MAX_FAILURES if is_final else self._failures + 1
         cost = counter.transforms - before
         distance = sum(jump.distance for jump in jumps)
@@ -200,9 +202,10 @@ class Continuation:
         """Advance to a step; return the state, the jumps on the way, and the iterations.
 
         Where continuation fails, the flow from the current state leads on. The step is divided, to find where the jump
-        begins, unless it is that of one contact among many.
+        begins, unless it is that of one contact among many. A motion that does not come to rest is tried twice.
         """
         goals, divides, locates, jumps, iterations = [step.value], self._divides, False, [], 0
+        restless = 0
         while True:
             goal = replace(step, value=goals[-1])
             flowed = True
@@ -216,6 +219,9 @@ class Continuation:
                     state = self.flow_to(goal)
                     iterations += state.iterations
                     locates = not self._is_minor(goal, increment, state)
+                    restless += state.status is Status.NO_REST
+                    if restless == MAX_RESTLESS:
+                        return state, tuple(jumps), iterations
                 if increment and locates:
                     goals.append(goals[-1] - increment / 2)
                     continue
