@@ -204,8 +204,8 @@ class Continuation:
         Where continuation fails, the flow from the current state leads on. The step is divided, to find where the jump
         begins, unless it is that of one contact among many. A motion that does not come to rest is tried twice.
         """
-        goals, divides, locates, jumps, iterations = [step.value], self._divides, False, [], 0
-        restless = 0
+        goals, divides, locates, iterations, restless = [step.value], self._divides, False, 0, 0
+        jumps: list[Jump] = []
         while True:
             goal = replace(step, value=goals[-1])
             flowed = True
