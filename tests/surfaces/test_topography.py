@@ -232,6 +232,9 @@ def test_positions_rounded_to_their_last_digit_are_equally_spaced_where_there_ar
     rows[200] = f"{200 * step + 0.3:.1f},1.5"
     file = write(tmp_path, "|".join(rows))
     refusal("positions", file, lambda: read_topography(file, unit="um"))
+    rows[200] = f"{200 * step:.1f},1.5"
+    after = write(tmp_path, "|".join(["a, b", *["", "# c"] * 300, *rows]))  # blank lines do not count as rows
+    assert read_topography(after, unit="um").spacing[0] == pytest.approx(1e3 * step, rel=1e-3)
     few = write(tmp_path, "0,1|1,1|2,1|4,1")
     refusal("positions", few, lambda: read_topography(few, unit="um"))
 
@@ -289,6 +292,9 @@ def test_a_plane_with_holes_is_filled_linearly(tmp_path: Path) -> None:
     filled = read_topography(npy_file(tmp_path, holed), spacing=1.0, fill="linear")
     np.testing.assert_allclose(filled.values, plane, atol=1e-9)
     assert filled.filled == pytest.approx(10 / plane.size)
+    plane[-2:] = np.nan  # beyond a single row of points
+    edge = read_topography(npy_file(tmp_path, plane), spacing=1.0, fill="linear")
+    np.testing.assert_array_equal(edge.values[-2:], plane[[-3, -3]])
     line = np.append(plane[0], np.nan)
     line[3] = np.nan
     filled = read_topography(npy_file(tmp_path, line), spacing=1.0, fill="linear")

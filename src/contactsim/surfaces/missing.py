@@ -67,12 +67,14 @@ def _linear(heights: Array, missing: NDArray[np.bool_]) -> Array:
         return np.interp(np.flatnonzero(missing), known, heights[known])
     from scipy.interpolate import LinearNDInterpolator
     from scipy.ndimage import binary_dilation
+    from scipy.spatial import QhullError
 
-    around = binary_dilation(missing, np.ones((3, 3))) & ~missing
-    values = LinearNDInterpolator(np.argwhere(around), heights[around])(np.argwhere(missing)) if around.any() else None
-    if values is None:
-        return _nearest(heights, missing)
-    return np.where(np.isnan(values), _nearest(heights, missing), values)
+    around, nearest = binary_dilation(missing, np.ones((3, 3))) & ~missing, _nearest(heights, missing)
+    try:
+        values = LinearNDInterpolator(np.argwhere(around), heights[around])(np.argwhere(missing))
+    except QhullError:  # beyond a single row of points there is nothing to interpolate between
+        return nearest
+    return np.where(np.isnan(values), nearest, values)
 
 
 WAYS: Mapping[str, Callable[[Array, NDArray[np.bool_]], Array]] = {

@@ -94,7 +94,8 @@ class Text:
     def roundings(self, columns: int) -> list[float]:
         """Return half of the last digit that is written of each column, in its unit, by the first rows."""
         digits = [0] * columns
-        for line in itertools.islice(_lines(self.file), self.first - 1, self.first - 1 + SHOWN_ROWS):
+        rows = (line for line in _lines(self.file) if line.number >= self.first and not line.is_comment)
+        for line in itertools.islice(rows, SHOWN_ROWS):
             for column, field in enumerate(_fields(line.text, self.mark)[:columns]):
                 mantissa, _, exponent = field.lower().partition("e")
                 fraction = len(mantissa.partition(self.decimal)[2])

@@ -136,9 +136,11 @@ def read_topography(
         io.refuse_unused("variable", variable, (".npz", ".nc"), file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
     heights, steps = _read(file, dimensions, unit, variable, delimiter, fill is not None)
+    filled = 0.0
     if fill is None:
         io.check_finite(heights, "heights", file, f"; or `fill` as one of {', '.join(WAYS)}")
-    heights, filled = fill_missing(heights, fill or "lowest", file)
+    else:
+        heights, filled = fill_missing(heights, fill, file)
     requested = (None,) * heights.ndim if spacing is None else _read_spacing(spacing, heights.ndim, file)
     if None in steps and None in requested:
         pair = ", or a pair (dy, dx)" * (heights.ndim == 2)
