@@ -141,12 +141,12 @@ def test_an_iteration_takes_the_transforms_that_are_explained(name):
     subject = scene()
     points, counts = 512, []
     batch = {"active_set": "inner_budget", "polonsky_keer": "batch", "verlet": "batch"}[name]
-    for iterations in (3, 8):
-        alone = {"coarsest": points, "reduction": 1e-12} if name == "active_set" else {}
+    for iterations in (2, 5):  # so few that none of them ends with its set solved
+        alone = {"coarsest": points, "reduction": 1e-12, "direct_points": 0} if name == "active_set" else {}
         method = make_solver(name, **{batch: iterations, "budget": 1}, **alone)
         problem, scale = pose_hard_wall(subject, subject.path.steps[0], rough(points), 1e-12, 1)
         counts.append(solve(method, problem, scale).record.transforms)
-    assert (counts[1] - counts[0]) / 5 == explained(subject, points, name).transforms
+    assert (counts[1] - counts[0]) / 3 == explained(subject, points, name).transforms
 
 
 def test_what_is_not_listed_is_not_stored():
