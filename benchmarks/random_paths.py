@@ -31,8 +31,8 @@ from records import on_one_thread
 import contactsim as cs
 from contactsim.grid import Array
 
-COUNT, LARGE_COUNT, BUDGET = 3000, 100, 60.0
-"""Scenes, those on large grids, and CPU seconds after which a scene counts as endless."""
+COUNT, LARGE_COUNT, BUDGET, SLIP_BUDGET = 3000, 100, 60.0, 0.5
+"""Scenes, those on large grids, and CPU seconds, in all and more for each slip, after which a scene counts as endless."""
 GRIDS, LARGE_GRIDS = (64, 81, 100, 128, 200, 256, 512), (1024, 2048)
 """Points of a scene."""
 LARGE_ZONE = 1024
@@ -251,7 +251,7 @@ def judge(number: int, grids: tuple[int, ...] = GRIDS) -> list[tuple[int, str, f
     except Exception as error:  # whatever it is, it is told
         return [(number, "crashed", math.inf, f"{type(error).__name__}: {error}"[:160])]
     seconds, solved = time.process_time() - begin, 0
-    if seconds > BUDGET:
+    if seconds > BUDGET + SLIP_BUDGET * data.sizes.get("event", 0):
         worst["endless"] = number, "endless", seconds, case.words
     states = list(solved_states(case, data))
     looked_at = {len(states) // 2, len(states) - 1} if grids == LARGE_GRIDS else None

@@ -87,7 +87,7 @@ class NewtonKrylov:
 
     newton_budget: int = 8
     krylov_budget: int = 60
-    flow_budget: int = 4000
+    flow_budget: int = 1000
     flow_step: float = 0.3
     trust_radius: float = 0.1
     fields = 40

@@ -34,7 +34,7 @@ GROWTH_SHIFT, GROWTH_STEPS = 2.0, 12
 """Least shift over the rate of growth, and for how many steps, where a displacement grows: it about doubles in each."""
 NUDGE, MAX_NUDGES = 0.03, 5
 """Size of the displacement that is added to an unstable state, over the interaction range, and how often at most."""
-WANDERING = 30.0
+WANDERING = 10.0
 """Length of the way of a motion, over its largest distance from the start, beyond which it does not come to rest."""
 
 
