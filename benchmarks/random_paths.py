@@ -32,7 +32,7 @@ import contactsim as cs
 from contactsim.grid import Array
 
 COUNT, LARGE_COUNT, BUDGET, SLIP_BUDGET = 3000, 100, 60.0, 0.5
-"""Scenes, those on large grids, and CPU seconds, in all and more for each slip, after which a scene counts as endless."""
+"""Scenes, those on large grids, and CPU seconds after which a scene is endless: in all, and more for each slip."""
 GRIDS, LARGE_GRIDS = (64, 81, 100, 128, 200, 256, 512), (1024, 2048)
 """Points of a scene."""
 LARGE_ZONE = 1024
