@@ -11,22 +11,25 @@ from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
-from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.half_space import FreeHalfSpace, HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError, check_option_names
 from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import HardWallSolver, Result, check_solver, solve
 from contactsim.solvers.registry import default_solver, make_solver
+from contactsim.surfaces.pair import add_heights
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
 
 
 @check_option_names
 def press(
-    heights: ArrayLike,
+    heights: ArrayLike | Topography,
+    other: ArrayLike | Topography | None = None,
     *,
-    spacing: float | tuple[float, float],
     contact_modulus: float,
+    offset: int | tuple[int, int] | None = None,
+    spacing: float | tuple[float, float] | None = None,
     mean_pressure: float | None = None,
     approach: float | None = None,
     thickness: float | None = None,
@@ -34,25 +37,32 @@ def press(
     tolerance: float = 1e-3,
     solver: str | HardWallSolver | None = None,
     threads: int = 1,
+    periodic: bool | None = None,
 ) -> Result:
-    """Press a rigid periodic surface into an elastic half-space or layer, without adhesion or friction.
+    """Press a surface on an elastic half-space or layer, flat or rough too, without adhesion or friction.
 
-    Units are free but consistent: lengths in one, pressures in that of E*.
+    Units are free but consistent: lengths in one, pressures in that of E*. Those of a measured topography are in nm.
 
     Parameters
     ----------
-    heights : array, shape (n,) or (ny, nx)
-        Heights of the rigid body, 2 points or more each way; the largest touches first.
-    spacing : float or (float, float)
-        Distance between points; of a surface one number, or those along y and along x.
+    heights : array, shape (n,) or (ny, nx), or Topography
+        Heights of a body, 2 points or more each way, positive towards the other; the largest touches first.
+    other : array or Topography, optional
+        Heights of the other body at the same places, positive towards the first; flat without it. Of two scans, each
+        seen from outside its body, one has to be mirrored.
     contact_modulus : float
-        E* = E/(1-ν²).
+        E* of the pair, 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂; of one elastic body E/(1-ν²).
+    offset : int or (int, int), optional
+        Whole points by which the other body is moved, along x or along (y, x). Periodic heights come in again at the
+        other end; of others only the part that faces each other is pressed.
+    spacing : float or (float, float), optional
+        Distance between points; of a surface one number, or those along y and along x. A topography has its own.
     mean_pressure : float, optional
-        Mean pressure, 0 or more.
+        Load over the length or area of the heights, 0 or more.
     approach : float, optional
         Distance by which the height zero has moved past the undeformed surface; exactly one of mean_pressure and
-        approach. First touch is at -max(heights). Where the mean displacement is zero, on a half-space (by convention)
-        and on a layer with ν = 0.5, full contact is at -mean(heights), and the approach must stay below.
+        approach. First touch is at -max(heights). Where the mean displacement is zero, on a periodic half-space (by
+        convention) and on a layer with ν = 0.5, full contact is at -mean(heights), and the approach must stay below.
     thickness : float, optional
         Thickness of a layer bonded to a rigid base; a half-space without it.
     poisson_ratio : float, optional
@@ -64,6 +74,10 @@ def press(
         Name of a solver, or a solver with options of its own; the default solver of the dimension where None.
     threads : int
         Threads of the transforms.
+    periodic : bool, optional
+        True: the heights repeat in each direction; the default of an array. False: they are alone on a half-space,
+        which bears no load elsewhere; the default of a topography, since a measurement does not repeat. Far away the
+        half-space does not move; on a line, by convention, a line load moves nothing at the distance of its length.
 
     Returns
     -------
@@ -78,29 +92,51 @@ def press(
     """
     surface = _read_heights(heights, spacing)
     step = load_step(approach, mean_pressure, "load")
-    elasticity = _elasticity(contact_modulus, thickness, poisson_ratio)
+    repeats = _repeats(heights, thickness) if periodic is None else periodic
+    if other is not None:
+        surface = add_heights(surface, _read_heights(other, spacing, "other"), offset, repeats)
+    elif offset is not None:
+        raise InputError("offset", offset, "none without the heights of another body")
+    elasticity = _elasticity(contact_modulus, thickness, poisson_ratio, repeats)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
     method: Any = make_solver(solver) if isinstance(solver, str) else solver or default_solver(scene)
     check_solver(method, scene)
     return solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads))
 
 
-def _read_heights(heights: ArrayLike, spacing: float | tuple[float, float]) -> Topography:
+def _repeats(heights: ArrayLike | Topography, thickness: float | None) -> bool:
+    """Return whether heights repeat, unless it is said: all but a topography on a half-space do."""
+    return thickness is not None or not isinstance(heights, Topography)
+
+
+def _read_heights(
+    heights: ArrayLike | Topography, spacing: float | tuple[float, float] | None, name: str = "heights"
+) -> Topography:
     """Return checked heights, of a line or of a surface."""
+    if isinstance(heights, Topography):
+        if spacing is not None:
+            raise InputError("spacing", spacing, "none: a topography has its own")
+        return heights
     if np.ma.is_masked(heights):
-        raise InputError("heights", heights, "finite numbers, none missing; these are masked in part")
+        raise InputError(name, heights, "finite numbers, none missing; these are masked in part")
     try:
         return Topography(np.asarray(heights), cast("tuple[float, ...]", spacing))  # it reads one number as all
     except InputError:
         raise
     except ValueError as error:
-        raise InputError("heights", heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
+        raise InputError(name, heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
 
 
-def _elasticity(contact_modulus: float, thickness: float | None, poisson_ratio: float | None) -> Elasticity:
+def _elasticity(
+    contact_modulus: float, thickness: float | None, poisson_ratio: float | None, periodic: bool
+) -> Elasticity:
     """Return a layer, or a half-space where there is no thickness."""
+    if not isinstance(periodic, bool | np.bool_):
+        raise InputError("periodic", periodic, "True or False")
     if thickness is not None:
+        if not periodic:
+            raise InputError("periodic", periodic, "True for a layer: its response without images is not known")
         return Layer(contact_modulus, cast(float, poisson_ratio), thickness)  # it refuses None
     if poisson_ratio is not None:
         raise InputError("poisson_ratio", poisson_ratio, "none without a thickness: a half-space has only its E*")
-    return HalfSpace(contact_modulus)
+    return HalfSpace(contact_modulus) if periodic else FreeHalfSpace(contact_modulus)

@@ -18,6 +18,7 @@ class Trait(Enum):
     SMOOTH = "smooth law: traction is a function of the gap"
     NON_CONSERVATIVE = "a law without a potential: there is no energy to minimise"
     HALF_SPACE = "half-space: the mean displacement is free, so the uniform mode has no stiffness"
+    FREE = "free half-space: nothing repeats beyond the ends of the heights"
     LAYER = "layer on a rigid base: long waves meet a stiffness that depends on thickness and Poisson's ratio"
     MEAN_PRESSURE = "load step given by a mean pressure"
     APPROACH = "load step given by an approach"

@@ -114,6 +114,8 @@ class HardWallProblem:
         Counter of the work.
     warm_start
         Solution on fewer points, if there is one.
+    extent
+        Part of the grid that has heights: all of it, unless the body is free.
     """
 
     profile: Profile
@@ -123,6 +125,7 @@ class HardWallProblem:
     approach: float | None
     counter: TransformCounter
     warm_start: WarmStart | None = None
+    extent: tuple[Any, ...] = (...,)
 
     @cached_property
     def heights(self) -> Array:
@@ -171,7 +174,22 @@ class HardWallProblem:
             approach,
             self.counter,
             warm_start,
+            self._coarser_extent(places),
         )
+
+    def _coarser_extent(self, places: list[Array]) -> tuple[Any, ...]:
+        """Return the part that has heights of a grid of fewer points, at some places of each direction of this one."""
+        if self.extent == (...,):
+            return self.extent
+        pairs = zip(places, self.extent, strict=True)
+        return tuple(slice(int(np.searchsorted(kept, part.stop))) for kept, part in pairs)
+
+    def even_pressure(self) -> Array:
+        """Return the prescribed load as the same pressure at all points that have heights."""
+        pressure = np.zeros(self.shape)
+        inside = pressure[self.extent]
+        inside += self.prescribed_load * pressure.size / inside.size
+        return pressure
 
     @property
     def usable_start(self) -> WarmStart | None:
@@ -187,7 +205,7 @@ class HardWallProblem:
             if mean > 0:
                 result *= self.load / mean
             else:
-                result[...] = self.load
+                result[...] = self.even_pressure()
         return result
 
     def certify(self, pressure: Array) -> tuple[Certificate, Array]:

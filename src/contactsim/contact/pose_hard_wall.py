@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from contactsim.contact.hard_wall import HardWallProblem, Profile, Scale
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.fourier_operator import FourierOperator, RadialSymbol
+from contactsim.elasticity.free_response import free_symbol, largest_response
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter, blocks
 from contactsim.traits import Trait
@@ -24,18 +26,8 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
     """Return the compliance over spacing/E* and that of the uniform mode; refuse units out of the range of numbers."""
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         flexibility = grid.spacing[-1] / np.float64(scene.contact_modulus)
-
-        def relative_compliance(wavenumber: Array) -> Array:
-            """Return the compliance over spacing/E* at each |q|."""
-            return scene.compliance(wavenumber) / flexibility
-
-        uniform = float(relative_compliance(np.zeros(1))[0])
-        if len(grid.shape) == 1:
-            symbol: Any = grid.of_wavenumber(relative_compliance)
-            positive = np.isfinite(symbol).all() and (symbol[1:] > 0).all()
-        else:
-            symbol = RadialSymbol(grid, relative_compliance, uniform)
-            positive = np.isfinite(uniform) and _is_positive(symbol)
+        find = free_symbol if Trait.FREE in scene.traits else partial(_periodic_symbol, scene, flexibility)
+        symbol, uniform, positive = find(grid)
         largest = np.float64(heights.size) * max(unit / flexibility, pressure)
         extents = flexibility, largest, (heights.max() - heights.min()) / unit
     if not (np.isfinite(extents).all() and flexibility > 0 and positive):
@@ -43,6 +35,21 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
         allowed = "units in which heights, pressures and their ratios stay within the range of floating point"
         raise InputError("spacing, contact_modulus, heights, mean_pressure", values, allowed)
     return symbol, uniform
+
+
+def _periodic_symbol(scene: Scene, flexibility: float, grid: Grid) -> tuple[Any, float, bool]:
+    """Return the compliance over a flexibility, that of the uniform mode, and whether all others are positive."""
+
+    def relative_compliance(wavenumber: Array) -> Array:
+        """Return the compliance over the flexibility at each |q|."""
+        return scene.compliance(wavenumber) / flexibility
+
+    uniform = float(relative_compliance(np.zeros(1))[0])
+    if len(grid.shape) == 1:
+        line = grid.of_wavenumber(relative_compliance)
+        return line, uniform, bool(np.isfinite(line).all() and (line[1:] > 0).all())
+    symbol = RadialSymbol(grid, relative_compliance, uniform)
+    return symbol, uniform, bool(np.isfinite(uniform) and _is_positive(symbol))
 
 
 def _is_positive(symbol: RadialSymbol) -> bool:
@@ -84,7 +91,7 @@ def pose_hard_wall(
     """
     if not (is_number(tolerance) and tolerance > 0):
         raise InputError("tolerance", tolerance, "a positive number of grid steps")
-    grid = Grid(heights.shape, scene.lengths, threads)
+    grid, points = Grid(heights.shape, scene.lengths, threads), heights.size
     highest = float(heights.max())
     value = step.value + scene.path.origin(heights)
     overlap = value + highest  # beyond first touch, if it is an approach
@@ -94,6 +101,10 @@ def pose_hard_wall(
         flexibility = float(grid.spacing[-1] / np.float64(scene.contact_modulus))
         displacement = max(overlap, 0.0) if pressure is None else pressure * flexibility
         unit = max(grid_step(heights), MIN_GRID_STEP * displacement) or flexibility
+    extent: tuple[Any, ...] = (...,)
+    if Trait.FREE in scene.traits:
+        grid, extent = grid.doubled(), tuple(slice(size) for size in heights.shape)
+        pressure = None if pressure is None else pressure * points / grid.size
     symbol, uniform = _without_units(scene, grid, heights, unit, pressure or 0.0)
     scale = Scale(unit, unit / flexibility, highest)
     load, approach = None, None
@@ -107,9 +118,24 @@ def pose_hard_wall(
             symbol[0] = 0.0
         else:
             symbol = replace(symbol, uniform=0.0)
-    counter = TransformCounter(heights.size)
+    if Trait.FREE in scene.traits:
+        pressed = max(overlap, 0.0) if load is None else unit * load * grid.size * largest_response(grid)
+        heights = _surround(heights, grid, extent, pressed)
+    counter = TransformCounter(points)
     compliance = FourierOperator(grid, symbol, counter)
-    return HardWallProblem(Profile(heights, highest, unit), compliance, tolerance, load, approach, counter), scale
+    profile = Profile(heights, highest, unit)
+    return HardWallProblem(profile, compliance, tolerance, load, approach, counter, None, extent), scale
+
+
+def _surround(heights: Array, grid: Grid, extent: tuple[slice, ...], pressed: float) -> Array:
+    """Return heights on a cell of twice their size, elsewhere so low that nothing touches.
+
+    pressed: largest displacement, or approach beyond first touch, nm
+    """
+    lowest = heights.min()
+    surrounded = np.full(grid.shape, lowest - 2 * (heights.max() - lowest + pressed))
+    surrounded[extent] = heights
+    return surrounded
 
 
 def _check_full_contact(scene: Scene, heights: Array, value: float, overlap: float, uniform: float) -> None:

@@ -1,4 +1,4 @@
-"""The semi-infinite elastic body."""
+"""The semi-infinite elastic body, under tractions that repeat periodically or not at all."""
 
 from __future__ import annotations
 
@@ -76,3 +76,14 @@ class HalfSpace:
         ratio = known_poisson_ratio(self)
         entry = self.contact_modulus * (1 - ratio) / (3 - 4 * ratio) * np.asarray(wavenumber)
         return CoupledSymbol(2 * (1 - ratio) * np.stack([entry, entry]), (2 * ratio - 1) * entry)
+
+
+@dataclass(frozen=True)
+class FreeHalfSpace(HalfSpace):
+    """Semi-infinite elastic body that is loaded on the area of the heights alone: nothing repeats beyond it.
+
+    Far away its displacement is zero. On a line, where displacements fall with the logarithm of the distance, that of a
+    line load is zero at a distance of the length of the heights, by convention. Parameters as those of `HalfSpace`.
+    """
+
+    traits = frozenset({Trait.FREE})

@@ -67,7 +67,9 @@ class ActiveSet:
     inner_budget: int = 200
     budget: int = 200
     fields = 28
-    accepts = frozenset({Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH})
+    accepts = frozenset(
+        {*(Trait.LINE, Trait.WALL, Trait.HALF_SPACE, Trait.FREE, Trait.LAYER, Trait.MEAN_PRESSURE, Trait.APPROACH)}
+    )
 
     def __post_init__(self) -> None:
         if not 0 < self.reduction < 1:

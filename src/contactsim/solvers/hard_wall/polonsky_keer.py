@@ -41,7 +41,9 @@ class PolonskyKeer:
     batch: int = 25
     budget: int = 400
     fields = 15
-    accepts = frozenset({Trait.LINE, Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.LAYER, Trait.MEAN_PRESSURE})
+    accepts = frozenset(
+        {*(Trait.LINE, Trait.SURFACE, Trait.WALL, Trait.HALF_SPACE, Trait.FREE, Trait.LAYER, Trait.MEAN_PRESSURE)}
+    )
 
     def transforms(self, points: int) -> float:
         """Return the real transforms of an iteration."""
@@ -50,7 +52,7 @@ class PolonskyKeer:
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> PolonskyKeerState:
         """Return the first state: a guess, or uniform pressure."""
         problem.compliance.hold_symbol()
-        pressure = np.full(problem.shape, problem.load) if guess is None else problem.project(guess)
+        pressure = problem.even_pressure() if guess is None else problem.project(guess)
         return PolonskyKeerState(pressure, False, np.zeros_like(pressure), 1.0, True)
 
     def step(self, problem: HardWallProblem, state: PolonskyKeerState) -> PolonskyKeerState:

@@ -1,0 +1,64 @@
+"""Heights of two bodies that face each other: only their sum counts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from contactsim.errors import InputError, Words
+from contactsim.grid import Array
+from contactsim.surfaces.io import TOLERANCE
+from contactsim.surfaces.topography import Topography
+
+
+def add_heights(first: Topography, second: Topography, offset: object, periodic: bool) -> Topography:
+    """Return the sum of the heights of two bodies.
+
+    Parameters
+    ----------
+    first, second : Topography
+        Heights, each positive towards the other, at the same places.
+    offset : int, (int, int) or None
+        Whole points by which the second is moved, along x or along (y, x).
+    periodic : bool
+        True: what leaves at one end comes in at the other; False: only the part in which both have heights is kept.
+
+    Raises
+    ------
+    InputError
+        For different spacings, of periodic heights for different shapes, for an offset that is none, or one that leaves
+        fewer than two points each way.
+    """
+    here, there = first.values, second.values
+    if here.ndim != there.ndim or (periodic and here.shape != there.shape):
+        raise InputError("other", Words(f"shape {there.shape}"), f"that of heights, {here.shape}")
+    if not np.allclose(first.spacing, second.spacing, rtol=TOLERANCE, atol=0):
+        raise InputError("other", Words(f"spacing {second.spacing}"), f"that of heights, {first.spacing}")
+    moves = _moves(offset, here.ndim)
+    if periodic:
+        return replace(first, values=here + np.roll(there, moves, tuple(range(here.ndim))))
+    back = [-move for move in moves]
+    return replace(first, values=here[_facing(here, there, moves)] + there[_facing(there, here, back)])
+
+
+def _moves(offset: object, dimensions: int) -> list[int]:
+    """Return the points to move in each direction, x last."""
+    if offset is None:
+        return [0] * dimensions
+    moves: list[Any] = list(offset) if isinstance(offset, list | tuple) else [offset]
+    whole = all(isinstance(move, int | np.integer) and not isinstance(move, bool) for move in moves)
+    if not whole or len(moves) != dimensions:
+        allowed = "whole points along x" if dimensions == 1 else "a pair of whole points, along y and along x"
+        raise InputError("offset", offset, allowed)
+    return [int(move) for move in moves]
+
+
+def _facing(heights: Array, others: Array, moves: list[int]) -> tuple[slice, ...]:
+    """Return the part of heights that faces others which are moved."""
+    sizes = zip(heights.shape, others.shape, moves, strict=True)
+    part = tuple(slice(max(move, 0), max(min(size, other + move), 0)) for size, other, move in sizes)
+    if min(heights[part].shape) < 2:
+        raise InputError("offset", Words(", ".join(map(str, moves))), "one that leaves two points or more each way")
+    return part

@@ -1,0 +1,75 @@
+"""The response of a half-space to single elements, and its sum over many on a cell of twice the size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad, quad
+
+from contactsim.elasticity import free_response
+from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.elasticity.free_response import free_symbol, largest_response, rectangle_response, strip_response
+from contactsim.grid import Grid, TransformCounter
+
+
+@pytest.mark.parametrize("distance", [0.0, 0.5, 1.0, -2.0, 7.0])
+def test_a_strip_acts_as_the_integral_of_line_loads(distance):
+    inside = [distance] if abs(distance) <= 0.5 else None
+    exact = quad(lambda s: -2 / np.pi * np.log(abs(distance - s) / 9.0), -0.5, 0.5, points=inside)[0]
+    assert strip_response(np.array([distance]), 9.0)[0] == pytest.approx(exact, rel=1e-9)
+
+
+@pytest.mark.parametrize("height", [1.0, 0.3])
+@pytest.mark.parametrize("place", [(0.0, 1.0), (1.0, 0.0), (1.0, 2.0), (0.7, 3.0)])
+def test_a_rectangle_acts_as_the_integral_of_point_loads(place, height):
+    y, x = place
+    exact = dblquad(lambda s, t: 1 / np.pi / np.hypot(x - s, y - t), -height / 2, height / 2, -0.5, 0.5)[0]
+    assert rectangle_response(np.array([y]), np.array([x]), height)[0, 0] == pytest.approx(exact, rel=1e-9)
+
+
+def test_the_centre_of_a_square_moves_as_love_has_it():
+    assert largest_response(Grid((8, 8), (8.0, 8.0))) == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14)
+
+
+@pytest.mark.parametrize("height", [1.0, 0.3])
+def test_far_away_the_moments_give_what_the_formula_gives(height, monkeypatch):
+    places = np.array([0.0, 40.0, 80.0])
+    exact = rectangle_response(places * height, places, height)
+    monkeypatch.setattr(free_response, "FAR", 20.0)
+    far = rectangle_response(places * height, places, height)
+    assert far[0, 0] == exact[0, 0]
+    assert far == pytest.approx(exact, rel=2e-6)
+    assert (far != exact).sum() == 8
+
+
+def test_a_point_load_moves_the_surface_as_boussinesq_has_it():
+    far = np.array([1e4])
+    assert rectangle_response(np.zeros(1), far, 1.0)[0, 0] == pytest.approx(1 / (np.pi * 1e4), rel=1e-8)
+
+
+@pytest.mark.parametrize("shape", [(9,), (16,), (5, 8), (7, 6)])
+def test_on_half_of_the_cell_coefficients_sum_the_responses(shape):
+    grid = Grid(shape, tuple(1.5 * size if size == shape[0] else float(size) for size in shape)).doubled()
+    pressure = np.random.default_rng(0).normal(size=shape)
+    padded = np.zeros(grid.shape)
+    padded[tuple(map(slice, shape))] = pressure
+    moved = FourierOperator(grid, free_symbol(grid)[0], TransformCounter(grid.size))(padded)[tuple(map(slice, shape))]
+    apart = [np.abs(np.subtract.outer(np.arange(size), np.arange(size))) for size in shape]
+    if len(shape) == 1:
+        exact = strip_response(np.arange(shape[0]), shape[0])[apart[0]] @ pressure
+    else:
+        aspect = grid.spacing[0] / grid.spacing[1]
+        table = rectangle_response(np.arange(shape[0]) * aspect, np.arange(shape[1]), aspect)
+        exact = np.einsum("ijkl,jl->ik", table[apart[0][:, :, None, None], apart[1]], pressure)
+    assert moved == pytest.approx(exact, abs=1e-13 * np.abs(exact).max())
+
+
+def test_coefficients_of_a_surface_are_read_alike_whichever_way():
+    grid = Grid((6, 8), (3.0, 8.0)).doubled()
+    symbol = free_symbol(grid)[0]
+    whole = symbol.rows(0, grid.shape[0])
+    assert np.array_equal(whole, symbol[np.ogrid[: grid.shape[0], : grid.half_shape[1]]])
+    folded = np.empty_like(whole)
+    for rows, values in symbol.folded():
+        folded[rows] = values
+    assert np.array_equal(folded, whole)
