@@ -147,10 +147,6 @@ class Grid:
         """Return a grid with the same periods and fewer points."""
         return Grid(shape, self.lengths, self.threads)
 
-    def doubled(self) -> Grid:
-        """Return a grid of the same spacings that is twice as long in each direction."""
-        return Grid(tuple(2 * n for n in self.shape), tuple(2 * length for length in self.lengths), self.threads)
-
 
 @dataclass
 class TransformCounter:

@@ -1,4 +1,4 @@
-"""The response of a half-space to single elements, and its sum over many on a cell of twice the size."""
+"""The response of a half-space to single elements, and its sum over many."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad
 
+from contactsim.elasticity import free_operator as free_operator_module
 from contactsim.elasticity import free_response
-from contactsim.elasticity.fourier_operator import FourierOperator
-from contactsim.elasticity.free_response import free_symbol, largest_response, rectangle_response, strip_response
+from contactsim.elasticity.fourier_operator import RadialSymbol
+from contactsim.elasticity.free_operator import FreeSurfaceOperator, free_operator
+from contactsim.elasticity.free_response import rectangle_response, strip_response
 from contactsim.grid import Grid, TransformCounter
 
 
@@ -28,7 +30,9 @@ def test_a_rectangle_acts_as_the_integral_of_point_loads(place, height):
 
 
 def test_the_centre_of_a_square_moves_as_love_has_it():
-    assert largest_response(Grid((8, 8), (8.0, 8.0))) == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14)
+    assert rectangle_response(np.zeros(1), np.zeros(1), 1.0)[0, 0] == pytest.approx(
+        4 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("height", [1.0, 0.3])
@@ -47,13 +51,13 @@ def test_a_point_load_moves_the_surface_as_boussinesq_has_it():
     assert rectangle_response(np.zeros(1), far, 1.0)[0, 0] == pytest.approx(1 / (np.pi * 1e4), rel=1e-8)
 
 
-@pytest.mark.parametrize("shape", [(9,), (16,), (5, 8), (7, 6)])
-def test_on_half_of_the_cell_coefficients_sum_the_responses(shape):
-    grid = Grid(shape, tuple(1.5 * size if size == shape[0] else float(size) for size in shape)).doubled()
+@pytest.mark.parametrize("columns", [2**18, 40])
+@pytest.mark.parametrize("shape", [(9,), (16,), (5, 8), (7, 6), (12, 31)])
+def test_the_operator_sums_the_responses(shape, columns, monkeypatch):
+    monkeypatch.setattr(free_operator_module, "COLUMNS", columns)
+    grid = Grid(shape, tuple(1.5 * size if size == shape[0] else float(size) for size in shape))
     pressure = np.random.default_rng(0).normal(size=shape)
-    padded = np.zeros(grid.shape)
-    padded[tuple(map(slice, shape))] = pressure
-    moved = FourierOperator(grid, free_symbol(grid)[0], TransformCounter(grid.size))(padded)[tuple(map(slice, shape))]
+    operator = free_operator(grid, None, TransformCounter(grid.size))
     apart = [np.abs(np.subtract.outer(np.arange(size), np.arange(size))) for size in shape]
     if len(shape) == 1:
         exact = strip_response(np.arange(shape[0]), shape[0])[apart[0]] @ pressure
@@ -61,15 +65,23 @@ def test_on_half_of_the_cell_coefficients_sum_the_responses(shape):
         aspect = grid.spacing[0] / grid.spacing[1]
         table = rectangle_response(np.arange(shape[0]) * aspect, np.arange(shape[1]), aspect)
         exact = np.einsum("ijkl,jl->ik", table[apart[0][:, :, None, None], apart[1]], pressure)
-    assert moved == pytest.approx(exact, abs=1e-13 * np.abs(exact).max())
+    size = np.abs(exact).max()
+    assert operator(pressure) == pytest.approx(exact, abs=1e-13 * size)
+    if len(shape) == 1:
+        assert operator(pressure, out=pressure) is pressure
+        assert pressure == pytest.approx(exact, abs=1e-13 * size)
+        return
+    field, scratch, out = np.zeros((3, *grid.wide_shape), np.float32)
+    field[:, : shape[1]] = pressure
+    operator.in_single_precision()(field, scratch, out)
+    assert out[:, : shape[1]] == pytest.approx(exact, abs=1e-5 * size)
 
 
-def test_coefficients_of_a_surface_are_read_alike_whichever_way():
-    grid = Grid((6, 8), (3.0, 8.0)).doubled()
-    symbol = free_symbol(grid)[0]
-    whole = symbol.rows(0, grid.shape[0])
-    assert np.array_equal(whole, symbol[np.ogrid[: grid.shape[0], : grid.half_shape[1]]])
-    folded = np.empty_like(whole)
-    for rows, values in symbol.folded():
-        folded[rows] = values
-    assert np.array_equal(folded, whole)
+def test_a_coarser_operator_has_the_same_response_in_units_of_its_spacing():
+    grid = Grid((8, 12), (8.0, 12.0))
+    symbol = RadialSymbol(grid, lambda q: 2 / np.maximum(q, 1e-9), 0.0)
+    coarse = FreeSurfaceOperator(grid, symbol, TransformCounter(grid.size)).coarser((4, 6))
+    pressure = np.random.default_rng(0).normal(size=(4, 6))
+    own = FreeSurfaceOperator(Grid((4, 6), (4.0, 6.0)), symbol, TransformCounter(24))
+    assert coarse(pressure) == pytest.approx(own(pressure), rel=1e-13)
+    assert coarse.counter.transforms == pytest.approx(own.counter.transforms / 4)

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.elasticity.fourier_operator import Compliance
 from contactsim.errors import InputError
 from contactsim.grid import Array, TransformCounter, blocks
 
@@ -114,18 +114,15 @@ class HardWallProblem:
         Counter of the work.
     warm_start
         Solution on fewer points, if there is one.
-    extent
-        Part of the grid that has heights: all of it, unless the body is free.
     """
 
     profile: Profile
-    compliance: FourierOperator
+    compliance: Compliance
     tolerance: float
     load: float | None
     approach: float | None
     counter: TransformCounter
     warm_start: WarmStart | None = None
-    extent: tuple[Any, ...] = (...,)
 
     @cached_property
     def heights(self) -> Array:
@@ -161,35 +158,17 @@ class HardWallProblem:
         ratio = shape[-1] / self.shape[-1]
         sampled = self.profile[np.ix_(*places)] * ratio
         highest = float(sampled.max())
-        grid, fine = self.compliance.grid.coarser(shape), self.compliance
-        on_line = len(shape) == 1
-        symbol = fine.symbol[grid.modes_of(fine.grid)] * ratio if on_line else fine.symbol.scaled(grid, ratio)
         approach = None if self.approach is None else self.approach * ratio + highest
         warm_start = self.warm_start and replace(self.warm_start, gap=self.warm_start.gap * ratio)
         return HardWallProblem(
             Profile(sampled, highest, 1.0),
-            FourierOperator(grid, symbol, self.counter),
+            self.compliance.coarser(shape),
             tolerance,
             self.load,
             approach,
             self.counter,
             warm_start,
-            self._coarser_extent(places),
         )
-
-    def _coarser_extent(self, places: list[Array]) -> tuple[Any, ...]:
-        """Return the part that has heights of a grid of fewer points, at some places of each direction of this one."""
-        if self.extent == (...,):
-            return self.extent
-        pairs = zip(places, self.extent, strict=True)
-        return tuple(slice(int(np.searchsorted(kept, part.stop))) for kept, part in pairs)
-
-    def even_pressure(self) -> Array:
-        """Return the prescribed load as the same pressure at all points that have heights."""
-        pressure = np.zeros(self.shape)
-        inside = pressure[self.extent]
-        inside += self.prescribed_load * pressure.size / inside.size
-        return pressure
 
     @property
     def usable_start(self) -> WarmStart | None:
@@ -205,7 +184,7 @@ class HardWallProblem:
             if mean > 0:
                 result *= self.load / mean
             else:
-                result[...] = self.even_pressure()
+                result[...] = self.load
         return result
 
     def certify(self, pressure: Array) -> tuple[Certificate, Array]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from contactsim.contact.hard_wall import HardWallProblem, Profile, Scale
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.fourier_operator import FourierOperator, RadialSymbol
-from contactsim.elasticity.free_response import free_symbol, largest_response
+from contactsim.elasticity.free_operator import free_operator
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter, blocks
 from contactsim.traits import Trait
@@ -26,8 +25,7 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
     """Return the compliance over spacing/E* and that of the uniform mode; refuse units out of the range of numbers."""
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         flexibility = grid.spacing[-1] / np.float64(scene.contact_modulus)
-        find = free_symbol if Trait.FREE in scene.traits else partial(_periodic_symbol, scene, flexibility)
-        symbol, uniform, positive = find(grid)
+        symbol, uniform, positive = _symbol(scene, flexibility, grid)
         largest = np.float64(heights.size) * max(unit / flexibility, pressure)
         extents = flexibility, largest, (heights.max() - heights.min()) / unit
     if not (np.isfinite(extents).all() and flexibility > 0 and positive):
@@ -37,7 +35,7 @@ def _without_units(scene: Scene, grid: Grid, heights: Array, unit: float, pressu
     return symbol, uniform
 
 
-def _periodic_symbol(scene: Scene, flexibility: float, grid: Grid) -> tuple[Any, float, bool]:
+def _symbol(scene: Scene, flexibility: float, grid: Grid) -> tuple[Any, float, bool]:
     """Return the compliance over a flexibility, that of the uniform mode, and whether all others are positive."""
 
     def relative_compliance(wavenumber: Array) -> Array:
@@ -91,7 +89,7 @@ def pose_hard_wall(
     """
     if not (is_number(tolerance) and tolerance > 0):
         raise InputError("tolerance", tolerance, "a positive number of grid steps")
-    grid, points = Grid(heights.shape, scene.lengths, threads), heights.size
+    grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     value = step.value + scene.path.origin(heights)
     overlap = value + highest  # beyond first touch, if it is an approach
@@ -101,41 +99,27 @@ def pose_hard_wall(
         flexibility = float(grid.spacing[-1] / np.float64(scene.contact_modulus))
         displacement = max(overlap, 0.0) if pressure is None else pressure * flexibility
         unit = max(grid_step(heights), MIN_GRID_STEP * displacement) or flexibility
-    extent: tuple[Any, ...] = (...,)
-    if Trait.FREE in scene.traits:
-        grid, extent = grid.doubled(), tuple(slice(size) for size in heights.shape)
-        pressure = None if pressure is None else pressure * points / grid.size
     symbol, uniform = _without_units(scene, grid, heights, unit, pressure or 0.0)
     scale = Scale(unit, unit / flexibility, highest)
-    load, approach = None, None
+    load, approach, is_free = None, None, Trait.FREE in scene.traits
     if pressure is None:
-        _check_full_contact(scene, heights, value, overlap, uniform)
+        if not is_free:
+            _check_full_contact(scene, heights, value, overlap, uniform)
         approach = overlap / unit
-    else:  # a uniform displacement does not change the gaps, and would only add rounding to them
-        scale = replace(scale, mean_displacement=uniform * flexibility * pressure)
+    else:
         load = pressure / scale.pressure
+    if (
+        pressure is not None and not is_free
+    ):  # a uniform displacement does not change the gaps, and would only add rounding to them
+        scale = replace(scale, mean_displacement=uniform * flexibility * pressure)
         if heights.ndim == 1:
             symbol[0] = 0.0
         else:
             symbol = replace(symbol, uniform=0.0)
-    if Trait.FREE in scene.traits:
-        pressed = max(overlap, 0.0) if load is None else unit * load * grid.size * largest_response(grid)
-        heights = _surround(heights, grid, extent, pressed)
-    counter = TransformCounter(points)
-    compliance = FourierOperator(grid, symbol, counter)
-    profile = Profile(heights, highest, unit)
-    return HardWallProblem(profile, compliance, tolerance, load, approach, counter, None, extent), scale
-
-
-def _surround(heights: Array, grid: Grid, extent: tuple[slice, ...], pressed: float) -> Array:
-    """Return heights on a cell of twice their size, elsewhere so low that nothing touches.
-
-    pressed: largest displacement, or approach beyond first touch, nm
-    """
-    lowest = heights.min()
-    surrounded = np.full(grid.shape, lowest - 2 * (heights.max() - lowest + pressed))
-    surrounded[extent] = heights
-    return surrounded
+    counter = TransformCounter(heights.size)
+    operator = free_operator if is_free else FourierOperator
+    compliance = operator(grid, symbol, counter)
+    return HardWallProblem(Profile(heights, highest, unit), compliance, tolerance, load, approach, counter), scale
 
 
 def _check_full_contact(scene: Scene, heights: Array, value: float, overlap: float, uniform: float) -> None:

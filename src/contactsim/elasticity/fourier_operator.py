@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import ducc0
 import numpy as np
@@ -53,6 +53,33 @@ class RadialSymbol:
     def scaled(self, grid: Grid, factor: float) -> RadialSymbol:
         """Return the symbol times a factor on a grid with the same periods."""
         return RadialSymbol(grid, lambda q: self.function(q) * factor, self.uniform * factor)
+
+
+class Product(Protocol):
+    """The product of a surface's compliance with a field in single precision."""
+
+    def __call__(self, field: Array, scratch: Array, out: Array) -> None:
+        """Write the product; all (ny, nx and padding), and `scratch` is overwritten."""
+
+
+class Compliance(Protocol):
+    """A compliance as solvers need it: without units, the spacing along x and E* being 1."""
+
+    grid: Grid
+    symbol: Any
+    counter: TransformCounter
+
+    def hold_symbol(self) -> None:
+        """Hold in memory what every application needs."""
+
+    def __call__(self, values: Array, out: Array | None = None) -> Array:
+        """Return the displacement under a pressure; see `FourierOperator`."""
+
+    def coarser(self, shape: tuple[int, ...]) -> Compliance:
+        """Return the compliance on fewer points, in units of their spacing."""
+
+    def in_single_precision(self) -> Product:
+        """Return its product with fields of a surface in single precision."""
 
 
 @dataclass
@@ -109,6 +136,29 @@ class FourierOperator:
         half *= self.symbol
         overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
         return ducc0.fft.c2r(half, lastsize=self.grid.shape[-1], out=out, **overwrite)
+
+    def coarser(self, shape: tuple[int, ...]) -> FourierOperator:
+        """Return the operator on fewer points, in units of their spacing."""
+        grid, ratio = self.grid.coarser(shape), shape[-1] / self.grid.shape[-1]
+        on_line = len(shape) == 1
+        symbol = self.symbol[grid.modes_of(self.grid)] * ratio if on_line else self.symbol.scaled(grid, ratio)
+        return FourierOperator(grid, symbol, self.counter)
+
+    def in_single_precision(self) -> Product:
+        """Return the product with fields of a surface in single precision; coefficients are in the scratch."""
+        symbol, columns = self.symbol.folded(np.float32), self.grid.shape[1]
+
+        def product(field: Array, scratch: Array, out: Array) -> None:
+            """Write the product."""
+            half = scratch.view(np.complex64)[:, : columns // 2 + 1]
+            self.grid.forward(field[:, :columns], out=half)
+            for rows, values in symbol:
+                half[rows] *= values
+            overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
+            ducc0.fft.c2r(half, lastsize=columns, out=out[:, :columns], **overwrite)
+            self.counter.add(2, self.grid.size)
+
+        return product
 
     def _in_place(self, values: Array, wide: Array) -> Array:
         columns, rows = self.grid.shape[-1], list(blocks(self.grid.shape))

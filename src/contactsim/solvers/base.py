@@ -196,8 +196,8 @@ def solve(solver: HardWallSolver, problem: HardWallProblem, scale: Scale) -> Res
     pressure *= scale.pressure
     gap *= scale.step
     return Result(
-        pressure=pressure[problem.extent],
-        gap=gap[problem.extent],
+        pressure=pressure,
+        gap=gap,
         approach=certificate.approach * scale.step - scale.highest + scale.mean_displacement,
         status=status,
         record=record,

@@ -23,7 +23,6 @@ Memory at the peak, in bytes a point, 39 in all; cells of the preconditioner and
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -75,7 +74,10 @@ class ConjugateGradients:
         """Return the first state: a guess, uniform pressure, or at an approach no pressure."""
         if guess is not None:
             return State(problem.project(guess), False)
-        return State(np.zeros(problem.shape) if problem.load is None else problem.even_pressure(), False)
+        pressure = np.zeros(problem.shape)
+        if problem.load is not None:
+            pressure += problem.load
+        return State(pressure, False)
 
     def step(self, problem: HardWallProblem, state: State) -> State:
         """Iterate from the pressure of a state, in place; its gap is computed anew."""
@@ -152,20 +154,16 @@ class NestedConjugateGradients(ConjugateGradients):
     def _coarse_field(self, problem: HardWallProblem) -> Array | None:
         """Return the signed field of a warm start or of the coarser level (my, mx); None without both."""
         if problem.usable_start is not None:
-            return _signed_field(problem.usable_start.pressure, problem.usable_start.gap, (...,))
+            return _signed_field(problem.usable_start.pressure, problem.usable_start.gap)
         coarse = coarser_level(problem, self.coarsest, self.coarse_tolerance)
         if coarse is None:
             return None
         pressure, gap = self.start(coarse).pressure, np.empty(coarse.shape, np.float32)
         level = ConjugateGradients(self.coarse_budget, self.wavelength).relax(coarse, pressure, gap)[1]
         gap -= np.float32(level)
-        return _signed_field(pressure, gap, coarse.extent)
+        return _signed_field(pressure, gap)
 
 
-def _signed_field(pressure: Array, gap: Array, extent: tuple[Any, ...]) -> Array:
-    """Return the pressure in contact and, with a negative sign, the gap elsewhere; (ny, nx).
-
-    Outside of the extent of the heights the gap is cut at the largest one within.
-    """
-    field = np.where(pressure > 0, pressure, -GAP_WEIGHT * np.maximum(gap, 0))
-    return field if extent == (...,) else np.maximum(field, field[extent].min())
+def _signed_field(pressure: Array, gap: Array) -> Array:
+    """Return the pressure in contact and, with a negative sign, the gap elsewhere; (ny, nx)."""
+    return np.where(pressure > 0, pressure, -GAP_WEIGHT * np.maximum(gap, 0))

@@ -6,11 +6,10 @@ solver can be named and checked without it.
 
 from __future__ import annotations
 
-import ducc0
 import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
-from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.elasticity.fourier_operator import Compliance
 from contactsim.grid import Array, blocks
 from contactsim.solvers.hard_wall import kernels, prolongation
 from contactsim.solvers.hard_wall.contact_preconditioner import LastStep, Preconditioner
@@ -138,29 +137,16 @@ class _Spread:
     A gap in double precision is computed in the memory of change and scratch.
     """
 
-    def __init__(self, compliance: FourierOperator) -> None:
-        self._grid, self._counter, self._columns = compliance.grid, compliance.counter, compliance.grid.shape[1]
-        self._symbol = compliance.symbol.folded(np.float32)
+    def __init__(self, compliance: Compliance) -> None:
+        self._product = compliance.in_single_precision()
         shape = compliance.grid.wide_shape
         self._double = np.zeros(shape)
         self.change, self.scratch = self._double.view(np.float32).reshape(2, *shape)
-        self._half = self.scratch.view(np.complex64)[:, : self._columns // 2 + 1]
         self.out = np.zeros(shape, np.float32)
 
     def apply(self) -> None:
         """Compute out = S change; the change stays."""
-        self._grid.forward(self.change[:, : self._columns], out=self._half)
-        for rows, symbol in self._symbol:
-            self._half[rows] *= symbol
-        ducc0.fft.c2r(
-            self._half,
-            lastsize=self._columns,
-            forward=False,
-            out=self.out[:, : self._columns],
-            nthreads=self._grid.threads,
-            allow_overwriting_input=True,
-        )
-        self._counter.add(2, self._grid.size)
+        self._product(self.change, self.scratch, self.out)
 
     def compute_gap(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
         """Write the gap, computed in double precision, less its level on the contact (bool); the change turns zero."""

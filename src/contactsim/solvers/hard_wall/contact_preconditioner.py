@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.elasticity.fourier_operator import Compliance
 from contactsim.grid import Array
 from contactsim.solvers.hard_wall.kernels import WORD, Contact, Rows, compiled, run
 
@@ -158,7 +158,7 @@ class Preconditioner:
         Wavelength above which G alone would be too soft, in points.
     """
 
-    def __init__(self, compliance: FourierOperator, wavelength: float) -> None:
+    def __init__(self, compliance: Compliance, wavelength: float) -> None:
         grid = compliance.grid
         self.counter = compliance.counter
         self.table = stencil(compliance)
@@ -214,7 +214,7 @@ class Preconditioner:
         return now, then, total
 
 
-def stencil(compliance: FourierOperator, most: int = 64) -> Array:
+def stencil(compliance: Compliance, most: int = 64) -> Array:
     """Return the rows of G (5, 16): weights of a point and its four neighbours, by the bits of those in contact."""
     grid = compliance.grid
     steps = [max(size // most, 1) for size in grid.shape]

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.elasticity.fourier_operator import FourierOperator
+from contactsim.elasticity.fourier_operator import Compliance, FourierOperator
 from contactsim.grid import Array
 
 DECAY = 8.0
@@ -134,7 +134,7 @@ class BlockStiffness:
         Whether the uniform mode is free, so that its stiffness does not matter.
     """
 
-    def __init__(self, compliance: FourierOperator, uniform: bool) -> None:
+    def __init__(self, compliance: Compliance, uniform: bool) -> None:
         grid = compliance.grid
         size = grid.size
         self._block = block_size(size)

@@ -52,7 +52,7 @@ class PolonskyKeer:
     def start(self, problem: HardWallProblem, guess: Array | None = None) -> PolonskyKeerState:
         """Return the first state: a guess, or uniform pressure."""
         problem.compliance.hold_symbol()
-        pressure = problem.even_pressure() if guess is None else problem.project(guess)
+        pressure = np.full(problem.shape, problem.load) if guess is None else problem.project(guess)
         return PolonskyKeerState(pressure, False, np.zeros_like(pressure), 1.0, True)
 
     def step(self, problem: HardWallProblem, state: PolonskyKeerState) -> PolonskyKeerState:

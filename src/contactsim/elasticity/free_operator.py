@@ -1,0 +1,152 @@
+"""Displacement of a half-space under a pressure that does not repeat: a sum over elements, by transforms.
+
+The pressure is followed by as many zeros in each direction, so that no image of an element reaches another one. Of a
+surface zeros are added to some rows, and to some columns, at a time: no field of twice the size is held. The operator
+is without units: lengths are in the spacing along x, and E* is 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import ducc0
+import numpy as np
+
+from contactsim.elasticity.fourier_operator import Product
+from contactsim.elasticity.free_response import rectangle_response, strip_response
+from contactsim.grid import Array, Grid, TransformCounter, blocks
+
+COLUMNS = 2**18
+"""Coefficients that are transformed along y at a time."""
+
+
+@dataclass
+class FreeLineOperator:
+    """Displacement of a line.
+
+    Parameters
+    ----------
+    grid : Grid
+        Grid of the pressure.
+    symbol : array
+        Compliance of periodic pressures, which preconditioners take for that of these.
+    counter : TransformCounter
+        Counts the transforms, of twice the size.
+    """
+
+    grid: Grid
+    symbol: Array
+    counter: TransformCounter
+
+    @cached_property
+    def _response(self) -> Array:
+        """Coefficients of the response to an element in the middle of a line of twice the length."""
+        size = self.grid.shape[0]
+        count = np.arange(2 * size)
+        distance = np.minimum(count, 2 * size - count)
+        return np.asarray(ducc0.fft.r2c(strip_response(distance, size), inorm=2).real)
+
+    def hold_symbol(self) -> None:
+        """Do nothing: the response is held."""
+
+    def __call__(self, values: Array, out: Array | None = None) -> Array:
+        """Return the displacement under a pressure (n,), also in `out`, which may be `values`."""
+        size = self.grid.shape[0]
+        padded = np.zeros(2 * size)
+        padded[:size] = values
+        half = ducc0.fft.r2c(padded, out=None)
+        half *= self._response
+        self.counter.add(4, self.grid.size)
+        moved = ducc0.fft.c2r(half, lastsize=2 * size, forward=False)[:size]
+        if out is None:
+            return np.asarray(moved)
+        out[...] = moved
+        return out
+
+    def coarser(self, shape: tuple[int, ...]) -> FreeLineOperator:
+        """Return the operator on fewer points, in units of their spacing."""
+        grid = self.grid.coarser(shape)
+        symbol = self.symbol[grid.modes_of(self.grid)] * (shape[0] / self.grid.shape[0])
+        return FreeLineOperator(grid, symbol, self.counter)
+
+    def in_single_precision(self) -> Product:
+        """Raise TypeError: lines need no single precision."""
+        raise TypeError("a line has no product in single precision")
+
+
+@dataclass
+class FreeSurfaceOperator:
+    """Displacement of a surface; parameters as those of `FreeLineOperator`, the symbol one that is read by rows."""
+
+    grid: Grid
+    symbol: Any
+    counter: TransformCounter
+
+    @cached_property
+    def _response(self) -> Array:
+        """Coefficients of the response to an element on a cell of twice the size, a quarter: (ny + 1, nx + 1)."""
+        (ny, nx), (dy, dx) = self.grid.shape, self.grid.spacing
+        response = rectangle_response(np.arange(ny + 1) * (dy / dx), np.arange(nx + 1.0), dy / dx)
+        for axis in (1, 0):  # even in both directions: real coefficients, from half of the values
+            ducc0.fft.dct(response, type=1, axes=(axis,), out=response, nthreads=self.grid.threads)
+        response /= 4 * self.grid.size
+        return np.asarray(response)
+
+    def hold_symbol(self) -> None:
+        """Do nothing: the response is held."""
+
+    def __call__(self, values: Array, out: Array | None = None) -> Array:
+        """Return the displacement under a pressure (ny, nx), the first columns of `out` if there is one."""
+        out = np.empty(self.grid.wide_shape) if out is None else out
+        self._apply(values, out, np.empty((self.grid.shape[0], self.grid.shape[1] + 1), complex))
+        return out[:, : self.grid.shape[1]]
+
+    def coarser(self, shape: tuple[int, ...]) -> FreeSurfaceOperator:
+        """Return the operator on fewer points, in units of their spacing."""
+        grid = self.grid.coarser(shape)
+        return FreeSurfaceOperator(grid, self.symbol.scaled(grid, shape[1] / self.grid.shape[1]), self.counter)
+
+    def in_single_precision(self) -> Product:
+        """Return the product with fields in single precision; it has memory of its own for the coefficients."""
+        half = np.empty((self.grid.shape[0], self.grid.shape[1] + 1), np.complex64)
+
+        def product(field: Array, scratch: Array, out: Array) -> None:
+            """Write the product."""
+            del scratch
+            self._apply(field[:, : self.grid.shape[1]], out, half)
+
+        return product
+
+    def _apply(self, values: Array, out: Array, half: Array) -> None:
+        """Write the displacement under a pressure to the first columns of out; half: memory for coefficients."""
+        ny, nx = self.grid.shape
+        threads = {"nthreads": self.grid.threads}
+        rows = list(blocks((ny, 2 * nx)))
+        row_pad = np.zeros((max(high - low for low, high in rows), 2 * nx), values.dtype)
+        for low, high in rows:
+            row_pad[: high - low, :nx] = values[low:high]
+            ducc0.fft.r2c(row_pad[: high - low], axes=(1,), out=half[low:high], **threads)
+        step = max(COLUMNS // (2 * ny), 8)
+        for left in range(0, nx + 1, step):
+            part = half[:, left : left + step]
+            padded = np.zeros((2 * ny, part.shape[1]), half.dtype)
+            padded[:ny] = part
+            ducc0.fft.c2c(padded, axes=(0,), out=padded, **threads)
+            response = self._response[:, left : left + step].astype(values.dtype)
+            padded[: ny + 1] *= response
+            padded[ny + 1 :] *= response[ny - 1 : 0 : -1]
+            ducc0.fft.c2c(padded, axes=(0,), forward=False, out=padded, **threads)
+            part[...] = padded[:ny]
+        for low, high in rows:
+            ducc0.fft.c2r(
+                half[low:high], axes=(1,), lastsize=2 * nx, forward=False, out=row_pad[: high - low], **threads
+            )
+            out[low:high, :nx] = row_pad[: high - low, :nx]
+        self.counter.add(6, self.grid.size)
+
+
+def free_operator(grid: Grid, symbol: Any, counter: TransformCounter) -> FreeLineOperator | FreeSurfaceOperator:
+    """Return the operator of a line or of a surface."""
+    return (FreeLineOperator if len(grid.shape) == 1 else FreeSurfaceOperator)(grid, symbol, counter)
