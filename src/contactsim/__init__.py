@@ -26,6 +26,7 @@ PUBLIC = {
     "SelfAffine": "surfaces.self_affine",
     "Topography": "surfaces.topography",
     "read_topography": "surfaces.topography",
+    "prepare_topography": "surfaces.preparation",
     "HardWall": "interface.hard_wall",
     "CohesiveZone": "interface.cohesive_zone",
     "NormalCohesiveZone": "interface.cohesive_zone",

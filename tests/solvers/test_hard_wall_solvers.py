@@ -26,7 +26,7 @@ from contactsim.solvers.hard_wall.active_set import ActiveSet
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import BlockStiffness, GapExtension
 from contactsim.solvers.registry import SOLVERS, make_solver
 from contactsim.status import Status
-from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
@@ -302,7 +302,7 @@ def test_a_load_far_below_the_rounding_of_the_gaps_stands_on_one_point(load):
 
 @pytest.mark.parametrize("name", ALL)
 def test_a_profile_that_is_flat_but_for_rounding_is_in_full_contact(name):
-    plane = prepare(Topography(np.linspace(0.0, 50.0, 1000), 2.0), detrend="linear")
+    plane = prepare_topography(Topography(np.linspace(0.0, 50.0, 1000), 2.0), detrend="linear")
     assert 0 < np.ptp(plane.values) < 1e-12
     result = contactsim.press(plane.values, spacing=2.0, contact_modulus=70.0, mean_pressure=0.1, solver=name)
     assert result.status is Status.CONVERGED

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.topography import Topography
 from support.cases import refusal
 
@@ -20,7 +20,7 @@ lines = arrays(np.float64, st.integers(2, 40), elements=st.floats(-1e6, 1e6))
 
 def prepared(heights: np.ndarray, detrend: str = "none", periodic: str = "none") -> np.ndarray:
     """Return prepared heights, at a spacing that must not matter."""
-    return prepare(Topography(heights, 2.5), detrend, periodic).values
+    return prepare_topography(Topography(heights, 2.5), detrend, periodic).values
 
 
 def polynomials(shape: tuple[int, ...], degree: int) -> np.ndarray:
@@ -54,7 +54,7 @@ def test_detrending_leaves_what_a_least_squares_fit_leaves(heights: np.ndarray, 
 @given(fields)
 def test_none_changes_nothing_and_gives_a_copy(heights: np.ndarray) -> None:
     topography = Topography(heights, 1.0)
-    copy = prepare(topography, "none", "none").values
+    copy = prepare_topography(topography, "none", "none").values
     assert copy.tolist() == heights.tolist()
     assert not np.shares_memory(copy, topography.values)
 
@@ -110,17 +110,65 @@ def test_window_lowers_the_mean_square_slope_of_short_waves_by_an_eighth() -> No
 
 
 @given(fields)
-def test_heights_are_detrended_by_their_dimension_then_mirrored_by_default(heights: np.ndarray) -> None:
+def test_by_default_heights_are_detrended_by_their_dimension_alone(heights: np.ndarray) -> None:
     first_degree = KINDS[heights.ndim][1]
-    topography = prepare(Topography(heights, 2.0, "mine"))
-    assert topography.values.tolist() == prepared(prepared(heights, first_degree), periodic="mirror").tolist()
+    topography = prepare_topography(Topography(heights, 2.0, "mine"))
+    assert topography.values.tolist() == prepared(heights, first_degree).tolist()
     assert (topography.spacing, topography.source) == ((2.0,) * heights.ndim, "mine")
 
 
-@pytest.mark.parametrize("setting", ["detrend", "periodic"])
+@pytest.mark.parametrize("setting", ["detrend", "periodic", "level"])
 @pytest.mark.parametrize(("size", "names"), [(1, ["plane", "", 2, ["none"], "Mirror"]), (2, ["tilt", "linear", "", 2])])
 def test_an_unknown_name_is_refused_with_the_names_that_exist(setting: str, size: int, names: list) -> None:
     topography = Topography(np.ones((3,) * size), 1.0, "mine")
     for name in names:
-        error = refusal(setting, "mine", lambda name=name: prepare(topography, **{setting: name}))
-        assert error.value == name and error.allowed.startswith("one of none, ")
+        error = refusal(setting, "mine", lambda name=name: prepare_topography(topography, **{setting: name}))
+        assert error.value == name and error.allowed.startswith("one of none")
+
+
+def test_scan_lines_that_moved_are_levelled() -> None:
+    rng = np.random.default_rng(2)
+    smooth = np.outer(np.sin(np.linspace(0, 3, 40)), np.ones(101)) + np.linspace(0, 1, 101)
+    moved = smooth + rng.normal(size=(40, 1))
+    steps = prepare_topography(Topography(moved, 1.0), "none", level="steps").values
+    assert np.allclose(steps, moved[0])
+    median = prepare_topography(Topography(moved, 1.0), "none", level="median").values
+    assert np.allclose(median, smooth[0] - np.median(smooth[0]))
+
+
+def test_levelling_by_steps_keeps_what_is_wider_than_half_a_row_and_the_first_row() -> None:
+    heights = np.zeros((9, 20))
+    heights[3:6, :15] = 5.0  # an object that most of three rows cross
+    heights[:, 2] += 1e3  # a column that sticks out does not count in medians
+    levelled = prepare_topography(Topography(heights, 1.0), "none", level="steps").values
+    assert np.array_equal(levelled[0], heights[0])
+    assert np.allclose(np.median(np.diff(levelled, axis=0), axis=1), 0)
+
+
+@pytest.mark.parametrize("shape", [(400,), (40, 50)])
+def test_spikes_are_replaced_and_nothing_else(shape: tuple[int, ...]) -> None:
+    rng = np.random.default_rng(3)
+    clean = rng.normal(size=shape)
+    places = tuple(rng.integers(5, size - 5, 6) for size in shape)
+    spoilt = clean.copy()
+    spoilt[places] += np.array([50, -50, 80, 90, -70, 60])
+    found = prepare_topography(Topography(spoilt, 1.0), "none", spikes=8)
+    assert found.spikes == pytest.approx(len(set(zip(*places, strict=True))) / clean.size)
+    assert np.abs(found.values[places]).max() < 4
+    untouched = np.ones(shape, bool)
+    untouched[places] = False
+    assert np.array_equal(found.values[untouched], clean[untouched])
+    again = prepare_topography(found, "none")
+    assert again.spikes == found.spikes
+
+
+def test_heights_without_differences_have_no_spikes() -> None:
+    assert prepare_topography(Topography(np.ones((8, 8)), 1.0), "none", spikes=3).spikes == 0
+
+
+def test_a_threshold_of_spikes_that_is_none_is_refused() -> None:
+    for value in (0, -1, "3", np.nan, True):
+        error = refusal(
+            "spikes", "mine", lambda value=value: prepare_topography(Topography(np.ones(8), 1.0, "mine"), spikes=value)
+        )
+        assert error.allowed.startswith("a positive")

@@ -24,7 +24,7 @@ from contactsim.study.execute import RunFiles
 from contactsim.study.reading import keys_of, read
 from contactsim.study.study import Study
 from contactsim.surfaces.measured import MeasuredSurface
-from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.topography import Topography, read_topography
 from support.cases import refusal
@@ -650,10 +650,12 @@ def test_a_measured_surface_is_detrended_and_made_periodic_by_the_named_options(
     file = str(npy_file(tmp_path, HEIGHTS))
     surface = MeasuredSurface(file, spacing=[DY, DX])
     assert surface.lengths == (4 * DY, 6 * DX)
-    np.testing.assert_array_equal(surface.heights(6), prepare(Topography(HEIGHTS, SPACING)).values)
+    np.testing.assert_array_equal(
+        surface.heights(6), prepare_topography(Topography(HEIGHTS, SPACING), periodic="mirror").values
+    )
     tapered = MeasuredSurface(file, "quadratic", "window", 2.0, "um")
     np.testing.assert_array_equal(
-        tapered.heights(NX), prepare(Topography(HEIGHTS * 1e3, SPACING), "quadratic", "window").values
+        tapered.heights(NX), prepare_topography(Topography(HEIGHTS * 1e3, SPACING), "quadratic", "window").values
     )
     assert tapered.lengths == (2.0 * NY, 2.0 * NX)
 
@@ -696,7 +698,9 @@ def test_a_measured_surface_is_pressed_on_its_own_grid(tmp_path: Path) -> None:
     data = dataset.load_dataset(tmp_path / "run.nc")
     assert data.status == Status.CONVERGED.value[0]
     assert (int(data.points), int(data.points_y), float(data.length), float(data.length_y)) == (30, 46, 15.0, 115.0)
-    assert float(data.rms_height) == pytest.approx(prepare(Topography(heights, SPACING)).values.std(), rel=1e-12)
+    assert float(data.rms_height) == pytest.approx(
+        prepare_topography(Topography(heights, SPACING), periodic="mirror").values.std(), rel=1e-12
+    )
 
 
 def test_a_measured_surface_with_a_hole_stops_the_study(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from contactsim.grid import Array
-from contactsim.surfaces.preparation import prepare
+from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.topography import Topography, read_topography
 
 
@@ -17,8 +17,8 @@ class MeasuredLine:
     ----------
     file, spacing, unit, variable, fill
         As `path` and the options of `contactsim.read_topography`.
-    detrend, periodic
-        As in `contactsim.surfaces.preparation.prepare`.
+    detrend, periodic, spikes
+        As in `contactsim.prepare_topography`; by default a mirror image makes the heights periodic.
     """
 
     file: str
@@ -28,8 +28,10 @@ class MeasuredLine:
     unit: str | None = None
     variable: str | None = None
     fill: str | None = None
+    spikes: float | None = None
     topography: Topography = field(init=False, repr=False)
     modes = None
+    level = "none"
     dimensions = 1
 
     def __post_init__(self) -> None:
@@ -41,7 +43,9 @@ class MeasuredLine:
             variable=self.variable,
             fill=self.fill,
         )
-        object.__setattr__(self, "topography", prepare(raw, self.detrend, self.periodic))
+        object.__setattr__(
+            self, "topography", prepare_topography(raw, self.detrend, self.periodic, self.level, self.spikes)
+        )
 
     @property
     def points(self) -> int:
@@ -68,8 +72,9 @@ class MeasuredLine:
 
 @dataclass(frozen=True)
 class MeasuredSurface(MeasuredLine):
-    """Heights over an area, read from a file and prepared; parameters as those of `MeasuredLine`."""
+    """Heights over an area, read from a file and prepared; parameters as those of `MeasuredLine`, and `level`."""
 
     detrend: str = "plane"
+    level: str = "none"
     spacing: float | list[float] | None = None  # type: ignore[assignment]  # an area may have two
     dimensions = 2

@@ -1,4 +1,4 @@
-"""Preparation of measured heights: form is removed, and the seams are closed for the periodic solvers.
+"""Preparation of measured heights: spikes, scan lines and form are removed, and the seams are closed.
 
 A line and an area are treated alike, direction by direction.
 """
@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from contactsim.errors import InputError
+from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.topography import Topography
@@ -20,6 +20,8 @@ Operations = Mapping[str, Callable[[Array], Array]]
 
 TAPER = 0.1
 """Length of the taper of a window at each end, over the length of the heights."""
+ROBUST = 1.4826
+"""Standard deviation over the median of absolute values, of Gaussian numbers."""
 
 
 def _subtract_fit(degree: int, heights: Array) -> Array:
@@ -37,6 +39,28 @@ def _subtract_fit(degree: int, heights: Array) -> Array:
         fit = np.tensordot(fit, basis, (0, 1))
     remainder: Array = heights - fit
     return remainder
+
+
+def _level_by_median(heights: Array) -> Array:
+    """Return the heights of an area with each row less its median."""
+    return heights - np.median(heights, axis=1, keepdims=True)
+
+
+def _level_by_steps(heights: Array) -> Array:
+    """Return the heights of an area with each row moved until the median of its steps from the row before is zero."""
+    moves = np.cumsum(np.median(np.diff(heights, axis=0), axis=1))
+    return heights - np.concatenate([[0.0], moves])[:, None]
+
+
+def _remove_spikes(heights: Array, threshold: float) -> tuple[Array, float]:
+    """Return the heights with spikes replaced by the median about them, and the share of the points replaced."""
+    from scipy.ndimage import median_filter  # takes longer to import than most files to read
+
+    about = median_filter(heights, size=5 if heights.ndim == 1 else 3, mode="nearest")
+    difference = np.abs(heights - about)
+    spread = ROBUST * float(np.median(difference[difference > 0])) if difference.any() else 0.0
+    spikes = difference > threshold * spread
+    return np.where(spikes, about, heights), float(spikes.mean())
 
 
 def _apply_window(heights: Array) -> Array:
@@ -72,6 +96,12 @@ DETREND: Mapping[int, Operations] = {
 }
 """Ways to remove form, for a line and for an area."""
 
+LEVEL: Mapping[int, Operations] = {
+    1: {"none": np.copy},
+    2: {"none": np.copy, "median": _level_by_median, "steps": _level_by_steps},
+}
+"""Ways to level scan lines, for a line and for an area."""
+
 PERIODIC: Mapping[int, Operations] = {
     1: {"none": np.copy, "window": _apply_window, "mirror": _mirror, "tilt": _tilt},
     2: {"none": np.copy, "window": _apply_window, "mirror": _mirror},
@@ -79,8 +109,14 @@ PERIODIC: Mapping[int, Operations] = {
 """Ways to close the seams, for a line and for an area."""
 
 
-def prepare(topography: Topography, detrend: str | None = None, periodic: str = "mirror") -> Topography:
-    """Return measured heights less their least-squares fit, then made periodic.
+def prepare_topography(
+    topography: Topography,
+    detrend: str | None = None,
+    periodic: str = "none",
+    level: str = "none",
+    spikes: float | None = None,
+) -> Topography:
+    """Return measured heights without spikes, steps between scan lines and form; made periodic if it is asked for.
 
     Parameters
     ----------
@@ -89,31 +125,45 @@ def prepare(topography: Topography, detrend: str | None = None, periodic: str = 
     detrend : str, optional
         "none", "mean", "quadratic", or the fit of first degree, which is the default: "linear" for a line, "plane"
         for an area. A quadratic fit of an area has all of 1, x, y, x², xy and y².
-    periodic : {"mirror", "window", "tilt", "none"}
+    periodic : {"none", "mirror", "window", "tilt"}
+        - "none": the ends do not meet. Where the heights repeat, a step is left at the seam; along a line it adds
+          step²/(n spacing²) to the mean square slope.
         - "mirror": the heights are followed by their mirror image in each direction, n become 2n-2. Slopes are kept.
         - "window": mean-free heights are tapered to zero over 10 % at each end. The rms slope of roughness much
           shorter than the length falls by about 6 % along a line (mean square times 0.875).
         - "tilt", for a line only: the line through both ends is subtracted. The mean square of the n-1 slopes falls
           by that of the line. No plane closes a seam along which heights vary.
-        - "none": a step at the seam stays. Along a line it adds step²/(n spacing²) to the mean square slope.
+    level : {"none", "median", "steps"}
+        How scan lines, the rows of an area, are levelled: "median", each has a median of zero; "steps", the median of
+        the steps from a row to the next is zero, which keeps wide objects.
+    spikes : float, optional
+        Points are replaced that differ from the median of the 5 about them on a line, 3 × 3 over an area, by more than
+        this many robust standard deviations of such differences.
 
     Returns
     -------
     Topography
-        The prepared heights, with the same spacing and source.
+        The prepared heights, with the same spacing and source; `spikes` is the share of points replaced.
 
     Raises
     ------
     InputError
-        If `detrend` or `periodic` is not one of these names.
+        If an option has a value that is not one of these.
     """
-    dimensions = topography.values.ndim
+    heights, dimensions, replaced = topography.values, topography.values.ndim, topography.spikes
+    if spikes is not None:
+        if not is_positive(spikes):
+            raise InputError("spikes", spikes, f"{POSITIVE}, of standard deviations", topography.source)
+        heights, replaced = _remove_spikes(heights, float(spikes))
     if detrend is None:
         detrend = "linear" if dimensions == 1 else "plane"
-    heights = topography.values
-    for key, name, operations in (("detrend", detrend, DETREND), ("periodic", periodic, PERIODIC)):
+    for key, name, operations in (
+        ("level", level, LEVEL),
+        ("detrend", detrend, DETREND),
+        ("periodic", periodic, PERIODIC),
+    ):
         ways = operations[dimensions]
         if not isinstance(name, str) or name not in ways:
             raise InputError(key, name, f"one of {', '.join(ways)}", topography.source)
         heights = ways[name](io.finite_numbers(heights, "heights", topography.source, dims=dimensions))
-    return dataclasses.replace(topography, values=heights)
+    return dataclasses.replace(topography, values=heights, spikes=replaced)

@@ -1,7 +1,7 @@
 """Measured heights along a line or over an area, read so that they can be pressed like synthetic ones.
 
 Heights point up as in the file: the largest touches first (for the other side, negate them). The solvers are periodic
-and a measurement is not: `contactsim.surfaces.preparation.prepare` removes form and closes the seams.
+and a measurement is not: `contactsim.prepare_topography` removes form and closes the seams.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class Topography:
         Distance between points in nm, one for all directions or one for each, x last; kept as a tuple.
     source : str, optional
         Where the heights come from; errors name it.
-    filled : float
-        Share of the points that were missing, and have been filled.
+    filled, spikes : float
+        Share of the points that were missing and have been filled, and of those that were spikes and replaced.
 
     Raises
     ------
@@ -47,6 +47,7 @@ class Topography:
     spacing: tuple[float, ...]
     source: str | None = None
     filled: float = 0.0
+    spikes: float = 0.0
     modes = None
 
     def __post_init__(self) -> None:
