@@ -34,7 +34,7 @@ FLOORS = (
     ("observables",),
     ("paths",),
     ("error_control",),
-    ("simulation", "single_load", "explanation"),
+    ("simulation", "single_load", "transmission", "explanation"),
     ("analysis",),
     ("study",),
     ("evaluation",),

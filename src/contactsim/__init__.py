@@ -6,6 +6,9 @@ from importlib import import_module
 
 PUBLIC = {
     "press": "single_load",
+    "contact_stiffness": "transmission",
+    "conductance": "transmission",
+    "find_patches": "observables.patches",
     "simulate": "simulation",
     "estimate_cost": "simulation",
     "neglect": "simulation",

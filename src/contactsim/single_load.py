@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
@@ -82,8 +83,8 @@ def press(
     Returns
     -------
     Result
-        Pressure, gap and contact, each shaped as heights; relative_contact_area, approach, status, and the record with
-        transforms and certificate.
+        Pressure, gap and contact, each shaped as heights; relative_contact_area, approach, status, the record with
+        transforms and certificate, and the scene that was pressed.
 
     Raises
     ------
@@ -101,7 +102,7 @@ def press(
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
     method: Any = make_solver(solver) if isinstance(solver, str) else solver or default_solver(scene)
     check_solver(method, scene)
-    return solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads))
+    return replace(solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads)), scene=scene)
 
 
 def _repeats(heights: ArrayLike | Topography, thickness: float | None) -> bool:

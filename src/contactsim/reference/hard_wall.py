@@ -144,6 +144,32 @@ def persson_area(reduced_pressure: Array | float) -> Array:
     return erf(np.sqrt(2) * np.asarray(reduced_pressure))
 
 
+def persson_pressure_density(
+    pressure: Array | float, mean_pressure: float, contact_modulus: float, rms_gradient: float
+) -> Array:
+    """Return Persson's density of pressure in contact with a rough surface, over the whole area, 1/GPa.
+
+    Parameters
+    ----------
+    pressure
+        Pressures, 0 or more, GPa.
+    mean_pressure
+        Mean pressure over the whole area, GPa.
+    contact_modulus
+        E*, GPa.
+    rms_gradient
+        Rms gradient of the heights.
+
+    Notes
+    -----
+    A Gaussian about the mean, whose standard deviation E* ḡ/2 is that in full contact, less its mirror image at zero
+    pressure. It integrates to `persson_area`, and its first moment to the mean pressure.
+    """
+    spread = contact_modulus * rms_gradient / 2
+    towards, away = ((np.asarray(pressure) - sign * mean_pressure) / spread for sign in (1, -1))
+    return (np.exp(-(towards**2) / 2) - np.exp(-(away**2) / 2)) / (spread * np.sqrt(2 * np.pi))
+
+
 def line_area(reduced_pressure: Array | float, b1: float, b2: float) -> Array:
     """Relative contact area erf(√2 p*/Ψ), Ψ = b1 + (1 - b1) erf(b2 p*), of a rough line (Eq. 3.11)."""
     pressure = np.asarray(reduced_pressure)

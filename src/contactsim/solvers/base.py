@@ -96,6 +96,8 @@ class Result:
         Cost and quality.
     seconds
         CPU time; apart from the record because it is not reproducible.
+    scene
+        What was pressed, if it was kept.
     """
 
     pressure: Array = field(repr=False)
@@ -104,6 +106,7 @@ class Result:
     status: Status
     record: Record
     seconds: float
+    scene: Scene | None = field(default=None, repr=False)
 
     @property
     def contact(self) -> Array:

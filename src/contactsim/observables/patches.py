@@ -1,0 +1,74 @@
+"""Patches of contact: points in contact that are connected along the grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from contactsim.grid import Array
+
+
+@dataclass(frozen=True)
+class Patches:
+    """Patches of contact of one state.
+
+    Parameters
+    ----------
+    labels : array, shape (n,) or (ny, nx)
+        Number of the patch of each point, from 1; 0 without contact.
+    points : array, shape (patch,)
+        Points of each patch.
+    spans : tuple of bool
+        Whether a patch goes from one end of the heights to the other in each direction, x last.
+    """
+
+    labels: Array = field(repr=False)
+    points: Array
+    spans: tuple[bool, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of patches."""
+        return self.points.size
+
+
+def find_patches(contact: Array, periodic: bool = True) -> Patches:
+    """Return the patches of a contact set.
+
+    Parameters
+    ----------
+    contact : array of bool, shape (n,) or (ny, nx)
+        Points in contact; neighbours along the grid are connected, two on a line and four on a surface.
+    periodic : bool
+        Whether patches go on at the other end.
+    """
+    from scipy.ndimage import label  # takes longer to import than most contacts to label
+
+    alone, count = label(contact)
+    across = [_pairs_across(alone, axis) if periodic else np.zeros((2, 0), int) for axis in range(contact.ndim)]
+    spans = []
+    for axis in range(contact.ndim):
+        others = [pairs for other, pairs in enumerate(across) if other != axis]
+        labels = _merge(alone, count, others)
+        ends = labels.take(0, axis), labels.take(-1, axis)
+        spans.append(bool(np.intersect1d(ends[0][ends[0] > 0], ends[1]).size))
+    labels = _merge(alone, count, across)
+    return Patches(labels, np.bincount(labels.ravel(), minlength=1)[1:], tuple(spans))
+
+
+def _pairs_across(labels: Array, axis: int) -> Array:
+    """Return the labels of points in contact that are neighbours across the period, (2, m)."""
+    ends = np.stack([labels.take(0, axis).ravel(), labels.take(-1, axis).ravel()])
+    return ends[:, (ends > 0).all(0)]
+
+
+def _merge(labels: Array, count: int, pairs: list[Array]) -> Array:
+    """Return labels (from 1 to `count`) in which pairs are one, numbered in the order of their first points."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    one, other = np.concatenate([np.zeros((2, 0), int), *pairs], axis=1)
+    links = coo_array((np.ones(one.size), (one - 1, other - 1)), shape=(count, count))
+    merged = connected_components(links, directed=False)[1] if count else np.zeros(0, int)
+    return np.asarray(np.concatenate([[0], merged + 1])[labels])
