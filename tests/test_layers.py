@@ -34,7 +34,7 @@ FLOORS = (
     ("observables",),
     ("paths",),
     ("error_control",),
-    ("simulation", "single_load", "transmission", "explanation"),
+    ("simulation", "single_load", "transmission", "characterisation", "explanation"),
     ("analysis",),
     ("study",),
     ("evaluation",),

@@ -6,6 +6,7 @@ from importlib import import_module
 
 PUBLIC = {
     "press": "single_load",
+    "characterise": "characterisation",
     "contact_stiffness": "transmission",
     "conductance": "transmission",
     "find_patches": "observables.patches",

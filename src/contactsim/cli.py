@@ -1,9 +1,10 @@
-"""The command line: `contactsim explain | run | estimate | compare | verify`.
+"""The command line: `contactsim explain | run | press | estimate | compare | verify`.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
 `full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a
-study in ./config; without either, `estimate` predicts every figure there. `compare` reads the CSV files of the figures
-in the results folder of ./config. `verify` reads every result there, or in the folder of a tier.
+study in ./config; without either, `estimate` predicts every figure there. `press` takes a file of measured heights.
+`compare` reads the CSV files of the figures in the results folder of ./config. `verify` reads every result there, or in
+the folder of a tier.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Read the command line and call the command; what it needs is imported only then."""
     parser = argparse.ArgumentParser(
         prog="contactsim",
-        description="Explain or simulate a scene, estimate its cost, compare two tiers, or verify results.",
+        description="Explain or simulate a scene, press measured heights, estimate costs, compare or verify results.",
     )
     commands = parser.add_subparsers(required=True)
     explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
@@ -36,6 +37,7 @@ def main(arguments: list[str] | None = None) -> None:
     )
     run.add_argument("--threads", type=int, default=1, help=threads)
     run.set_defaults(command="run_scene")
+    _add_press(commands.add_parser("press", help="press measured heights on a half-space, at one load or several"))
     estimate = commands.add_parser("estimate", help="predict cost and error without simulating")
     estimate.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; default all figures")
     estimate.add_argument("--tier", help="tier of the study or figures, default that of ./config")
@@ -62,3 +64,23 @@ def main(arguments: list[str] | None = None) -> None:
         sys.exit(f"Error: {as_typed(error)}")
     except OSError as error:
         sys.exit(f"Error: {error.filename}: {error.strerror}")
+
+
+def _add_press(press: argparse.ArgumentParser) -> None:
+    """Add the options of `contactsim press`."""
+    press.add_argument("file", help="heights along a line or over an area: npy, npz, csv, txt, xyz, dat, nc, others")
+    press.add_argument("--contact-modulus", type=float, required=True, metavar="E*", help="of the pair, GPa")
+    press.add_argument(
+        "--mean-pressure", type=float, nargs="+", required=True, metavar="P", help="over the length or area, GPa"
+    )
+    press.add_argument("--spacing", type=float, nargs="+", metavar="D", help="of points, nm, or along y and along x")
+    press.add_argument("--unit", help="of what the file states no unit for")
+    press.add_argument("--variable", help="name of the heights in the file")
+    press.add_argument("--fill", help="how missing points are filled: linear, nearest or lowest")
+    press.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
+    press.add_argument("--level", default="none", help="how scan lines are levelled: none, median or steps")
+    press.add_argument("--spikes", type=float, metavar="N", help="standard deviations beyond which a point is replaced")
+    press.add_argument("--periodic", metavar="HOW", help="let the heights repeat: as they are (none), mirror, window")
+    press.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
+    press.add_argument("--output", metavar="FILE", help="dataset to write, .nc")
+    press.set_defaults(command="press_file")

@@ -163,7 +163,7 @@ def _value_text(value: object) -> str:
     if isinstance(value, PurePath):
         return repr(str(value))
     shape = getattr(value, "shape", None)
-    if shape:
+    if shape and isinstance(shape, tuple):
         return f"array of shape {tuple(shape)}"
     try:
         with np.printoptions(legacy="1.25"):  # a number of numpy as a plain one, also within lists

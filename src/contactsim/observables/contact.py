@@ -29,13 +29,15 @@ EDGE_FIT = (1.333, -0.522)
 """Where a straight line leads v steps back, the edge of Westergaard's wave lies at 1.333 v - 0.522 v², to 0.01."""
 
 
-def relative_contact_area_subgrid(pressure: Array, gap: Array) -> float:
+def relative_contact_area_subgrid(pressure: Array, gap: Array, periodic: bool = True) -> float:
     """Return the relative contact area at a hard wall with its edges placed between points.
 
     Parameters
     ----------
     pressure, gap : array, shape (n,) or (ny, nx)
-        A converged solution, periodic, in any units; the edges are calibrated on a half-space.
+        A converged solution, in any units; the edges are calibrated on a half-space.
+    periodic : bool
+        Whether the heights repeat; where they do not, a contact that reaches their end has no edge there.
 
     Notes
     -----
@@ -50,9 +52,10 @@ def relative_contact_area_subgrid(pressure: Array, gap: Array) -> float:
     for axis in range(pressure.ndim):
         for side in (-1, 1):
             edge = np.flatnonzero(contact & ~np.roll(contact, side, axis))
-            area += float(
-                np.sum(_share(edge, axis, flat[0], contact.shape) * _beyond(edge, axis, side, flat, contact.shape))
-            )
+            beyond = _beyond(edge, axis, side, flat, contact.shape)
+            if not periodic:
+                edge, beyond = _within_ends(edge, beyond, axis, side, contact.shape)
+            area += float(np.sum(_share(edge, axis, flat[0], contact.shape) * beyond))
     return area / pressure.size
 
 
@@ -72,6 +75,14 @@ def _beyond(edge: Array, axis: int, side: int, fields: tuple[Array, Array], shap
     back = 1 - np.divide(near, far - near, out=np.zeros_like(near), where=is_regular)
     beyond = np.where(is_regular, EDGE_FIT[0] * back + EDGE_FIT[1] * back**2, np.mean(EDGES))
     return np.clip(beyond, *EDGES) - 0.5
+
+
+def _within_ends(edge: Array, beyond: Array, axis: int, side: int, shape: tuple[int, ...]) -> tuple[Array, Array]:
+    """Return the edges that do not lie at the end of the heights; one step before it an edge counts at the mean."""
+    along = edge // int(np.prod(shape[axis + 1 :], dtype=int)) % shape[axis]
+    left = along if side > 0 else shape[axis] - 1 - along  # steps to the end
+    beyond = np.where(left == 1, np.mean(EDGES) - 0.5, beyond)
+    return edge[left > 0], beyond[left > 0]
 
 
 def _share(edge: Array, axis: int, pressure: Array, shape: tuple[int, ...]) -> Array:

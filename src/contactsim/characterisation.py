@@ -1,0 +1,120 @@
+"""Characterise the contact of a surface at several loads: area, gap, stiffness and patches, each with its error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contactsim.dataset import describe
+from contactsim.errors import InputError, Words, is_number
+from contactsim.grid import Array
+from contactsim.observables.contact import relative_contact_area_subgrid
+from contactsim.observables.patches import find_patches
+from contactsim.single_load import press
+from contactsim.solvers.base import Result
+from contactsim.surfaces.topography import Topography
+from contactsim.traits import Trait
+from contactsim.transmission import contact_stiffness
+
+FEWEST = 8
+"""Fewest points each way: half of them make the coarser grid."""
+
+
+def characterise(
+    topography: Topography,
+    *,
+    contact_modulus: float,
+    mean_pressures: Sequence[float],
+    tolerance: float = 1e-4,
+    threads: int = 1,
+    **options: Any,
+) -> xr.Dataset:
+    """Press a surface at several loads and return what the contact transmits, with its error.
+
+    All is done once more with every second point. The change is the error: of the grid where the heights are resolved,
+    and where they are rough down to the spacing, what finer points would add. An error as large as the number says that
+    the spacing decides it.
+
+    Parameters
+    ----------
+    topography : Topography
+        Heights of a body, 8 points or more each way, nm.
+    contact_modulus : float
+        E* of the pair, GPa.
+    mean_pressures : sequence of float
+        Mean pressures, GPa.
+    tolerance : float
+        Gap in contact and overlap outside, in grid steps.
+    threads : int
+        Threads of the transforms.
+    **options
+        Further options of `contactsim.press`: `periodic`, `thickness`, `poisson_ratio`, `solver`.
+
+    Returns
+    -------
+    xarray.Dataset
+        With dimension `mean_pressure`: relative contact area with edges between points, approach, mean gap, largest
+        pressure, contact stiffness, number of patches, and status; without it rms height and gradient, E*, and the
+        lengths of the heights. The error of a number is that with `_grid_error` behind its name.
+
+    Raises
+    ------
+    InputError
+        For an input that cannot be used.
+    """
+    if not isinstance(topography, Topography) or min(topography.values.shape) < FEWEST:
+        given = Words(f"shape {topography.values.shape}") if isinstance(topography, Topography) else topography
+        raise InputError("topography", given, f"a Topography of {FEWEST} points or more each way")
+    pressures = np.atleast_1d(np.asarray(mean_pressures, object))
+    if pressures.ndim != 1 or not pressures.size or not all(is_number(value) and value > 0 for value in pressures):
+        raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
+    options |= {"contact_modulus": contact_modulus, "tolerance": tolerance, "threads": threads}
+    fine, coarse = (
+        _numbers_at(surface, pressures.astype(float), options) for surface in (topography, _every_second(topography))
+    )
+    names = (*NUMBERS[:-1], "rms_height", "rms_gradient")
+    errors = {f"{name}_grid_error": abs(fine[name] - coarse[name]) for name in names}
+    sizes = zip(("length", "length_y"), topography.lengths[::-1], strict=False)
+    return describe(fine.assign(errors).assign({"contact_modulus": contact_modulus, **dict(sizes)}))
+
+
+def _every_second(topography: Topography) -> Topography:
+    """Return a topography with every second point in each direction."""
+    values = topography.values[(slice(None, None, 2),) * topography.values.ndim]
+    return replace(topography, values=values, spacing=tuple(2 * step for step in topography.spacing))
+
+
+def _numbers_at(topography: Topography, pressures: Array, options: dict[str, Any]) -> xr.Dataset:
+    """Return the numbers at each load."""
+    rows = [_numbers(press(topography, mean_pressure=float(pressure), **options)) for pressure in pressures]
+    data = xr.Dataset({name: ("mean_pressure", [row[name] for row in rows]) for name in rows[0]})
+    slopes = [np.diff(topography.values, axis=axis) / step for axis, step in enumerate(topography.spacing)]
+    data["rms_gradient"] = np.sqrt(sum(np.mean(slope**2) for slope in slopes))
+    data["rms_height"] = np.std(topography.values)
+    return data.assign_coords(mean_pressure=pressures)
+
+
+def _numbers(result: Result) -> dict[str, Any]:
+    """Return the numbers of a state; NaN where it did not converge."""
+    assert result.scene is not None  # `press` keeps it
+    periodic = Trait.FREE not in result.scene.traits
+    status = np.int8(result.status.value[0])
+    if not result.status.solved:
+        return {**dict.fromkeys(NUMBERS, np.nan), "status": status}
+    numbers = (
+        relative_contact_area_subgrid(result.pressure, result.gap, periodic),
+        result.approach,
+        float(result.gap.mean()),
+        float(result.pressure.max()),
+        contact_stiffness(result),
+        find_patches(result.contact, periodic).count,
+    )
+    return {**dict(zip(NUMBERS, numbers, strict=True)), "status": status}
+
+
+NUMBERS = ("relative_contact_area_subgrid", "approach", "mean_gap", "max_pressure", "contact_stiffness", "patches")
+"""Numbers of a state."""

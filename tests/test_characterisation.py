@@ -1,0 +1,136 @@
+"""What a contact transmits at several loads, with the change on halving the grid as its error."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import get_data_path
+
+import contactsim as cs
+from contactsim.cli import main
+from contactsim.figures.characterisation import plot_characterisation
+from contactsim.observables.contact import relative_contact_area_subgrid
+from support.cases import refused
+
+LOADS = [0.01, 0.1, 0.3]
+ELEVATION = f"{get_data_path()}/sample_data/jacksboro_fault_dem.npz"
+"""An elevation model that comes with matplotlib."""
+
+
+def surface(points=128):
+    """Return a smooth rough surface."""
+    length = float(points)
+    heights = cs.SelfAffine(length, 0.8, length / 4, 16.0, 1.0, dimensions=2, seed=1).heights(points)
+    return cs.Topography(heights, 1.0)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_numbers_are_those_of_single_loads_and_errors_the_change_on_every_second_point(periodic):
+    whole = surface()
+    data = cs.characterise(whole, contact_modulus=1.0, mean_pressures=LOADS, periodic=periodic)
+    half = cs.Topography(whole.values[::2, ::2], 2.0)
+    for load in LOADS:
+        at = data.sel(mean_pressure=load)
+        results = [
+            cs.press(heights, contact_modulus=1.0, mean_pressure=load, tolerance=1e-4, periodic=periodic)
+            for heights in (whole, half)
+        ]
+        for name, read in {
+            "approach": lambda result: result.approach,
+            "mean_gap": lambda result: result.gap.mean(),
+            "max_pressure": lambda result: result.pressure.max(),
+            "contact_stiffness": cs.contact_stiffness,
+            "relative_contact_area_subgrid": lambda result: relative_contact_area_subgrid(
+                result.pressure, result.gap, periodic
+            ),
+        }.items():
+            fine, coarse = map(read, results)
+            assert at[name] == pytest.approx(fine, rel=1e-12)
+            assert at[f"{name}_grid_error"] == pytest.approx(abs(fine - coarse), rel=1e-9)
+        assert at.patches == cs.find_patches(results[0].contact, periodic).count
+    assert data.contact_stiffness.attrs["units"] == "GPa/nm"
+    assert data.rms_height == pytest.approx(whole.values.std())
+
+
+def test_its_errors_hold_on_finer_grids():
+    """Of a surface that is smooth at the spacing, numbers on four times the points are within the errors."""
+    waves = cs.SelfAffine(128.0, 0.8, 32.0, 16.0, 1.0, dimensions=2, seed=1)
+    one, two = (
+        cs.characterise(
+            cs.Topography(waves.heights(points), 128.0 / points),
+            contact_modulus=1.0,
+            mean_pressures=[0.1],
+            periodic=True,
+        )
+        for points in (128, 512)
+    )
+    for name in ("relative_contact_area_subgrid", "contact_stiffness", "mean_gap", "max_pressure"):
+        assert abs(one[name] - two[name]) <= one[f"{name}_grid_error"], name
+
+
+def test_a_contact_at_the_ends_has_no_edge_there():
+    pressure = np.array([1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 0.5, 1.0])
+    gap = np.array([0.0, 0.0, 0.0, 0.1, 0.3, 0.1, 0.0, 0.0])
+    assert relative_contact_area_subgrid(pressure, gap, periodic=False) == relative_contact_area_subgrid(pressure, gap)
+    cut_pressure, cut_gap = pressure[:5], gap[:5]
+    one_side = (relative_contact_area_subgrid(pressure, gap) * 8 - 5) / 2 + 3
+    assert relative_contact_area_subgrid(cut_pressure, cut_gap, periodic=False) * 5 == pytest.approx(one_side)
+    near = np.array([1.0, 1.0, 0.5, 0.0])  # no second point beyond the edge
+    assert relative_contact_area_subgrid(near, np.array([0, 0, 0, 0.1]), periodic=False) * 4 == pytest.approx(2.81)
+
+
+def test_what_cannot_be_characterised_is_refused():
+    for topography, pressures, key in (
+        (np.zeros((9, 9)), LOADS, "topography"),
+        (cs.Topography(np.zeros((9, 7)), 1.0), LOADS, "topography"),
+        (surface(), [], "mean_pressures"),
+        (surface(), [0.0], "mean_pressures"),
+        (surface(), "0.1", "mean_pressures"),
+        (surface(), [[0.1]], "mean_pressures"),
+    ):
+        with refused(key, ""):
+            cs.characterise(topography, contact_modulus=1.0, mean_pressures=pressures)
+
+
+def test_from_a_file_to_a_figure_in_one_command(tmp_path, capsys):
+    figure, output = tmp_path / "contact.png", tmp_path / "contact.nc"
+    loads = ["--contact-modulus", "70", "--mean-pressure", "0.1", "1"]
+    stated = ["--variable", "elevation", "--unit", "m", "--spacing", "3e10"]
+    main(["press", ELEVATION, *loads, *stated, "--figure", str(figure), "--output", str(output)])
+    text = capsys.readouterr().out
+    assert "344 × 403 points" in text
+    assert text.count("converged") == 2
+    assert figure.stat().st_size > 10_000
+    with xr.open_dataset(output) as data:
+        assert data.mean_pressure.values.tolist() == [0.1, 1.0]
+        assert float(data.contact_stiffness[0]) > 0
+        assert f"{float(data.mean_gap[0]):.3e}".split("e")[0] in text.replace("(", "")
+
+
+def test_the_command_tells_what_it_repaired_and_what_it_cannot_read(tmp_path, capsys):
+    heights = np.random.default_rng(0).normal(size=(20, 20))
+    heights[3, 4], heights[5, 6] = np.nan, 100.0
+    np.save(tmp_path / "scan.npy", heights)
+    loads = ["--contact-modulus", "1", "--mean-pressure", "0.1", "--spacing", "1", "2"]
+    main(["press", str(tmp_path / "scan.npy"), *loads, "--fill", "linear", "--spikes", "8", "--periodic", "mirror"])
+    text = capsys.readouterr().out
+    assert "38 × 38 points on 38 × 76 nm" in text
+    assert "0.25% of the points filled; 0.25% of the points replaced as spikes" in text
+    for options, message in (
+        ([], "fill"),
+        (["--fill", "linear", "--figure", "contact.jpg"], "--figure: got 'contact.jpg'"),
+        (["--fill", "linear", "--level", "plane"], "level: got 'plane'"),
+    ):
+        with pytest.raises(SystemExit, match=message):
+            main(["press", str(tmp_path / "scan.npy"), *loads, *options])
+
+
+def test_the_figure_has_four_panels_with_bars():
+    data = cs.characterise(surface(), contact_modulus=1.0, mean_pressures=LOADS, periodic=True)
+    panels = plot_characterisation(data).axes
+    assert len(panels) == 4
+    assert all(axes.containers[0].has_yerr for axes in panels)
+    assert panels[0].get_legend() is not None
+    line = cs.characterise(cs.Topography(surface().values[0], 1.0), contact_modulus=1.0, mean_pressures=LOADS)
+    assert plot_characterisation(line).axes[0].get_legend() is None  # Persson's theory is of surfaces
