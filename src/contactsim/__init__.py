@@ -50,6 +50,7 @@ PUBLIC = {
     "InputError": "errors",
     "load_dataset": "dataset",
     "plot": "figures.plot",
+    "plot_characterisation": "figures.characterisation",
 }
 """Module of each public name; it is imported when the name is first used."""
 MODULES = ("reference",)
