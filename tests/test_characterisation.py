@@ -11,6 +11,7 @@ import contactsim as cs
 from contactsim.cli import main
 from contactsim.figures.characterisation import plot_characterisation
 from contactsim.observables.contact import relative_contact_area_subgrid
+from contactsim.status import FLAGS
 from support.cases import refused
 
 LOADS = [0.01, 0.1, 0.3]
@@ -69,6 +70,18 @@ def test_its_errors_hold_on_finer_grids():
         assert abs(one[name] - two[name]) <= one[f"{name}_grid_error"], name
 
 
+def test_what_would_yield_and_slopes_that_are_too_large_are_told():
+    whole = surface()
+    data = cs.characterise(whole, contact_modulus=1.0, mean_pressures=[0.1], hardness=0.5, periodic=True)
+    pressure = cs.press(whole, contact_modulus=1.0, mean_pressure=0.1, tolerance=1e-4, periodic=True).pressure
+    assert data.yielding_share[0] == pytest.approx((pressure > 0.5).sum() / (pressure > 0).sum(), abs=1e-3)
+    assert int(data.validity_flags) == FLAGS["rms_gradient"]
+    gentle = cs.Topography(whole.values / 10, 1.0)
+    assert not cs.characterise(gentle, contact_modulus=1.0, mean_pressures=[0.1]).validity_flags
+    with refused("hardness", "a positive"):
+        cs.characterise(whole, contact_modulus=1.0, mean_pressures=[0.1], hardness=0.0)
+
+
 def test_a_contact_at_the_ends_has_no_edge_there():
     pressure = np.array([1.0, 1.0, 0.5, 0.0, 0.0, 0.0, 0.5, 1.0])
     gap = np.array([0.0, 0.0, 0.0, 0.1, 0.3, 0.1, 0.0, 0.0])
@@ -97,8 +110,11 @@ def test_from_a_file_to_a_figure_in_one_command(tmp_path, capsys):
     figure, output = tmp_path / "contact.png", tmp_path / "contact.nc"
     loads = ["--contact-modulus", "70", "--mean-pressure", "0.1", "1"]
     stated = ["--variable", "elevation", "--unit", "m", "--spacing", "3e10"]
-    main(["press", ELEVATION, *loads, *stated, "--figure", str(figure), "--output", str(output)])
+    wanted = ["--hardness", "30", "--figure", str(figure), "--output", str(output)]
+    main(["press", ELEVATION, *loads, *stated, *wanted])
     text = capsys.readouterr().out
+    assert "Beyond what the model holds for: rms slope up to 0.82 (limit 0.45) in all" in text
+    assert "of the contact" in text
     assert "344 × 403 points" in text
     assert text.count("converged") == 2
     assert figure.stat().st_size > 10_000

@@ -10,12 +10,13 @@ import numpy as np
 import xarray as xr
 
 from contactsim.dataset import describe
-from contactsim.errors import InputError, Words, is_number
+from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positive
 from contactsim.grid import Array
 from contactsim.observables.contact import relative_contact_area_subgrid
 from contactsim.observables.patches import find_patches
 from contactsim.single_load import press
 from contactsim.solvers.base import Result
+from contactsim.status import validity_flags
 from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
 from contactsim.transmission import contact_stiffness
@@ -29,6 +30,7 @@ def characterise(
     *,
     contact_modulus: float,
     mean_pressures: Sequence[float],
+    hardness: float | None = None,
     tolerance: float = 1e-4,
     threads: int = 1,
     **options: Any,
@@ -47,6 +49,9 @@ def characterise(
         E* of the pair, GPa.
     mean_pressures : sequence of float
         Mean pressures, GPa.
+    hardness : float, optional
+        Pressure above which the softer body yields, GPa. Pressures stay elastic; the share of the contact is told that
+        would yield.
     tolerance : float
         Gap in contact and overlap outside, in grid steps.
     threads : int
@@ -58,8 +63,9 @@ def characterise(
     -------
     xarray.Dataset
         With dimension `mean_pressure`: relative contact area with edges between points, approach, mean gap, largest
-        pressure, contact stiffness, number of patches, and status; without it rms height and gradient, E*, and the
-        lengths of the heights. The error of a number is that with `_grid_error` behind its name.
+        pressure, contact stiffness, yielding share with a hardness, number of patches, and status; without it rms
+        height and gradient, E*, lengths of the heights, and `validity_flags`, which tell if slopes are too large for
+        linear elasticity. The error of a number is that with `_grid_error` behind its name.
 
     Raises
     ------
@@ -72,11 +78,15 @@ def characterise(
     pressures = np.atleast_1d(np.asarray(mean_pressures, object))
     if pressures.ndim != 1 or not pressures.size or not all(is_number(value) and value > 0 for value in pressures):
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
+    if not (hardness is None or is_positive(hardness)):
+        raise InputError("hardness", hardness, f"{POSITIVE}, in GPa")
     options |= {"contact_modulus": contact_modulus, "tolerance": tolerance, "threads": threads}
     fine, coarse = (
-        _numbers_at(surface, pressures.astype(float), options) for surface in (topography, _every_second(topography))
+        _numbers_at(surface, pressures.astype(float), hardness, options)
+        for surface in (topography, _every_second(topography))
     )
-    names = (*NUMBERS[:-1], "rms_height", "rms_gradient")
+    fine["validity_flags"] = np.int8(validity_flags({"rms_gradient": float(fine.rms_gradient)}))
+    names = [str(name) for name in fine if name not in ("status", "patches", "validity_flags")]
     errors = {f"{name}_grid_error": abs(fine[name] - coarse[name]) for name in names}
     sizes = zip(("length", "length_y"), topography.lengths[::-1], strict=False)
     return describe(fine.assign(errors).assign({"contact_modulus": contact_modulus, **dict(sizes)}))
@@ -88,9 +98,11 @@ def _every_second(topography: Topography) -> Topography:
     return replace(topography, values=values, spacing=tuple(2 * step for step in topography.spacing))
 
 
-def _numbers_at(topography: Topography, pressures: Array, options: dict[str, Any]) -> xr.Dataset:
+def _numbers_at(
+    topography: Topography, pressures: Array, hardness: float | None, options: dict[str, Any]
+) -> xr.Dataset:
     """Return the numbers at each load."""
-    rows = [_numbers(press(topography, mean_pressure=float(pressure), **options)) for pressure in pressures]
+    rows = [_numbers(press(topography, mean_pressure=float(pressure), **options), hardness) for pressure in pressures]
     data = xr.Dataset({name: ("mean_pressure", [row[name] for row in rows]) for name in rows[0]})
     slopes = [np.diff(topography.values, axis=axis) / step for axis, step in enumerate(topography.spacing)]
     data["rms_gradient"] = np.sqrt(sum(np.mean(slope**2) for slope in slopes))
@@ -98,22 +110,25 @@ def _numbers_at(topography: Topography, pressures: Array, options: dict[str, Any
     return data.assign_coords(mean_pressure=pressures)
 
 
-def _numbers(result: Result) -> dict[str, Any]:
+def _numbers(result: Result, hardness: float | None) -> dict[str, Any]:
     """Return the numbers of a state; NaN where it did not converge."""
+    names = NUMBERS if hardness is None else (*NUMBERS, "yielding_share")
     assert result.scene is not None  # `press` keeps it
     periodic = Trait.FREE not in result.scene.traits
     status = np.int8(result.status.value[0])
     if not result.status.solved:
-        return {**dict.fromkeys(NUMBERS, np.nan), "status": status}
-    numbers = (
+        return {**dict.fromkeys(names, np.nan), "status": status}
+    numbers = [
         relative_contact_area_subgrid(result.pressure, result.gap, periodic),
         result.approach,
         float(result.gap.mean()),
         float(result.pressure.max()),
         contact_stiffness(result),
         find_patches(result.contact, periodic).count,
-    )
-    return {**dict(zip(NUMBERS, numbers, strict=True)), "status": status}
+    ]
+    if hardness is not None:
+        numbers.append(float((result.pressure[result.contact] > hardness).mean()))
+    return {**dict(zip(names, numbers, strict=True)), "status": status}
 
 
 NUMBERS = ("relative_contact_area_subgrid", "approach", "mean_gap", "max_pressure", "contact_stiffness", "patches")

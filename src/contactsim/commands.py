@@ -25,7 +25,7 @@ from contactsim.observables.dataset_forms import form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Accuracy, Setup
-from contactsim.status import Status, is_solved
+from contactsim.status import Status, describe_excess, is_solved
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
 from contactsim.study.keys import ERROR_RUNS
@@ -193,6 +193,7 @@ def press_file(options: argparse.Namespace) -> None:
         heights,
         contact_modulus=options.contact_modulus,
         mean_pressures=options.mean_pressure,
+        hardness=options.hardness,
         periodic=options.periodic is not None,
     )
     sys.stdout.write(f"{_describe_heights(heights, data)}\n{_press_table(data)}\n")
@@ -217,19 +218,29 @@ def _describe_heights(heights: Topography, data: xr.Dataset) -> str:
     text += f", rms gradient {_with_error(data, 'rms_gradient')}"
     for share, what in ((heights.filled, "filled"), (heights.spikes, "replaced as spikes")):
         text += f"; {share:.2%} of the points {what}" if share else ""
-    return text
+    return "\n".join([text, *(f"Beyond what the model holds for: {words}" for words in describe_excess(data))])
+
+
+PRESSED = {
+    "relative_contact_area_subgrid": ("area", ""),
+    "contact_stiffness": ("stiffness", "GPa/nm"),
+    "mean_gap": ("mean gap", "nm"),
+    "max_pressure": ("largest pressure", "GPa"),
+    "yielding_share": ("yielding", "of the contact"),
+}
+"""Numbers that are printed of heights that were pressed: their heads and units."""
 
 
 def _press_table(data: xr.Dataset) -> str:
     """Return a line for each load: its numbers, each with its error."""
-    names = ("relative_contact_area_subgrid", "contact_stiffness", "mean_gap", "max_pressure")
-    heads = ["pressure", "area", "stiffness", "mean gap", "largest pressure", "patches", "status"]
-    units = ["GPa", "", "GPa/nm", "nm", "GPa", "", ""]
+    shown = {name: words for name, words in PRESSED.items() if name in data}
+    heads, units = (list(column) for column in zip(("pressure", "GPa"), *shown.values(), strict=True))
+    heads, units = [*heads, "patches", "status"], [*units, "", ""]
     words = {status.value[0]: status.name.lower() for status in Status}
     rows = [
         [
             f"{float(load.mean_pressure):.4g}",
-            *(_with_error(load, name) for name in names),
+            *(_with_error(load, name) for name in shown),
             f"{float(load.patches):.0f}",
             words[int(load.status)],
         ]
