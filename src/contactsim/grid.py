@@ -22,6 +22,8 @@ Array = NDArray[Any]
 
 MAX_POINTS = 2**30
 """Most points of a grid: one field of them takes 8 GiB."""
+MAX_THREADS = 1024
+"""Most threads of a transform."""
 PADDING = 8
 """Extra columns of a wide field: transforms are several times slower if rows start a power of two apart."""
 BLOCK = 2**20
@@ -65,8 +67,12 @@ class Grid:
             raise InputError("points", max(self.shape), f"at most {MAX_POINTS} points of the whole grid")
         if any(not (np.isfinite(length) and length > 0) for length in self.lengths):
             raise InputError("length", self.lengths, "a positive, finite period in nm")
-        if isinstance(self.threads, bool) or not isinstance(self.threads, int | np.integer) or self.threads < 1:
-            raise InputError("threads", self.threads, "a whole number, 1 or more")
+        if (
+            isinstance(self.threads, bool)
+            or not isinstance(self.threads, int | np.integer)
+            or not 1 <= self.threads <= MAX_THREADS
+        ):
+            raise InputError("threads", self.threads, f"a whole number, 1 to {MAX_THREADS}")
 
     @cached_property
     def size(self) -> int:

@@ -55,7 +55,8 @@ def press(
         E* of the pair, 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂; of one elastic body E/(1-ν²).
     offset : int or (int, int), optional
         Whole points by which the other body is moved, along x or along (y, x). Periodic heights come in again at the
-        other end; of others only the part that faces each other is pressed.
+        other end. Of others only the part that faces each other is pressed: the result has its shape, and the mean
+        pressure is over it.
     spacing : float or (float, float), optional
         Distance between points; of a surface one number, or those along y and along x. A topography has its own.
     mean_pressure : float, optional
@@ -76,54 +77,60 @@ def press(
     threads : int
         Threads of the transforms.
     periodic : bool, optional
-        True: the heights repeat in each direction; the default of an array. False: they are alone on a half-space,
-        which bears no load elsewhere; the default of a topography, since a measurement does not repeat. Far away the
-        half-space does not move; on a line, by convention, a line load moves nothing at the distance of its length.
+        True: the heights repeat in each direction; the default of an array, on a layer, and of a topography that was
+        made periodic. False: they are alone on a half-space, which bears no load elsewhere; the default of any other
+        topography. Far away the half-space does not move; on a line, by convention, a line load moves nothing at the
+        distance of the length that is pressed.
 
     Returns
     -------
     Result
-        Pressure, gap and contact, each shaped as heights; relative_contact_area, approach, status, the record with
-        transforms and certificate, and the scene that was pressed.
+        Pressure, gap and contact, each shaped as the heights pressed; relative_contact_area, approach, status, the
+        record with transforms and certificate, and the scene that was pressed.
 
     Raises
     ------
     InputError
         For an input that cannot be used.
     """
-    surface = _read_heights(heights, spacing)
-    step = load_step(approach, mean_pressure, "load")
     repeats = _repeats(heights, thickness) if periodic is None else periodic
+    if not isinstance(repeats, bool | np.bool_):
+        raise InputError("periodic", periodic, "True or False")
+    measured = [body for body in (heights, other) if isinstance(body, Topography)]
+    if measured and spacing is not None:
+        raise InputError("spacing", spacing, "none: a topography has its own")
+    shared: Any = measured[0].spacing if measured else spacing
+    surface = _read_heights(heights, shared, "heights")
+    step = load_step(approach, mean_pressure, "load")
     if other is not None:
-        surface = add_heights(surface, _read_heights(other, spacing, "other"), offset, repeats)
+        surface = add_heights(surface, _read_heights(other, shared, "other"), offset, bool(repeats))
     elif offset is not None:
         raise InputError("offset", offset, "none without the heights of another body")
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio, repeats)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
-    method: Any = make_solver(solver) if isinstance(solver, str) else solver or default_solver(scene)
+    method: Any = make_solver(solver) if isinstance(solver, str) else solver
+    method = default_solver(scene) if method is None else method
     check_solver(method, scene)
     return replace(solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads)), scene=scene)
 
 
 def _repeats(heights: ArrayLike | Topography, thickness: float | None) -> bool:
-    """Return whether heights repeat, unless it is said: all but a topography on a half-space do."""
-    return thickness is not None or not isinstance(heights, Topography)
+    """Return whether heights repeat, unless it is said: all but those of a measurement on a half-space do."""
+    return thickness is not None or not isinstance(heights, Topography) or heights.periodic
 
 
 def _read_heights(
-    heights: ArrayLike | Topography, spacing: float | tuple[float, float] | None, name: str = "heights"
+    heights: ArrayLike | Topography, spacing: float | tuple[float, float] | None, name: str
 ) -> Topography:
-    """Return checked heights, of a line or of a surface."""
+    """Return checked heights, of a line or of a surface; name: of the argument."""
     if isinstance(heights, Topography):
-        if spacing is not None:
-            raise InputError("spacing", spacing, "none: a topography has its own")
         return heights
     if np.ma.is_masked(heights):
         raise InputError(name, heights, "finite numbers, none missing; these are masked in part")
     try:
         return Topography(np.asarray(heights), cast("tuple[float, ...]", spacing))  # it reads one number as all
-    except InputError:
-        raise
+    except InputError as error:
+        raise error.renamed("heights", name) from error
     except ValueError as error:
         raise InputError(name, heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
 
@@ -132,8 +139,6 @@ def _elasticity(
     contact_modulus: float, thickness: float | None, poisson_ratio: float | None, periodic: bool
 ) -> Elasticity:
     """Return a layer, or a half-space where there is no thickness."""
-    if not isinstance(periodic, bool | np.bool_):
-        raise InputError("periodic", periodic, "True or False")
     if thickness is not None:
         if not periodic:
             raise InputError("periodic", periodic, "True for a layer: its response without images is not known")

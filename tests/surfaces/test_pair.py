@@ -41,6 +41,15 @@ def test_of_two_scans_the_part_that_faces_each_other_is_pressed(move):
     assert np.array_equal(result.pressure, cs.press(cs.Topography(heights, 2.0), **LOAD).pressure)
 
 
+def test_an_array_takes_the_spacing_of_the_topography_beside_it():
+    first, second = np.random.default_rng(0).normal(size=(2, 12, 10))
+    both = cs.press(cs.Topography(first, 2.0), cs.Topography(second, 2.0), offset=np.array([1, 2]), **LOAD)
+    for pair in ((cs.Topography(first, 2.0), second), (first, cs.Topography(second, 2.0))):
+        one = cs.press(*pair, offset=(1, 2), periodic=False, **LOAD)
+        assert np.array_equal(one.pressure, both.pressure)
+    assert both.pressure.shape == (11, 8)
+
+
 def test_bodies_that_do_not_fit_are_refused():
     line, area = np.zeros(16), np.zeros((16, 16))
     for key, allowed, other, options in (
@@ -54,6 +63,11 @@ def test_bodies_that_do_not_fit_are_refused():
     ):
         with refused(key, allowed):
             cs.press(line, other, spacing=1.0, **LOAD, **options)
+    for other in ([], np.full(16, np.nan), ["a", "b"]):
+        with refused("other", ""):
+            cs.press(line, other, spacing=1.0, **LOAD)
+    with refused("periodic", "True or False"):
+        cs.press(line, line[:8], periodic="no", spacing=1.0, **LOAD)
     with refused("offset", "a pair of whole points"):
         cs.press(area, area, offset=1, spacing=1.0, **LOAD)
     with refused("other", "that of heights, (1.0,)"):

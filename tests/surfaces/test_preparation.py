@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
+from contactsim.errors import InputError
 from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.topography import Topography
 from support.cases import refusal
@@ -136,13 +137,31 @@ def test_scan_lines_that_moved_are_levelled() -> None:
     assert np.allclose(median, smooth[0] - np.median(smooth[0]))
 
 
-def test_levelling_by_steps_keeps_what_is_wider_than_half_a_row_and_the_first_row() -> None:
-    heights = np.zeros((9, 20))
-    heights[3:6, :15] = 5.0  # an object that most of three rows cross
-    heights[:, 2] += 1e3  # a column that sticks out does not count in medians
-    levelled = prepare_topography(Topography(heights, 1.0), "none", level="steps").values
-    assert np.array_equal(levelled[0], heights[0])
-    assert np.allclose(np.median(np.diff(levelled, axis=0), axis=1), 0)
+def test_levelling_by_steps_keeps_a_wide_object_with_oblique_edges_which_medians_do_not() -> None:
+    y, x = np.ogrid[:40, :100]
+    heights = np.where(np.abs(x - 50) < 2.0 * y, 5.0, 0.0)  # a triangle, four fifths of a row wide in the end
+    rng = np.random.default_rng(5)
+    moved = Topography(heights + rng.normal(size=(40, 1)), 1.0)
+    steps = prepare_topography(moved, "none", level="steps").values
+    assert np.allclose(steps - steps[0, 0], heights)
+    median = prepare_topography(moved, "none", level="median").values
+    assert not np.allclose(median - median[0, 0], heights)
+
+
+def test_what_is_made_periodic_says_so() -> None:
+    raw = Topography(np.random.default_rng(6).normal(size=32), 1.0)
+    assert not prepare_topography(raw).periodic
+    closed = prepare_topography(raw, periodic="window")
+    assert closed.periodic
+    assert prepare_topography(closed, "none").periodic
+
+
+def test_what_is_no_topography_is_refused() -> None:
+    for value in (np.zeros(9), None, "scan.npy"):
+        with pytest.raises(InputError, match=r"topography: got .*; allowed: a Topography"):
+            prepare_topography(value)
+    with pytest.raises(InputError, match="spike: got 3; allowed: no such option"):
+        prepare_topography(Topography(np.zeros(9), 1.0), spike=3)
 
 
 @pytest.mark.parametrize("shape", [(400,), (40, 50)])
@@ -160,6 +179,15 @@ def test_spikes_are_replaced_and_nothing_else(shape: tuple[int, ...]) -> None:
     assert np.array_equal(found.values[untouched], clean[untouched])
     again = prepare_topography(found, "none")
     assert again.spikes == found.spikes
+
+
+@pytest.mark.parametrize("digits", [0, 1])
+def test_a_spike_on_heights_that_are_flat_or_of_few_digits_is_replaced(digits: int) -> None:
+    heights = np.round(digits * np.random.default_rng(7).normal(size=(40, 40)) / 2)
+    heights[10, 10], heights[20, 30] = 1000.0, -2000.0
+    found = prepare_topography(Topography(heights, 1.0), "none", spikes=10)
+    assert found.spikes == 2 / 1600
+    assert np.abs(found.values).max() <= 3
 
 
 def test_heights_without_differences_have_no_spikes() -> None:

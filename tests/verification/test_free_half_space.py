@@ -77,6 +77,23 @@ def test_an_approach_of_a_line_is_counted_from_its_length():
     assert press(heights, approach=loaded.approach, tolerance=1e-6).mean_pressure == pytest.approx(0.2, rel=1e-6)
 
 
+@pytest.mark.parametrize("heights", [np.zeros(3), np.zeros(40), rough(64)], ids=["few", "flat", "rough"])
+def test_a_line_in_full_contact_approaches_as_it_is_loaded(heights):
+    loaded = press(heights, mean_pressure=300.0)
+    assert loaded.contact.all()
+    approached = press(heights, approach=loaded.approach)
+    assert approached.contact.all()
+    assert approached.mean_pressure == pytest.approx(300.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("shape", [(512,), (4096,), (300, 300)])
+def test_what_is_flat_all_over_is_solved_to_the_default_tolerance(shape):
+    result = cs.press(np.zeros(shape), spacing=1.0, contact_modulus=1.0, mean_pressure=0.1, periodic=False)
+    assert result.status is Status.CONVERGED
+    assert result.record.transforms < 2500
+    assert result.contact.all()
+
+
 def test_a_flat_punch_carries_twice_radius_modulus_and_approach():
     errors = []
     for points in (32, 64, 128, 256):
@@ -168,6 +185,15 @@ def test_what_cannot_be_free_is_refused():
     wall = cs.Scene(FreeHalfSpace(1.0), cs.Topography(heights, 1.0), cs.HardWall(), cs.pressures([0.1]))
     with refused("elasticity", "`press` takes a free half-space"):
         cs.simulate(wall, points=16)
+
+
+def test_a_topography_that_was_made_periodic_repeats():
+    raw = cs.Topography(np.cumsum(np.random.default_rng(0).normal(size=64)), 1.0)
+    load = {"contact_modulus": 1.0, "mean_pressure": 0.1}
+    mirrored = cs.prepare_topography(raw, periodic="mirror")
+    assert np.array_equal(cs.press(mirrored, **load).pressure, cs.press(mirrored, periodic=True, **load).pressure)
+    alone = cs.press(mirrored, periodic=False, **load)
+    assert not np.array_equal(alone.contact, cs.press(mirrored, **load).contact)
 
 
 def test_a_topography_is_free_unless_it_is_said_to_repeat():

@@ -7,9 +7,9 @@ displacement of the elastic surface and h ≤ 0 the heights below the highest po
     gap = w - h - a ≥ 0,   w = S p,   p ≥ 0,   p·gap = 0,
 
 where a is the approach beyond first touch; it is prescribed, or follows from a prescribed mean pressure. The mean of w
-is zero on a half-space by convention, and on an incompressible layer because it keeps its volume. Under a prescribed
-mean pressure it is zero for any body: a uniform displacement does not change the gap, and is added to the approach
-afterwards.
+is zero on a periodic half-space by convention, and on an incompressible layer because it keeps its volume. Under a
+prescribed mean pressure it is zero for any periodic body: a uniform displacement does not change the gap, and is added
+to the approach afterwards. Of a free half-space it is what the pressure gives.
 """
 
 from __future__ import annotations

@@ -97,7 +97,8 @@ def pose_hard_wall(
     # A profile that is flat but for rounding has no grid step of its own: the displacement takes its place.
     with np.errstate(over="ignore"):  # refused below
         flexibility = float(grid.spacing[-1] / np.float64(scene.contact_modulus))
-        displacement = max(overlap, 0.0) if pressure is None else pressure * flexibility
+        reach = max(grid.shape) if Trait.FREE in scene.traits else 1  # a free body moves as a whole
+        displacement = max(overlap, 0.0) if pressure is None else pressure * flexibility * reach
         unit = max(grid_step(heights), MIN_GRID_STEP * displacement) or flexibility
     symbol, uniform = _without_units(scene, grid, heights, unit, pressure or 0.0)
     scale = Scale(unit, unit / flexibility, highest)

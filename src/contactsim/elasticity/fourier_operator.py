@@ -69,6 +69,10 @@ class Compliance(Protocol):
     symbol: Any
     counter: TransformCounter
 
+    @property
+    def holds_mean(self) -> bool:
+        """True if the mean displacement does not follow the mean pressure."""
+
     def hold_symbol(self) -> None:
         """Hold in memory what every application needs."""
 
@@ -107,6 +111,11 @@ class FourierOperator:
 
     def __post_init__(self) -> None:
         self._half = np.empty(self.grid.half_shape, complex) if len(self.grid.shape) == 1 else None
+
+    @property
+    def holds_mean(self) -> bool:
+        """True if the uniform mode has no compliance."""
+        return bool((self.symbol[0] if len(self.grid.shape) == 1 else self.symbol.uniform) == 0)
 
     def hold_symbol(self) -> None:
         """Hold the symbol of a surface in memory, for methods that apply the operator in each iteration."""

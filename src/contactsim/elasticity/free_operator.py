@@ -40,26 +40,28 @@ class FreeLineOperator:
     symbol: Array
     counter: TransformCounter
 
+    holds_mean = False
+
     @cached_property
     def _response(self) -> Array:
-        """Coefficients of the response to an element in the middle of a line of twice the length."""
-        size = self.grid.shape[0]
-        count = np.arange(2 * size)
-        distance = np.minimum(count, 2 * size - count)
-        return np.asarray(ducc0.fft.r2c(strip_response(distance, size), inorm=2).real)
+        """Coefficients of the response to an element of a line with the zeros."""
+        size = padded_size(self.grid.shape[0])
+        count = np.arange(size)
+        distance = np.minimum(count, size - count)
+        return np.asarray(ducc0.fft.r2c(strip_response(distance, self.grid.shape[0]), inorm=2).real)
 
     def hold_symbol(self) -> None:
         """Do nothing: the response is held."""
 
     def __call__(self, values: Array, out: Array | None = None) -> Array:
         """Return the displacement under a pressure (n,), also in `out`, which may be `values`."""
-        size = self.grid.shape[0]
-        padded = np.zeros(2 * size)
+        size, whole = self.grid.shape[0], padded_size(self.grid.shape[0])
+        padded = np.zeros(whole)
         padded[:size] = values
-        half = ducc0.fft.r2c(padded, out=None)
+        half = ducc0.fft.r2c(padded)
         half *= self._response
         self.counter.add(4, self.grid.size)
-        moved = ducc0.fft.c2r(half, lastsize=2 * size, forward=False)[:size]
+        moved = ducc0.fft.c2r(half, lastsize=whole, forward=False)[:size]
         if out is None:
             return np.asarray(moved)
         out[...] = moved
@@ -84,15 +86,26 @@ class FreeSurfaceOperator:
     symbol: Any
     counter: TransformCounter
 
+    holds_mean = False
+
+    @property
+    def _padded(self) -> tuple[int, int]:
+        """Points along y and x with the zeros."""
+        ny, nx = map(padded_size, self.grid.shape)
+        return ny, nx
+
     @cached_property
     def _response(self) -> Array:
-        """Coefficients of the response to an element on a cell of twice the size, a quarter: (ny + 1, nx + 1)."""
-        (ny, nx), (dy, dx) = self.grid.shape, self.grid.spacing
-        response = rectangle_response(np.arange(ny + 1) * (dy / dx), np.arange(nx + 1.0), dy / dx)
+        """Coefficients of the response to an element on the cell with the zeros, a quarter: (my/2 + 1, mx/2 + 1)."""
+        (my, mx), (dy, dx) = self._padded, self.grid.spacing
+        y, x = np.arange(my // 2 + 1) * (dy / dx), np.arange(mx // 2 + 1.0)
+        response = np.empty((y.size, x.size))
+        for low, high in blocks(response.shape):
+            response[low:high] = rectangle_response(y[low:high], x, dy / dx)
         for axis in (1, 0):  # even in both directions: real coefficients, from half of the values
             ducc0.fft.dct(response, type=1, axes=(axis,), out=response, nthreads=self.grid.threads)
-        response /= 4 * self.grid.size
-        return np.asarray(response)
+        response /= my * mx
+        return response
 
     def hold_symbol(self) -> None:
         """Do nothing: the response is held."""
@@ -100,7 +113,8 @@ class FreeSurfaceOperator:
     def __call__(self, values: Array, out: Array | None = None) -> Array:
         """Return the displacement under a pressure (ny, nx), the first columns of `out` if there is one."""
         out = np.empty(self.grid.wide_shape) if out is None else out
-        self._apply(values, out, np.empty((self.grid.shape[0], self.grid.shape[1] + 1), complex))
+        response = self._response  # made before the memory of the coefficients is taken
+        self._apply(values, out, np.empty((self.grid.shape[0], response.shape[1]), complex))
         return out[:, : self.grid.shape[1]]
 
     def coarser(self, shape: tuple[int, ...]) -> FreeSurfaceOperator:
@@ -110,7 +124,7 @@ class FreeSurfaceOperator:
 
     def in_single_precision(self) -> Product:
         """Return the product with fields in single precision; it has memory of its own for the coefficients."""
-        half = np.empty((self.grid.shape[0], self.grid.shape[1] + 1), np.complex64)
+        half = np.empty((self.grid.shape[0], self._response.shape[1]), np.complex64)
 
         def product(field: Array, scratch: Array, out: Array) -> None:
             """Write the product."""
@@ -121,30 +135,39 @@ class FreeSurfaceOperator:
 
     def _apply(self, values: Array, out: Array, half: Array) -> None:
         """Write the displacement under a pressure to the first columns of out; half: memory for coefficients."""
-        ny, nx = self.grid.shape
+        (ny, nx), (my, mx) = self.grid.shape, self._padded
         threads = {"nthreads": self.grid.threads}
-        rows = list(blocks((ny, 2 * nx)))
-        row_pad = np.zeros((max(high - low for low, high in rows), 2 * nx), values.dtype)
+        rows = list(blocks((ny, mx)))
+        row_pad = np.zeros((max(high - low for low, high in rows), mx), values.dtype)
         for low, high in rows:
             row_pad[: high - low, :nx] = values[low:high]
             ducc0.fft.r2c(row_pad[: high - low], axes=(1,), out=half[low:high], **threads)
-        step = max(COLUMNS // (2 * ny), 8)
-        for left in range(0, nx + 1, step):
+        step = max(COLUMNS // my, 8)
+        for left in range(0, half.shape[1], step):
             part = half[:, left : left + step]
-            padded = np.zeros((2 * ny, part.shape[1]), half.dtype)
+            padded = np.zeros((my, part.shape[1]), half.dtype)
             padded[:ny] = part
             ducc0.fft.c2c(padded, axes=(0,), out=padded, **threads)
             response = self._response[:, left : left + step].astype(values.dtype)
-            padded[: ny + 1] *= response
-            padded[ny + 1 :] *= response[ny - 1 : 0 : -1]
+            padded[: my // 2 + 1] *= response
+            padded[my // 2 + 1 :] *= response[my // 2 - 1 : 0 : -1]
             ducc0.fft.c2c(padded, axes=(0,), forward=False, out=padded, **threads)
             part[...] = padded[:ny]
         for low, high in rows:
-            ducc0.fft.c2r(
-                half[low:high], axes=(1,), lastsize=2 * nx, forward=False, out=row_pad[: high - low], **threads
-            )
-            out[low:high, :nx] = row_pad[: high - low, :nx]
+            back = row_pad[: high - low]
+            ducc0.fft.c2r(half[low:high], axes=(1,), lastsize=mx, forward=False, out=back, **threads)
+            out[low:high, :nx] = back[:, :nx]
         self.counter.add(6, self.grid.size)
+
+
+def padded_size(size: int) -> int:
+    """Return an even number of points, at least twice as many, on which transforms are fast."""
+    padded = 2 * size
+    while True:
+        padded = ducc0.fft.good_size(padded, True)
+        if padded % 2 == 0:
+            return padded
+        padded += 1
 
 
 def free_operator(grid: Grid, symbol: Any, counter: TransformCounter) -> FreeLineOperator | FreeSurfaceOperator:

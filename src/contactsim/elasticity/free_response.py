@@ -12,7 +12,7 @@ import numpy as np
 from contactsim.grid import Array
 
 FAR = 500.0
-"""Distance, in elements, beyond which a rectangle acts by its moments: differences of large terms would lose digits."""
+"""Distance over the longer side beyond which a rectangle acts by its moments, since differences would lose digits."""
 
 
 def strip_response(distance: Array, reference: float) -> Array:
@@ -45,7 +45,8 @@ def rectangle_response(y: Array, x: Array, height: float) -> Array:
     array, shape (m, n)
         Displacement.
     """
-    near_y, near_x = (int(np.count_nonzero(places <= FAR * size)) for places, size in ((y, height), (x, 1.0)))
+    far = FAR * max(height, 1.0)
+    near_y, near_x = (int(np.count_nonzero(places <= far)) for places in (y, x))
     response = _by_moments(y, x, height)
     near = y[:near_y], x[:near_x]
     response[:near_y, :near_x] = sum(

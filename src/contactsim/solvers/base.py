@@ -120,7 +120,7 @@ class Result:
 
     @property
     def mean_pressure(self) -> float:
-        """Mean pressure over the period, GPa."""
+        """Mean pressure over the length or area of the heights, GPa."""
         return float(self.pressure.mean())
 
 

@@ -47,7 +47,8 @@ def _moves(offset: object, dimensions: int) -> list[int]:
     """Return the points to move in each direction, x last."""
     if offset is None:
         return [0] * dimensions
-    moves: list[Any] = list(offset) if isinstance(offset, list | tuple) else [offset]
+    is_list = isinstance(offset, list | tuple) or (isinstance(offset, np.ndarray) and offset.ndim == 1)
+    moves: list[Any] = list(offset) if is_list else [offset]  # type: ignore[call-overload]
     whole = all(isinstance(move, int | np.integer) and not isinstance(move, bool) for move in moves)
     if not whole or len(moves) != dimensions:
         allowed = "whole points along x" if dimensions == 1 else "a pair of whole points, along y and along x"

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from contactsim.errors import POSITIVE, InputError, is_positive
+from contactsim.errors import POSITIVE, InputError, check_option_names, is_positive
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.topography import Topography
@@ -22,6 +22,8 @@ TAPER = 0.1
 """Length of the taper of a window at each end, over the length of the heights."""
 ROBUST = 1.4826
 """Standard deviation over the median of absolute values, of Gaussian numbers."""
+RARE = 0.01
+"""Share of points up to which they are spikes if all others agree with those about them."""
 
 
 def _subtract_fit(degree: int, heights: Array) -> Array:
@@ -58,7 +60,10 @@ def _remove_spikes(heights: Array, threshold: float) -> tuple[Array, float]:
 
     about = median_filter(heights, size=5 if heights.ndim == 1 else 3, mode="nearest")
     difference = np.abs(heights - about)
-    spread = ROBUST * float(np.median(difference[difference > 0])) if difference.any() else 0.0
+    differs = difference > 0
+    spread = ROBUST * float(np.median(difference))
+    if not spread and differs.mean() > RARE:  # heights of few digits
+        spread = float(difference[differs].min())
     spikes = difference > threshold * spread
     return np.where(spikes, about, heights), float(spikes.mean())
 
@@ -109,6 +114,7 @@ PERIODIC: Mapping[int, Operations] = {
 """Ways to close the seams, for a line and for an area."""
 
 
+@check_option_names
 def prepare_topography(
     topography: Topography,
     detrend: str | None = None,
@@ -117,6 +123,8 @@ def prepare_topography(
     spikes: float | None = None,
 ) -> Topography:
     """Return measured heights without spikes, steps between scan lines and form; made periodic if it is asked for.
+
+    In this order: spikes, scan lines, form, seams.
 
     Parameters
     ----------
@@ -135,10 +143,11 @@ def prepare_topography(
           by that of the line. No plane closes a seam along which heights vary.
     level : {"none", "median", "steps"}
         How scan lines, the rows of an area, are levelled: "median", each has a median of zero; "steps", the median of
-        the steps from a row to the next is zero, which keeps wide objects.
+        the steps from a row to the next is zero. That keeps an object, however wide, if less than half of a row steps
+        at once, as along oblique edges.
     spikes : float, optional
         Points are replaced that differ from the median of the 5 about them on a line, 3 × 3 over an area, by more than
-        this many robust standard deviations of such differences.
+        this many robust standard deviations of such differences (1.4826 of their median).
 
     Returns
     -------
@@ -150,6 +159,8 @@ def prepare_topography(
     InputError
         If an option has a value that is not one of these.
     """
+    if not isinstance(topography, Topography):
+        raise InputError("topography", topography, "a Topography, as `read_topography` returns it")
     heights, dimensions, replaced = topography.values, topography.values.ndim, topography.spikes
     if spikes is not None:
         if not is_positive(spikes):
@@ -166,4 +177,5 @@ def prepare_topography(
         if not isinstance(name, str) or name not in ways:
             raise InputError(key, name, f"one of {', '.join(ways)}", topography.source)
         heights = ways[name](io.finite_numbers(heights, "heights", topography.source, dims=dimensions))
-    return dataclasses.replace(topography, values=heights, spikes=replaced)
+    repeats = topography.periodic or periodic != "none"
+    return dataclasses.replace(topography, values=heights, spikes=replaced, periodic=repeats)

@@ -1,7 +1,7 @@
 """Measured heights along a line or over an area, read so that they can be pressed like synthetic ones.
 
-Heights point up as in the file: the largest touches first (for the other side, negate them). The solvers are periodic
-and a measurement is not: `contactsim.prepare_topography` removes form and closes the seams.
+Heights point up as in the file: the largest touches first (for the other side, negate them). A measurement does not
+repeat: it is pressed alone on a half-space, or `contactsim.prepare_topography` makes it periodic.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ class Topography:
         Where the heights come from; errors name it.
     filled, spikes : float
         Share of the points that were missing and have been filled, and of those that were spikes and replaced.
+    periodic : bool
+        Whether the heights repeat; a measurement does not, unless it is made to.
 
     Raises
     ------
@@ -48,6 +50,7 @@ class Topography:
     source: str | None = None
     filled: float = 0.0
     spikes: float = 0.0
+    periodic: bool = False
     modes = None
 
     def __post_init__(self) -> None:

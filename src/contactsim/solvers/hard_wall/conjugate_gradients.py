@@ -18,6 +18,8 @@ Memory at the peak, in bytes a point, 39 in all; cells of the preconditioner and
     8  gap, direction                             4  change of the gap
     1  symbol of the compliance, half of its rows 2  contact, its code
     8  change of the pressure and scratch, or in their place a gap in double precision
+
+A free half-space adds 8 for its response and 8 for coefficients, and 16 while a gap in double precision is computed.
 """
 
 from __future__ import annotations
