@@ -129,7 +129,7 @@ def test_the_command_tells_what_it_repaired_and_what_it_cannot_read(tmp_path, ca
     heights[3, 4], heights[5, 6] = np.nan, 100.0
     np.save(tmp_path / "scan.npy", heights)
     loads = ["--contact-modulus", "1", "--mean-pressure", "0.1", "--spacing", "1", "2"]
-    main(["press", str(tmp_path / "scan.npy"), *loads, "--fill", "linear", "--spikes", "8", "--periodic", "mirror"])
+    main(["press", str(tmp_path / "scan.npy"), *loads, "--fill", "linear", "--spikes", "8", "--ends", "mirror"])
     text = capsys.readouterr().out
     assert "38 × 38 points on 38 × 76 nm" in text
     assert "0.25% of the points filled; 0.25% of the points replaced as spikes" in text

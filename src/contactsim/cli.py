@@ -80,7 +80,7 @@ def _add_press(press: argparse.ArgumentParser) -> None:
     press.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
     press.add_argument("--level", default="none", help="how scan lines are levelled: none, median or steps")
     press.add_argument("--spikes", type=float, metavar="N", help="standard deviations beyond which a point is replaced")
-    press.add_argument("--periodic", metavar="HOW", help="let the heights repeat: as they are (none), mirror, window")
+    press.add_argument("--ends", default="none", help="let the heights repeat: mirror, window, or tilt on a line")
     press.add_argument("--hardness", type=float, metavar="H", help="tell the share of the contact above it, GPa")
     press.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
     press.add_argument("--output", metavar="FILE", help="dataset to write, .nc")

@@ -187,14 +187,12 @@ def press_file(options: argparse.Namespace) -> None:
     raw = read_topography(
         options.file, spacing=spacing, unit=options.unit, variable=options.variable, fill=options.fill
     )
-    periodic = "none" if options.periodic is None else options.periodic
-    heights = prepare_topography(raw, options.detrend, periodic, options.level, options.spikes)
+    heights = prepare_topography(raw, options.detrend, options.ends, options.level, options.spikes)
     data = characterise(
         heights,
         contact_modulus=options.contact_modulus,
         mean_pressures=options.mean_pressure,
         hardness=options.hardness,
-        periodic=options.periodic is not None,
     )
     sys.stdout.write(f"{_describe_heights(heights, data)}\n{_press_table(data)}\n")
     if options.output:

@@ -19,9 +19,9 @@ fields = arrays(np.float64, array_shapes(min_dims=1, max_dims=2, min_side=2, max
 lines = arrays(np.float64, st.integers(2, 40), elements=st.floats(-1e6, 1e6))
 
 
-def prepared(heights: np.ndarray, detrend: str = "none", periodic: str = "none") -> np.ndarray:
+def prepared(heights: np.ndarray, detrend: str = "none", ends: str = "none") -> np.ndarray:
     """Return prepared heights, at a spacing that must not matter."""
-    return prepare_topography(Topography(heights, 2.5), detrend, periodic).values
+    return prepare_topography(Topography(heights, 2.5), detrend, ends).values
 
 
 def polynomials(shape: tuple[int, ...], degree: int) -> np.ndarray:
@@ -62,7 +62,7 @@ def test_none_changes_nothing_and_gives_a_copy(heights: np.ndarray) -> None:
 
 @given(fields)
 def test_mirror_keeps_every_height_and_is_periodic_and_even(heights: np.ndarray) -> None:
-    mirrored = prepared(heights, periodic="mirror")
+    mirrored = prepared(heights, ends="mirror")
     assert mirrored.shape == tuple(2 * size - 2 for size in heights.shape)
     assert mirrored[tuple(slice(size) for size in heights.shape)].tolist() == heights.tolist()
     for axis in range(heights.ndim):  # even about point 0 of the period
@@ -71,13 +71,13 @@ def test_mirror_keeps_every_height_and_is_periodic_and_even(heights: np.ndarray)
 
 @given(lines)
 def test_mirror_keeps_the_rms_slope_of_a_line(heights: np.ndarray) -> None:
-    slope = mean_square_slope(prepared(heights, periodic="mirror"), periodic=True)
+    slope = mean_square_slope(prepared(heights, ends="mirror"), periodic=True)
     assert slope == pytest.approx(mean_square_slope(heights, periodic=False), rel=1e-9)
 
 
 @given(lines)
 def test_tilt_subtracts_a_line_and_closes_the_seam(heights: np.ndarray) -> None:
-    tilted = prepared(heights, periodic="tilt")
+    tilted = prepared(heights, ends="tilt")
     assert tilted[0] == tilted[-1] == 0
     rounding = 1e-14 * 8 * np.abs(heights).max() + 1e-320  # subnormal numbers have few digits
     assert np.abs(np.diff(heights - tilted, n=2)).max(initial=0) <= rounding
@@ -85,7 +85,7 @@ def test_tilt_subtracts_a_line_and_closes_the_seam(heights: np.ndarray) -> None:
 
 @given(fields)
 def test_window_keeps_the_shape_and_is_zero_at_all_edges(heights: np.ndarray) -> None:
-    tapered = prepared(heights, periodic="window")
+    tapered = prepared(heights, ends="window")
     assert tapered.shape == heights.shape
     for axis in range(heights.ndim):
         assert not tapered.take([0, -1], axis).any()
@@ -93,20 +93,20 @@ def test_window_keeps_the_shape_and_is_zero_at_all_edges(heights: np.ndarray) ->
 
 def test_window_leaves_the_middle_and_halves_halfway_up_the_taper() -> None:
     heights = 5.0 + np.array([1.0, -1.0] * 100 + [0.0])
-    tapered = prepared(heights, periodic="window")
+    tapered = prepared(heights, ends="window")
     np.testing.assert_allclose(tapered[20:181], (heights - 5)[20:181], rtol=1e-12)
     assert tapered[10] == pytest.approx(0.5)
 
 
 def test_window_of_an_area_is_the_product_of_those_of_lines() -> None:
     y, x = (np.where(np.arange(size) % 2, 1.0, -1.0) for size in (200, 50))
-    expected = np.outer(*(prepared(line, periodic="window") for line in (y, x)))
-    np.testing.assert_allclose(prepared(np.outer(y, x), periodic="window"), expected, atol=1e-13)
+    expected = np.outer(*(prepared(line, ends="window") for line in (y, x)))
+    np.testing.assert_allclose(prepared(np.outer(y, x), ends="window"), expected, atol=1e-13)
 
 
 def test_window_lowers_the_mean_square_slope_of_short_waves_by_an_eighth() -> None:
     heights = np.random.default_rng(1).standard_normal(200_000)
-    after = mean_square_slope(prepared(heights, periodic="window"), periodic=True)
+    after = mean_square_slope(prepared(heights, ends="window"), periodic=True)
     assert after / mean_square_slope(heights, periodic=True) == pytest.approx(0.875, abs=0.005)
 
 
@@ -118,7 +118,7 @@ def test_by_default_heights_are_detrended_by_their_dimension_alone(heights: np.n
     assert (topography.spacing, topography.source) == ((2.0,) * heights.ndim, "mine")
 
 
-@pytest.mark.parametrize("setting", ["detrend", "periodic", "level"])
+@pytest.mark.parametrize("setting", ["detrend", "ends", "level"])
 @pytest.mark.parametrize(("size", "names"), [(1, ["plane", "", 2, ["none"], "Mirror"]), (2, ["tilt", "linear", "", 2])])
 def test_an_unknown_name_is_refused_with_the_names_that_exist(setting: str, size: int, names: list) -> None:
     topography = Topography(np.ones((3,) * size), 1.0, "mine")
@@ -151,7 +151,7 @@ def test_levelling_by_steps_keeps_a_wide_object_with_oblique_edges_which_medians
 def test_what_is_made_periodic_says_so() -> None:
     raw = Topography(np.random.default_rng(6).normal(size=32), 1.0)
     assert not prepare_topography(raw).periodic
-    closed = prepare_topography(raw, periodic="window")
+    closed = prepare_topography(raw, ends="window")
     assert closed.periodic
     assert prepare_topography(closed, "none").periodic
 

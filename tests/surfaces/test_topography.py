@@ -651,7 +651,7 @@ def test_a_measured_surface_is_detrended_and_made_periodic_by_the_named_options(
     surface = MeasuredSurface(file, spacing=[DY, DX])
     assert surface.lengths == (4 * DY, 6 * DX)
     np.testing.assert_array_equal(
-        surface.heights(6), prepare_topography(Topography(HEIGHTS, SPACING), periodic="mirror").values
+        surface.heights(6), prepare_topography(Topography(HEIGHTS, SPACING), ends="mirror").values
     )
     tapered = MeasuredSurface(file, "quadratic", "window", 2.0, "um")
     np.testing.assert_array_equal(
@@ -699,7 +699,7 @@ def test_a_measured_surface_is_pressed_on_its_own_grid(tmp_path: Path) -> None:
     assert data.status == Status.CONVERGED.value[0]
     assert (int(data.points), int(data.points_y), float(data.length), float(data.length_y)) == (30, 46, 15.0, 115.0)
     assert float(data.rms_height) == pytest.approx(
-        prepare_topography(Topography(heights, SPACING), periodic="mirror").values.std(), rel=1e-12
+        prepare_topography(Topography(heights, SPACING), ends="mirror").values.std(), rel=1e-12
     )
 
 

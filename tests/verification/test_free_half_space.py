@@ -190,7 +190,7 @@ def test_what_cannot_be_free_is_refused():
 def test_a_topography_that_was_made_periodic_repeats():
     raw = cs.Topography(np.cumsum(np.random.default_rng(0).normal(size=64)), 1.0)
     load = {"contact_modulus": 1.0, "mean_pressure": 0.1}
-    mirrored = cs.prepare_topography(raw, periodic="mirror")
+    mirrored = cs.prepare_topography(raw, ends="mirror")
     assert np.array_equal(cs.press(mirrored, **load).pressure, cs.press(mirrored, periodic=True, **load).pressure)
     alone = cs.press(mirrored, periodic=False, **load)
     assert not np.array_equal(alone.contact, cs.press(mirrored, **load).contact)

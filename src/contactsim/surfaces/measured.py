@@ -17,13 +17,13 @@ class MeasuredLine:
     ----------
     file, spacing, unit, variable, fill
         As `path` and the options of `contactsim.read_topography`.
-    detrend, periodic, spikes
+    detrend, ends, spikes
         As in `contactsim.prepare_topography`; by default a mirror image makes the heights periodic.
     """
 
     file: str
     detrend: str = "linear"
-    periodic: str = "mirror"
+    ends: str = "mirror"
     spacing: float | None = None
     unit: str | None = None
     variable: str | None = None
@@ -44,7 +44,7 @@ class MeasuredLine:
             fill=self.fill,
         )
         object.__setattr__(
-            self, "topography", prepare_topography(raw, self.detrend, self.periodic, self.level, self.spikes)
+            self, "topography", prepare_topography(raw, self.detrend, self.ends, self.level, self.spikes)
         )
 
     @property

@@ -107,7 +107,7 @@ LEVEL: Mapping[int, Operations] = {
 }
 """Ways to level scan lines, for a line and for an area."""
 
-PERIODIC: Mapping[int, Operations] = {
+ENDS: Mapping[int, Operations] = {
     1: {"none": np.copy, "window": _apply_window, "mirror": _mirror, "tilt": _tilt},
     2: {"none": np.copy, "window": _apply_window, "mirror": _mirror},
 }
@@ -118,7 +118,7 @@ PERIODIC: Mapping[int, Operations] = {
 def prepare_topography(
     topography: Topography,
     detrend: str | None = None,
-    periodic: str = "none",
+    ends: str = "none",
     level: str = "none",
     spikes: float | None = None,
 ) -> Topography:
@@ -133,7 +133,9 @@ def prepare_topography(
     detrend : str, optional
         "none", "mean", "quadratic", or the fit of first degree, which is the default: "linear" for a line, "plane"
         for an area. A quadratic fit of an area has all of 1, x, y, x², xy and y².
-    periodic : {"none", "mirror", "window", "tilt"}
+    ends : {"none", "mirror", "window", "tilt"}
+        How the ends are made to meet; all but "none" make the heights periodic.
+
         - "none": the ends do not meet. Where the heights repeat, a step is left at the seam; along a line it adds
           step²/(n spacing²) to the mean square slope.
         - "mirror": the heights are followed by their mirror image in each direction, n become 2n-2. Slopes are kept.
@@ -171,11 +173,11 @@ def prepare_topography(
     for key, name, operations in (
         ("level", level, LEVEL),
         ("detrend", detrend, DETREND),
-        ("periodic", periodic, PERIODIC),
+        ("ends", ends, ENDS),
     ):
         ways = operations[dimensions]
         if not isinstance(name, str) or name not in ways:
             raise InputError(key, name, f"one of {', '.join(ways)}", topography.source)
         heights = ways[name](io.finite_numbers(heights, "heights", topography.source, dims=dimensions))
-    repeats = topography.periodic or periodic != "none"
+    repeats = topography.periodic or ends != "none"
     return dataclasses.replace(topography, values=heights, spikes=replaced, periodic=repeats)
