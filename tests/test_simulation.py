@@ -51,7 +51,7 @@ def test_the_given_heights_are_left_alone():
         ({"tolerance": 0.0}, "tolerance", "positive"),
         ({"tolerance": float("nan")}, "tolerance", "positive"),
         ({"solver": "magic"}, "solver", "active_set"),
-        ({"threads": 0}, "threads", "1 or more"),
+        ({"threads": 0}, "threads", "1 to 1024"),
     ],
 )
 def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed):
@@ -122,7 +122,7 @@ def test_units_beyond_floating_point_are_refused(change):
 @pytest.mark.parametrize(
     ("function", "options", "allowed"),
     [
-        ("press", GOOD | {"presure": 0.1}, "spacing, contact_modulus, mean_pressure"),
+        ("press", GOOD | {"presure": 0.1}, "contact_modulus, mean_pressure, approach"),
         ("simulate", {"scene": None, "tolerence": 1e-6}, "points, tolerance, accuracy"),
         ("estimate_cost", {"scene": None, "solver": "newton"}, "points, tolerance, accuracy"),
         ("neglect", {"scene": None, "accuracy": 0.1}, "within, quantities, points"),

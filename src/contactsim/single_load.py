@@ -29,10 +29,10 @@ def press(
     other: ArrayLike | Topography | None = None,
     *,
     contact_modulus: float,
-    offset: int | tuple[int, int] | None = None,
-    spacing: float | tuple[float, float] | None = None,
     mean_pressure: float | None = None,
     approach: float | None = None,
+    spacing: float | tuple[float, float] | None = None,
+    offset: int | tuple[int, int] | None = None,
     thickness: float | None = None,
     poisson_ratio: float | None = None,
     tolerance: float = 1e-3,
@@ -53,18 +53,18 @@ def press(
         seen from outside its body, one has to be mirrored.
     contact_modulus : float
         E* of the pair, 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂; of one elastic body E/(1-ν²).
-    offset : int or (int, int), optional
-        Whole points by which the other body is moved, along x or along (y, x). Periodic heights come in again at the
-        other end. Of others only the part that faces each other is pressed: the result has its shape, and the mean
-        pressure is over it.
-    spacing : float or (float, float), optional
-        Distance between points; of a surface one number, or those along y and along x. A topography has its own.
     mean_pressure : float, optional
         Load over the length or area of the heights, 0 or more.
     approach : float, optional
         Distance by which the height zero has moved past the undeformed surface; exactly one of mean_pressure and
         approach. First touch is at -max(heights). Where the mean displacement is zero, on a periodic half-space (by
         convention) and on a layer with ν = 0.5, full contact is at -mean(heights), and the approach must stay below.
+    spacing : float or (float, float), optional
+        Distance between points; of a surface one number, or those along y and along x. A topography has its own.
+    offset : int or (int, int), optional
+        Whole points by which the other body is moved, along x or along (y, x). Periodic heights come in again at the
+        other end. Of others only the part that faces each other is pressed: the result has its shape, and the mean
+        pressure is over it.
     thickness : float, optional
         Thickness of a layer bonded to a rigid base; a half-space without it.
     poisson_ratio : float, optional
