@@ -120,6 +120,7 @@ def test_from_a_file_to_a_figure_in_one_command(tmp_path, capsys):
     assert figure.stat().st_size > 10_000
     with xr.open_dataset(output) as data:
         assert data.mean_pressure.values.tolist() == [0.1, 1.0]
+        assert data.attrs["source_digest"]
         assert float(data.contact_stiffness[0]) > 0
         assert f"{float(data.mean_gap[0]):.3e}".split("e")[0] in text.replace("(", "")
 

@@ -41,6 +41,7 @@ FLOORS = (
     ("figures",),
     ("publish",),
     ("commands",),
+    ("press_command",),
     ("cli",),
 )
 """Packages from the ground up: each may import itself and those before it; modules of one floor may share."""

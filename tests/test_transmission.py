@@ -62,6 +62,10 @@ def test_without_contact_there_is_none_and_full_contact_does_not_give_way():
     assert cs.contact_stiffness(layer) == pytest.approx(1 / uniform, rel=1e-6)
 
 
+def test_a_punch_that_does_not_converge_has_no_stiffness():
+    assert np.isnan(cs.contact_stiffness(press(rough(64), 0.05), tolerance=1e-300))
+
+
 def test_units_and_two_bodies_change_nothing_else():
     one = cs.contact_stiffness(press(rough(128), 0.05))
     other = cs.press(1e3 * rough(128), spacing=1e3, contact_modulus=7.0, mean_pressure=0.35, tolerance=1e-8)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,11 +18,12 @@ from contactsim.observables.patches import find_patches
 from contactsim.single_load import press
 from contactsim.solvers.base import Result
 from contactsim.status import validity_flags
+from contactsim.surfaces.statistics import rms_gradient_open, rms_height
 from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
 from contactsim.transmission import contact_stiffness
 
-FEWEST = 8
+MIN_POINTS = 8
 """Fewest points each way: half of them make the coarser grid."""
 
 
@@ -72,9 +74,9 @@ def characterise(
     InputError
         For an input that cannot be used.
     """
-    if not isinstance(topography, Topography) or min(topography.values.shape) < FEWEST:
-        given = Words(f"shape {topography.values.shape}") if isinstance(topography, Topography) else topography
-        raise InputError("topography", given, f"a Topography of {FEWEST} points or more each way")
+    if not isinstance(topography, Topography) or min(topography.values.shape) < MIN_POINTS:
+        value = Words(f"shape {topography.values.shape}") if isinstance(topography, Topography) else topography
+        raise InputError("topography", value, f"a Topography of {MIN_POINTS} points or more each way")
     pressures = np.atleast_1d(np.asarray(mean_pressures, object))
     if pressures.ndim != 1 or not pressures.size or not all(is_number(value) and value > 0 for value in pressures):
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
@@ -101,35 +103,40 @@ def _every_second(topography: Topography) -> Topography:
 def _numbers_at(
     topography: Topography, pressures: Array, hardness: float | None, options: dict[str, Any]
 ) -> xr.Dataset:
-    """Return the numbers at each load."""
-    rows = [_numbers(press(topography, mean_pressure=float(pressure), **options), hardness) for pressure in pressures]
-    data = xr.Dataset({name: ("mean_pressure", [row[name] for row in rows]) for name in rows[0]})
-    slopes = [np.diff(topography.values, axis=axis) / step for axis, step in enumerate(topography.spacing)]
-    data["rms_gradient"] = np.sqrt(sum(np.mean(slope**2) for slope in slopes))
-    data["rms_height"] = np.std(topography.values)
-    return data.assign_coords(mean_pressure=pressures)
-
-
-def _numbers(result: Result, hardness: float | None) -> dict[str, Any]:
-    """Return the numbers of a state; NaN where it did not converge."""
-    names = NUMBERS if hardness is None else (*NUMBERS, "yielding_share")
-    assert result.scene is not None  # `press` keeps it
-    periodic = Trait.FREE not in result.scene.traits
-    status = np.int8(result.status.value[0])
-    if not result.status.solved:
-        return {**dict.fromkeys(names, np.nan), "status": status}
-    numbers = [
-        relative_contact_area_subgrid(result.pressure, result.gap, periodic),
-        result.approach,
-        float(result.gap.mean()),
-        float(result.pressure.max()),
-        contact_stiffness(result),
-        find_patches(result.contact, periodic).count,
-    ]
+    """Return the numbers at each load, NaN where it did not converge, and those of the heights."""
+    results = [press(topography, mean_pressure=float(pressure), **options) for pressure in pressures]
+    readers = dict(NUMBERS)
     if hardness is not None:
-        numbers.append(float((result.pressure[result.contact] > hardness).mean()))
-    return {**dict(zip(names, numbers, strict=True)), "status": status}
+        readers["yielding_share"] = partial(_yielding_share, hardness)
+    data = xr.Dataset(coords={"mean_pressure": pressures})
+    for name, read in readers.items():
+        values = [read(result) if result.status.solved else np.nan for result in results]
+        data[name] = "mean_pressure", values
+    data["status"] = "mean_pressure", np.array([result.status.value[0] for result in results], np.int8)
+    data["rms_gradient"] = rms_gradient_open(topography.values, topography.spacing)
+    data["rms_height"] = rms_height(topography.values)
+    return data
 
 
-NUMBERS = ("relative_contact_area_subgrid", "approach", "mean_gap", "max_pressure", "contact_stiffness", "patches")
-"""Numbers of a state."""
+def _repeats(result: Result) -> bool:
+    """Return whether the heights of a result repeat."""
+    return result.scene is not None and Trait.FREE not in result.scene.traits
+
+
+def _yielding_share(hardness: float, result: Result) -> float:
+    """Return the share of the contact with a pressure above the hardness; NaN without contact."""
+    contact = result.contact
+    return float((result.pressure[contact] > hardness).mean()) if contact.any() else np.nan
+
+
+NUMBERS: Mapping[str, Callable[[Result], float]] = {
+    "relative_contact_area_subgrid": lambda result: relative_contact_area_subgrid(
+        result.pressure, result.gap, _repeats(result)
+    ),
+    "approach": lambda result: result.approach,
+    "mean_gap": lambda result: float(result.gap.mean()),
+    "max_pressure": lambda result: float(result.pressure.max()),
+    "contact_stiffness": contact_stiffness,
+    "patches": lambda result: find_patches(result.contact, _repeats(result)).count,
+}
+"""How each number of a state is read."""

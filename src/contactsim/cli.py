@@ -23,6 +23,7 @@ def main(arguments: list[str] | None = None) -> None:
         prog="contactsim",
         description="Explain or simulate a scene, press measured heights, estimate costs, compare or verify results.",
     )
+    parser.set_defaults(module="commands")
     commands = parser.add_subparsers(required=True)
     explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
     explain.add_argument("scene", help="a scene file, or a study in ./config")
@@ -58,7 +59,7 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
     try:
-        getattr(import_module("contactsim.commands"), options.command)(options)
+        getattr(import_module(f"contactsim.{options.module}"), options.command)(options)
     except InputError as error:
         as_typed = import_module("contactsim.study.as_typed").as_typed
         sys.exit(f"Error: {as_typed(error)}")
@@ -84,4 +85,4 @@ def _add_press(press: argparse.ArgumentParser) -> None:
     press.add_argument("--hardness", type=float, metavar="H", help="tell the share of the contact above it, GPa")
     press.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
     press.add_argument("--output", metavar="FILE", help="dataset to write, .nc")
-    press.set_defaults(command="press_file")
+    press.set_defaults(module="press_command", command="press_file")

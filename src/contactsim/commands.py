@@ -13,7 +13,6 @@ import xarray as xr
 
 from contactsim import dataset, seals
 from contactsim.analysis.table_comparison import difference_text, is_within
-from contactsim.characterisation import characterise
 from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
@@ -25,7 +24,7 @@ from contactsim.observables.dataset_forms import form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Accuracy, Setup
-from contactsim.status import Status, describe_excess, is_solved
+from contactsim.status import Status, is_solved
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
 from contactsim.study.keys import ERROR_RUNS
@@ -35,8 +34,6 @@ from contactsim.study.reading import whole
 from contactsim.study.scenes import build_setup, updated_settings
 from contactsim.study.select_effects import select_effects
 from contactsim.study.study import Study
-from contactsim.surfaces.preparation import prepare_topography
-from contactsim.surfaces.topography import Topography, read_topography
 
 DRAWN = (".png", ".pdf", ".svg")
 
@@ -94,8 +91,6 @@ PRINTED_VARIABLES = (
     *("residual", "jump", "validity_flags", "transforms", "status"),
 )
 """Variables of a simulation that are printed, as far as it has them."""
-PLAIN = range(-3, 5)
-"""Powers of ten of numbers that are written without them."""
 MAX_HEAD_WIDTH = 17
 """Most letters in a line of a column's name."""
 
@@ -177,89 +172,6 @@ def _simulate_study(study: Study, threads: int) -> tuple[xr.Dataset, dict]:
         return follow_path(setup), settings
     controlled = solve_to_error(setup, accuracy.error, accuracy.quantities)
     return controlled.data, updated_settings(settings, controlled.last.setup)
-
-
-def press_file(options: argparse.Namespace) -> None:
-    """Press a file of measured heights; print the numbers with their errors, draw and write them if asked to."""
-    if options.figure and Path(options.figure).suffix not in DRAWN:
-        raise InputError("--figure", options.figure, f"a name ending in one of {', '.join(DRAWN)}")
-    spacing = options.spacing[0] if options.spacing and len(options.spacing) == 1 else options.spacing
-    raw = read_topography(
-        options.file, spacing=spacing, unit=options.unit, variable=options.variable, fill=options.fill
-    )
-    heights = prepare_topography(raw, options.detrend, options.ends, options.level, options.spikes)
-    data = characterise(
-        heights,
-        contact_modulus=options.contact_modulus,
-        mean_pressures=options.mean_pressure,
-        hardness=options.hardness,
-    )
-    sys.stdout.write(f"{_describe_heights(heights, data)}\n{_press_table(data)}\n")
-    if options.output:
-        dataset.write(dataset.stamp(data, f"Contact of {Path(options.file).name}", vars(options), ""), options.output)
-        sys.stdout.write(f"written to {options.output}\n")
-    if options.figure:
-        from contactsim.figures.characterisation import plot_characterisation
-
-        plot_characterisation(data).savefig(options.figure)
-        sys.stdout.write(f"drawn in {options.figure}\n")
-    failed = int((~is_solved(data.status)).sum())
-    if failed:
-        sys.exit(f"Error: {failed} of {data.status.size} loads did not converge")
-
-
-def _describe_heights(heights: Topography, data: xr.Dataset) -> str:
-    """Return size, roughness and repairs of heights in words."""
-    size = " × ".join(f"{length:.4g}" for length in heights.lengths)
-    points = " × ".join(map(str, heights.values.shape))
-    text = f"{points} points on {size} nm; rms height {_with_error(data, 'rms_height')} nm"
-    text += f", rms gradient {_with_error(data, 'rms_gradient')}"
-    for share, what in ((heights.filled, "filled"), (heights.spikes, "replaced as spikes")):
-        text += f"; {share:.2%} of the points {what}" if share else ""
-    return "\n".join([text, *(f"Beyond what the model holds for: {words}" for words in describe_excess(data))])
-
-
-PRESSED = {
-    "relative_contact_area_subgrid": ("area", ""),
-    "contact_stiffness": ("stiffness", "GPa/nm"),
-    "mean_gap": ("mean gap", "nm"),
-    "max_pressure": ("largest pressure", "GPa"),
-    "yielding_share": ("yielding", "of the contact"),
-}
-"""Numbers that are printed of heights that were pressed: their heads and units."""
-
-
-def _press_table(data: xr.Dataset) -> str:
-    """Return a line for each load: its numbers, each with its error."""
-    shown = {name: words for name, words in PRESSED.items() if name in data}
-    heads, units = (list(column) for column in zip(("pressure", "GPa"), *shown.values(), strict=True))
-    heads, units = [*heads, "patches", "status"], [*units, "", ""]
-    words = {status.value[0]: status.name.lower() for status in Status}
-    rows = [
-        [
-            f"{float(load.mean_pressure):.4g}",
-            *(_with_error(load, name) for name in shown),
-            f"{float(load.patches):.0f}",
-            words[int(load.status)],
-        ]
-        for load in (data.isel(mean_pressure=count) for count in range(data.mean_pressure.size))
-    ]
-    widths = [max(map(len, column)) for column in zip(heads, units, *rows, strict=True)]
-    lines = [estimate.align_right(row, widths).rstrip() for row in (heads, units, *rows)]
-    return "\n".join([*lines, "± change with every second point"])
-
-
-def _with_error(data: xr.Dataset, name: str) -> str:
-    """Return a number and its error as text."""
-    value, error = float(data[name]), float(data[f"{name}_grid_error"])
-    if not (np.isfinite(value) and error > 0):
-        return f"{value:.4g} ± {error:.2g}"
-    digits = max(int(np.floor(np.log10(abs(value) or error))) - int(np.floor(np.log10(error))) + 1, 0)
-    mantissa, _, exponent = f"{value:.{digits}e}".partition("e")
-    if -4 < int(exponent) < 5:
-        decimals = max(digits - int(exponent), 0)
-        return f"{value:.{decimals}f} ± {error:.{decimals}f}"
-    return f"({mantissa} ± {error / 10.0 ** int(exponent):.{digits}f})e{int(exponent)}"
 
 
 def estimate_cost(options: argparse.Namespace) -> None:

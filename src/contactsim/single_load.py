@@ -96,14 +96,14 @@ def press(
     repeats = _repeats(heights, thickness) if periodic is None else periodic
     if not isinstance(repeats, bool | np.bool_):
         raise InputError("periodic", periodic, "True or False")
-    measured = [body for body in (heights, other) if isinstance(body, Topography)]
-    if measured and spacing is not None:
+    topographies = [body for body in (heights, other) if isinstance(body, Topography)]
+    if topographies and spacing is not None:
         raise InputError("spacing", spacing, "none: a topography has its own")
-    shared: Any = measured[0].spacing if measured else spacing
-    surface = _read_heights(heights, shared, "heights")
+    steps: Any = topographies[0].spacing if topographies else spacing  # an array beside a topography takes its spacing
+    surface = _read_heights(heights, steps, "heights")
     step = load_step(approach, mean_pressure, "load")
     if other is not None:
-        surface = add_heights(surface, _read_heights(other, shared, "other"), offset, bool(repeats))
+        surface = add_heights(surface, _read_heights(other, steps, "other"), offset, bool(repeats))
     elif offset is not None:
         raise InputError("offset", offset, "none without the heights of another body")
     elasticity = _elasticity(contact_modulus, thickness, poisson_ratio, repeats)

@@ -54,7 +54,7 @@ def test_long_elements_act_as_the_sum_of_their_parts(height):
 def test_far_away_the_moments_give_what_the_formula_gives(height, monkeypatch):
     places = np.array([0.0, 40.0, 80.0])
     exact = rectangle_response(places * height, places, height)
-    monkeypatch.setattr(free_response, "FAR", 20.0)
+    monkeypatch.setattr(free_response, "FAR_DISTANCE", 20.0)
     far = rectangle_response(places * height, places, height)
     assert far[0, 0] == exact[0, 0]
     assert far == pytest.approx(exact, rel=2e-6)
@@ -69,7 +69,7 @@ def test_a_point_load_moves_the_surface_as_boussinesq_has_it():
 @pytest.mark.parametrize("columns", [2**18, 40])
 @pytest.mark.parametrize("shape", [(9,), (16,), (5, 8), (7, 6), (12, 31)])
 def test_the_operator_sums_the_responses(shape, columns, monkeypatch):
-    monkeypatch.setattr(free_operator_module, "COLUMNS", columns)
+    monkeypatch.setattr(free_operator_module, "COLUMN_BLOCK", columns)
     grid = Grid(shape, tuple(1.5 * size if size == shape[0] else float(size) for size in shape))
     pressure = np.random.default_rng(0).normal(size=shape)
     operator = free_operator(grid, None, TransformCounter(grid.size))

@@ -11,7 +11,7 @@ from contactsim.contact.grid_step import grid_step
 from contactsim.contact.hard_wall import HardWallProblem, Profile, Scale
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.fourier_operator import FourierOperator, RadialSymbol
+from contactsim.elasticity.fourier_operator import Compliance, FourierOperator, RadialSymbol
 from contactsim.elasticity.free_operator import free_operator
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter, blocks
@@ -92,35 +92,38 @@ def pose_hard_wall(
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     value = step.value + scene.path.origin(heights)
+    is_free = Trait.FREE in scene.traits
     overlap = value + highest  # beyond first touch, if it is an approach
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
     # A profile that is flat but for rounding has no grid step of its own: the displacement takes its place.
     with np.errstate(over="ignore"):  # refused below
         flexibility = float(grid.spacing[-1] / np.float64(scene.contact_modulus))
-        reach = max(grid.shape) if Trait.FREE in scene.traits else 1  # a free body moves as a whole
+        reach = max(grid.shape) if is_free else 1  # a free body moves as a whole
         displacement = max(overlap, 0.0) if pressure is None else pressure * flexibility * reach
         unit = max(grid_step(heights), MIN_GRID_STEP * displacement) or flexibility
     symbol, uniform = _without_units(scene, grid, heights, unit, pressure or 0.0)
     scale = Scale(unit, unit / flexibility, highest)
-    load, approach, is_free = None, None, Trait.FREE in scene.traits
-    if pressure is None:
-        if not is_free:
-            _check_full_contact(scene, heights, value, overlap, uniform)
-        approach = overlap / unit
-    else:
-        load = pressure / scale.pressure
-    if (
-        pressure is not None and not is_free
-    ):  # a uniform displacement does not change the gaps, and would only add rounding to them
-        scale = replace(scale, mean_displacement=uniform * flexibility * pressure)
-        if heights.ndim == 1:
-            symbol[0] = 0.0
-        else:
-            symbol = replace(symbol, uniform=0.0)
+    load = None if pressure is None else pressure / scale.pressure
+    approach = overlap / unit if pressure is None else None
     counter = TransformCounter(heights.size)
-    operator = free_operator if is_free else FourierOperator
-    compliance = operator(grid, symbol, counter)
+    if is_free:
+        compliance: Compliance = free_operator(grid, symbol, counter)
+    else:
+        if pressure is None:
+            _check_full_contact(scene, heights, value, overlap, uniform)
+        else:  # a uniform displacement does not change the gaps, and would only add rounding to them
+            scale = replace(scale, mean_displacement=uniform * flexibility * pressure)
+            symbol = _without_mean(symbol)
+        compliance = FourierOperator(grid, symbol, counter)
     return HardWallProblem(Profile(heights, highest, unit), compliance, tolerance, load, approach, counter), scale
+
+
+def _without_mean(symbol: Any) -> Any:
+    """Return a compliance, an array of a line or the symbol of a surface, that does not move the mean."""
+    if isinstance(symbol, RadialSymbol):
+        return replace(symbol, uniform=0.0)
+    symbol[0] = 0.0
+    return symbol
 
 
 def _check_full_contact(scene: Scene, heights: Array, value: float, overlap: float, uniform: float) -> None:

@@ -18,7 +18,7 @@ from contactsim.elasticity.fourier_operator import Product
 from contactsim.elasticity.free_response import rectangle_response, strip_response
 from contactsim.grid import Array, Grid, TransformCounter, blocks
 
-COLUMNS = 2**18
+COLUMN_BLOCK = 2**18
 """Coefficients that are transformed along y at a time."""
 
 
@@ -127,7 +127,7 @@ class FreeSurfaceOperator:
         half = np.empty((self.grid.shape[0], self._response.shape[1]), np.complex64)
 
         def product(field: Array, scratch: Array, out: Array) -> None:
-            """Write the product."""
+            """Write the product; its coefficients are twice as many as the scratch can hold."""
             del scratch
             self._apply(field[:, : self.grid.shape[1]], out, half)
 
@@ -142,7 +142,7 @@ class FreeSurfaceOperator:
         for low, high in rows:
             row_pad[: high - low, :nx] = values[low:high]
             ducc0.fft.r2c(row_pad[: high - low], axes=(1,), out=half[low:high], **threads)
-        step = max(COLUMNS // my, 8)
+        step = max(COLUMN_BLOCK // my, 8)
         for left in range(0, half.shape[1], step):
             part = half[:, left : left + step]
             padded = np.zeros((my, part.shape[1]), half.dtype)

@@ -11,7 +11,7 @@ import numpy as np
 
 from contactsim.grid import Array
 
-FAR = 500.0
+FAR_DISTANCE = 500.0
 """Distance over the longer side beyond which a rectangle acts by its moments, since differences would lose digits."""
 
 
@@ -45,7 +45,7 @@ def rectangle_response(y: Array, x: Array, height: float) -> Array:
     array, shape (m, n)
         Displacement.
     """
-    far = FAR * max(height, 1.0)
+    far = FAR_DISTANCE * max(height, 1.0)
     near_y, near_x = (int(np.count_nonzero(places <= far)) for places in (y, x))
     response = _by_moments(y, x, height)
     near = y[:near_y], x[:near_x]

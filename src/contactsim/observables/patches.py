@@ -45,15 +45,15 @@ def find_patches(contact: Array, periodic: bool = True) -> Patches:
     """
     from scipy.ndimage import label  # takes longer to import than most contacts to label
 
-    alone, count = label(contact)
-    across = [_pairs_across(alone, axis) if periodic else np.zeros((2, 0), int) for axis in range(contact.ndim)]
+    labels_inside, count = label(contact)
+    across = [_pairs_across(labels_inside, axis) if periodic else np.zeros((2, 0), int) for axis in range(contact.ndim)]
     spans = []
     for axis in range(contact.ndim):
         others = [pairs for other, pairs in enumerate(across) if other != axis]
-        labels = _merge(alone, count, others)
+        labels = _merge(labels_inside, count, others)
         ends = labels.take(0, axis), labels.take(-1, axis)
         spans.append(bool(np.intersect1d(ends[0][ends[0] > 0], ends[1]).size))
-    labels = _merge(alone, count, across)
+    labels = _merge(labels_inside, count, across)
     return Patches(labels, np.bincount(labels.ravel(), minlength=1)[1:], tuple(spans))
 
 
@@ -68,7 +68,7 @@ def _merge(labels: Array, count: int, pairs: list[Array]) -> Array:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    one, other = np.concatenate([np.zeros((2, 0), int), *pairs], axis=1)
-    links = coo_array((np.ones(one.size), (one - 1, other - 1)), shape=(count, count))
+    rows, columns = np.concatenate([np.zeros((2, 0), int), *pairs], axis=1) - 1
+    links = coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
     merged = connected_components(links, directed=False)[1] if count else np.zeros(0, int)
     return np.asarray(np.concatenate([[0], merged + 1])[labels])

@@ -20,9 +20,9 @@ Operations = Mapping[str, Callable[[Array], Array]]
 
 TAPER = 0.1
 """Length of the taper of a window at each end, over the length of the heights."""
-ROBUST = 1.4826
+DEVIATION_RATIO = 1.4826
 """Standard deviation over the median of absolute values, of Gaussian numbers."""
-RARE = 0.01
+MAX_SPIKE_SHARE = 0.01
 """Share of points up to which they are spikes if all others agree with those about them."""
 
 
@@ -61,8 +61,8 @@ def _remove_spikes(heights: Array, threshold: float) -> tuple[Array, float]:
     about = median_filter(heights, size=5 if heights.ndim == 1 else 3, mode="nearest")
     difference = np.abs(heights - about)
     differs = difference > 0
-    spread = ROBUST * float(np.median(difference))
-    if not spread and differs.mean() > RARE:  # heights of few digits
+    spread = DEVIATION_RATIO * float(np.median(difference))
+    if not spread and differs.mean() > MAX_SPIKE_SHARE:  # heights of few digits
         spread = float(difference[differs].min())
     spikes = difference > threshold * spread
     return np.where(spikes, about, heights), float(spikes.mean())

@@ -46,6 +46,12 @@ def _steps(spacing: float | Sequence[float], dimensions: int) -> list[tuple[int,
     return list(zip(range(2 - dimensions, 2), np.broadcast_to(spacing, dimensions), strict=True))
 
 
+def rms_gradient_open(heights: Array, spacing: Sequence[float]) -> float:
+    """Root-mean-square gradient over all pairs of neighbours of heights (n,) or (ny, nx) that do not repeat."""
+    slopes = (np.diff(heights, axis=axis) / step for axis, step in enumerate(spacing))
+    return float(np.sqrt(sum(np.mean(slope**2) for slope in slopes)))
+
+
 def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array | None = None) -> float:
     """Root-mean-square gradient over the points in `where`, default all (Eqs 3.8 and 3.9).
 

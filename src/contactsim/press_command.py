@@ -1,0 +1,106 @@
+"""The command `contactsim press`: from a file of measured heights to numbers with errors, and a figure."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.characterisation import characterise
+from contactsim.code_digest.modules import source_digest
+from contactsim.commands import DRAWN
+from contactsim.errors import InputError
+from contactsim.evaluation.estimate import align_right
+from contactsim.status import Status, describe_excess, is_solved
+from contactsim.surfaces.preparation import prepare_topography
+from contactsim.surfaces.topography import Topography, read_topography
+
+COLUMNS = {
+    "relative_contact_area_subgrid": ("area", ""),
+    "contact_stiffness": ("stiffness", "GPa/nm"),
+    "mean_gap": ("mean gap", "nm"),
+    "max_pressure": ("largest pressure", "GPa"),
+    "yielding_share": ("yielding", "of the contact"),
+}
+"""Numbers that are printed of heights that were pressed: their heads and units."""
+PLAIN_EXPONENTS = range(-3, 5)
+"""Powers of ten of numbers that are written without them."""
+
+
+def press_file(options: argparse.Namespace) -> None:
+    """Press a file of measured heights; print the numbers with their errors, draw and write them if asked to."""
+    if options.figure and Path(options.figure).suffix not in DRAWN:
+        raise InputError("--figure", options.figure, f"a name ending in one of {', '.join(DRAWN)}")
+    spacing = options.spacing[0] if options.spacing and len(options.spacing) == 1 else options.spacing
+    raw = read_topography(
+        options.file, spacing=spacing, unit=options.unit, variable=options.variable, fill=options.fill
+    )
+    heights = prepare_topography(raw, options.detrend, options.ends, options.level, options.spikes)
+    data = characterise(
+        heights,
+        contact_modulus=options.contact_modulus,
+        mean_pressures=options.mean_pressure,
+        hardness=options.hardness,
+    )
+    sys.stdout.write(f"{_describe_heights(heights, data)}\n{_press_table(data)}\n")
+    if options.output:
+        title, source = f"Contact of {Path(options.file).name}", source_digest("contactsim.characterisation")
+        settings = {key: value for key, value in vars(options).items() if key not in ("module", "command")}
+        dataset.write(dataset.stamp(data, title, settings, source), options.output)
+        sys.stdout.write(f"written to {options.output}\n")
+    if options.figure:
+        from contactsim.figures.characterisation import plot_characterisation
+
+        plot_characterisation(data).savefig(options.figure)
+        sys.stdout.write(f"drawn in {options.figure}\n")
+    failed = int((~is_solved(data.status)).sum())
+    if failed:
+        sys.exit(f"Error: {failed} of {data.status.size} loads did not converge")
+
+
+def _describe_heights(heights: Topography, data: xr.Dataset) -> str:
+    """Return size, roughness and repairs of heights in words."""
+    size = " × ".join(f"{length:.4g}" for length in heights.lengths)
+    points = " × ".join(map(str, heights.values.shape))
+    text = f"{points} points on {size} nm; rms height {_with_error(data, 'rms_height')} nm"
+    text += f", rms gradient {_with_error(data, 'rms_gradient')}"
+    for share, what in ((heights.filled, "filled"), (heights.spikes, "replaced as spikes")):
+        text += f"; {share:.2%} of the points {what}" if share else ""
+    return "\n".join([text, *(f"Beyond what the model holds for: {words}" for words in describe_excess(data))])
+
+
+def _press_table(data: xr.Dataset) -> str:
+    """Return a line for each load: its numbers, each with its error."""
+    columns = {name: words for name, words in COLUMNS.items() if name in data}
+    heads, units = (list(column) for column in zip(("pressure", "GPa"), *columns.values(), strict=True))
+    heads, units = [*heads, "patches", "status"], [*units, "", ""]
+    words = {status.value[0]: status.name.lower() for status in Status}
+    rows = [
+        [
+            f"{float(load.mean_pressure):.4g}",
+            *(_with_error(load, name) for name in columns),
+            f"{float(load.patches):.0f}",
+            words[int(load.status)],
+        ]
+        for load in (data.isel(mean_pressure=count) for count in range(data.mean_pressure.size))
+    ]
+    widths = [max(map(len, column)) for column in zip(heads, units, *rows, strict=True)]
+    lines = [align_right(row, widths).rstrip() for row in (heads, units, *rows)]
+    return "\n".join([*lines, "± change with every second point"])
+
+
+def _with_error(data: xr.Dataset, name: str) -> str:
+    """Return a number and its error as text."""
+    value, error = float(data[name]), float(data[f"{name}_grid_error"])
+    if not (np.isfinite(value) and error > 0):
+        return f"{value:.4g} ± {error:.2g}"
+    digits = max(int(np.floor(np.log10(abs(value) or error))) - int(np.floor(np.log10(error))) + 1, 0)
+    mantissa, _, exponent = f"{value:.{digits}e}".partition("e")
+    if -4 < int(exponent) < 5:
+        decimals = max(digits - int(exponent), 0)
+        return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+    return f"({mantissa} ± {error / 10.0 ** int(exponent):.{digits}f})e{int(exponent)}"
