@@ -34,7 +34,7 @@ def plot_characterisation(data: xr.Dataset, *, size: tuple[float, float] = (6.9,
     solved = data.isel(mean_pressure=np.flatnonzero(is_solved(data.status)))
     factor, unit = fitting_unit(float(solved.mean_gap.max()) if solved.mean_gap.size else 1.0, "nm")
     with mpl.rc_context(style.RC_PARAMS):
-        figure = Figure(figsize=size, layout="constrained")
+        figure = Figure(figsize=size, dpi=style.RC_PARAMS["savefig.dpi"], layout="constrained")
         (area, stiffness), (gap, pressure) = figure.subplots(2, 2)
         _draw(area, solved, "relative_contact_area_subgrid", "relative contact area")
         if "length_y" in solved:  # Persson's theory is of surfaces
