@@ -34,7 +34,7 @@ FLOORS = (
     ("observables",),
     ("paths",),
     ("error_control",),
-    ("simulation", "single_load", "transmission", "characterisation", "explanation"),
+    ("simulation", "single_load", "characterisation", "explanation"),
     ("analysis",),
     ("study",),
     ("evaluation",),

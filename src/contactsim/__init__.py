@@ -7,8 +7,8 @@ from importlib import import_module
 PUBLIC = {
     "press": "single_load",
     "characterise": "characterisation",
-    "contact_stiffness": "transmission",
-    "conductance": "transmission",
+    "contact_stiffness": "paths.contact_stiffness",
+    "conductance": "observables.conductance",
     "find_patches": "observables.patches",
     "simulate": "simulation",
     "estimate_cost": "simulation",

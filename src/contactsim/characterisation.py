@@ -15,13 +15,13 @@ from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positiv
 from contactsim.grid import Array
 from contactsim.observables.contact import relative_contact_area_subgrid
 from contactsim.observables.patches import find_patches
+from contactsim.paths.contact_stiffness import contact_stiffness
 from contactsim.single_load import press
 from contactsim.solvers.base import Result
 from contactsim.status import validity_flags
 from contactsim.surfaces.statistics import rms_gradient_open, rms_height
 from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
-from contactsim.transmission import contact_stiffness
 
 MIN_POINTS = 8
 """Fewest points each way: half of them make the coarser grid."""

@@ -1,4 +1,4 @@
-"""What a contact transmits: its stiffness, and the current or heat that flows through it."""
+"""The stiffness of a contact: that of a flat punch of its shape."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
-from contactsim.errors import POSITIVE, InputError, is_positive
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.base import Result, solve
 from contactsim.solvers.registry import default_solver
@@ -70,34 +70,3 @@ def _punch(scene: Scene, contact: Array) -> Scene:
     lower = Body(Flat.facing(surface), scene.lower.elasticity)
     path = LoadPath((load_step(1.0, None, "load"),))
     return Scene(lower, Body(surface, scene.upper.elasticity), scene.effects, path)
-
-
-def conductance(stiffness: float, contact_modulus: float, conductivities: tuple[float, float]) -> float:
-    """Return the current or heat that flows through a contact for each difference far away, by Barber's relation.
-
-    Stiffness and conductance are alike: both solve the same problem on the points in contact.
-
-    Parameters
-    ----------
-    stiffness : float
-        Contact stiffness for each length or area.
-    contact_modulus : float
-        E* of the pair.
-    conductivities : (float, float)
-        Electrical or thermal conductivities of both bodies; infinite for a perfect conductor.
-
-    Returns
-    -------
-    float
-        2 stiffness / (E* (1/c₁ + 1/c₂)), for each length or area; in units of conductivity over length.
-
-    References
-    ----------
-    J. R. Barber, Proc. R. Soc. Lond. A 459, 53 (2003).
-    """
-    if not is_positive(contact_modulus):
-        raise InputError("contact_modulus", contact_modulus, POSITIVE)
-    pair = tuple(conductivities) if isinstance(conductivities, tuple | list) else ()
-    if len(pair) != 2 or not all(is_positive(value) or value == np.inf for value in pair) or min(pair) == np.inf:
-        raise InputError("conductivities", conductivities, "a pair of positive numbers, at most one of them infinite")
-    return float(2 * stiffness / (contact_modulus * (1 / pair[0] + 1 / pair[1])))
