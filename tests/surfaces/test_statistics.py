@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from contactsim.surfaces.squared_gradient import squared_gradient
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_gradient_pairs, rms_height
+from contactsim.surfaces.statistics import (
+    nayak_parameter,
+    rms_curvature,
+    rms_gradient,
+    rms_gradient_pairs,
+    rms_height,
+)
 
 
 def wave(points, mode=3):
@@ -70,3 +76,21 @@ def test_no_points_give_nan():
         rms_curvature(np.ones(4), 1.0, nowhere),
     ):
         assert np.isnan(value)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_nayaks_parameter_of_a_wave_is_one(periodic):
+    assert nayak_parameter(wave(4096), (10.0 / 4096,), periodic) == pytest.approx(1, rel=1e-3)
+    assert np.isnan(nayak_parameter(np.zeros(8), (1.0,), periodic))
+
+
+@pytest.mark.parametrize(("periodic", "within"), [(True, 1e-12), (False, 0.02)])
+def test_nayaks_parameter_of_waves_in_all_directions_is_three_halves_of_that_of_a_profile(periodic, within):
+    """Waves of two lengths, each along both axes: m₀ = 2, of the gradient q₁² + q₂², of the curvature q₁⁴ + q₂⁴."""
+    points, waves = 512, (2, 5)
+    phase = 2 * np.pi * np.arange(points) / points
+    profile = sum(np.cos(count * phase) for count in waves)
+    heights = profile[:, None] + profile
+    exact = 1.5 * 2 * sum(count**4 for count in waves) / sum(count**2 for count in waves) ** 2
+    spacing = (10.0 / points, 10.0 / points)
+    assert nayak_parameter(heights, spacing, periodic) == pytest.approx(exact, rel=within)

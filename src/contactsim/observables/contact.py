@@ -14,8 +14,10 @@ import numpy as np
 
 from contactsim.grid import Array
 
-KEPT = ("contact", "pressure", "profile", "fields")
-"""Parts of a solution that a run can keep beside its numbers; all but the last by default."""
+DEFAULT_KEPT = ("contact", "pressure", "profile")
+"""What a run keeps of a solution beside its numbers, unless it is told otherwise."""
+KEPT = (*DEFAULT_KEPT, "fields", "distributions", "patches", "stiffness")
+"""All that it can keep; the stiffness of the contact costs about a further solution."""
 
 
 def touching(pressure: Array) -> Array:

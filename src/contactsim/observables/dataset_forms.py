@@ -44,8 +44,14 @@ AVERAGED = (
     "reduced_pressure_contact",
     "reduced_pressure_contact_corrected",
     "mean_gap",
+    "contact_stiffness",
+    "patches",
+    "largest_patch_share",
+    "spanning",
+    "pressure_density",
+    "gap_density",
 )
-"""Numbers of a state at a hard wall that are averaged over members."""
+"""Numbers of a state at a hard wall that are averaged over members, of those that a run keeps."""
 AVERAGED_STATES = (
     "mean_pressure",
     "normalised_pressure",

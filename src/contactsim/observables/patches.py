@@ -32,6 +32,12 @@ class Patches:
         """Number of patches."""
         return self.points.size
 
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Number of patches, share of the contact in the largest one, and 1 where a patch spans the heights, else 0."""
+        share = self.points.max() / self.points.sum() if self.count else np.nan
+        return {"patches": self.count, "largest_patch_share": share, "spanning": float(any(self.spans))}
+
 
 def find_patches(contact: Array, periodic: bool = True) -> Patches:
     """Return the patches of a contact set.

@@ -8,7 +8,7 @@ from typing import Any
 import xarray as xr
 
 from contactsim.errors import InputError
-from contactsim.observables.contact import KEPT
+from contactsim.observables.contact import DEFAULT_KEPT
 from contactsim.paths.options import Setup
 from contactsim.paths.pressures import read_points, simulate_loads
 from contactsim.paths.reuse import Point, Reuse
@@ -33,7 +33,7 @@ class HardWallDriver:
             points=setup.points,
             tolerance=options.tolerance,
             threads=options.threads,
-            keep=KEPT[:-1] if options.keep is None else options.keep,
+            keep=DEFAULT_KEPT if options.keep is None else options.keep,
             solved_points=reuse.points,
             coarse=reuse.coarse,
         )

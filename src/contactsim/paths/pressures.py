@@ -3,8 +3,8 @@
 A hard wall has one solution at each load whatever came before, so every step is solved from scratch. It may be taken
 from an earlier dataset if the same code made it from the same settings: a list of loads that grew equals, byte for
 byte, the list solved at once. Beside the numbers a run keeps what it is asked to: the contact set, the pressure on it,
-and the Fourier coefficients of the heights, from which any other quantity follows; or heights, pressure and gap as they
-are, to be drawn.
+and the Fourier coefficients of the heights, from which any other quantity follows; heights, pressure and gap as they
+are, to be drawn; distributions of pressure and gap, patches of contact, and the stiffness of the contact.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
@@ -25,13 +26,16 @@ from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
-from contactsim.observables.contact import KEPT
+from contactsim.observables.contact import DEFAULT_KEPT, KEPT
+from contactsim.observables.distributions import GAP_BINS, PRESSURE_BINS, distributions
 from contactsim.observables.hard_wall import wall_observables
+from contactsim.observables.patches import find_patches
+from contactsim.paths.contact_stiffness import contact_stiffness
 from contactsim.paths.reuse import Point
 from contactsim.solvers.base import HardWallSolver, Result, solve
 from contactsim.status import status_sentence
 from contactsim.surfaces.squared_gradient import squared_gradient_blocks
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
+from contactsim.surfaces.statistics import nayak_parameter, rms_curvature, rms_gradient, rms_height
 
 logger = logging.getLogger(__name__)
 
@@ -43,7 +47,7 @@ def simulate_loads(
     points: int,
     tolerance: float,
     threads: int = 1,
-    keep: Sequence[str] = KEPT[:-1],
+    keep: Sequence[str] = DEFAULT_KEPT,
     solved_points: Mapping[int, Point] | None = None,
     coarse: xr.Dataset | None = None,
 ) -> xr.Dataset:
@@ -77,6 +81,7 @@ def simulate_loads(
         if name not in KEPT:
             raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
+    roughness = _roughness(heights, Grid(heights.shape, scene.lengths).spacing, keep)
 
     def solve_step(step: LoadStep) -> Point:
         """Return one load on its own."""
@@ -86,9 +91,10 @@ def simulate_loads(
             problem.warm_start = WarmStart(start.pressure.values / scale.pressure, start.gap.values / scale.step)
         result = solve(method, problem, scale)
         del problem  # its fields are not needed while the result is read
-        return _read_point(scene, result, heights, keep)
+        return _read_point(replace(result, scene=scene), heights, roughness, keep)
 
-    return _join_points(scene, heights, _solve_steps(scene.path.steps, solved_points or {}, solve_step), keep)
+    solved = _solve_steps(scene.path.steps, solved_points or {}, solve_step)
+    return _join_points(scene, heights, solved, keep).assign(roughness)
 
 
 def _solve_steps(
@@ -113,8 +119,21 @@ def _solve_steps(
     return points
 
 
-def _read_point(scene: Scene, result: Result, heights: Array, keep: Sequence[str]) -> Point:
+def _roughness(heights: Array, spacing: Sequence[float], keep: Sequence[str]) -> dict[str, float]:
+    """Return the statistics of heights, (n,) or (ny, nx)."""
+    numbers = {
+        "rms_height": rms_height(heights),
+        "rms_gradient": rms_gradient(heights, spacing),
+        "rms_curvature": rms_curvature(heights, spacing),
+    }
+    if "distributions" in keep:
+        numbers["nayak_parameter"] = nayak_parameter(heights, spacing)
+    return numbers
+
+
+def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], keep: Sequence[str]) -> Point:
     """Return the numbers of a solution and the arrays that are kept of it."""
+    scene = cast(Scene, result.scene)
     certificate = result.record.certificate
     contact = result.contact
     spacing = Grid(heights.shape, scene.lengths).spacing
@@ -130,6 +149,10 @@ def _read_point(scene: Scene, result: Result, heights: Array, keep: Sequence[str
         "status": result.status.value[0],
         "contact_points": int(contact.sum()),
     }
+    if "patches" in keep:
+        numbers |= find_patches(contact).numbers
+    if "stiffness" in keep:
+        numbers["contact_stiffness"] = contact_stiffness(result) if result.status.solved else np.nan
     arrays = {}
     if "contact" in keep:
         arrays["contact_bits"] = np.packbits(contact)
@@ -137,11 +160,21 @@ def _read_point(scene: Scene, result: Result, heights: Array, keep: Sequence[str
         arrays["contact_pressure"] = result.pressure[contact]
     if "fields" in keep:
         arrays |= {"pressure": result.pressure, "gap": result.gap}
+    if "distributions" in keep:
+        unit = scene.contact_modulus * roughness["rms_gradient"]
+        arrays |= distributions(result.pressure, result.gap, unit, roughness["rms_height"])
     return Point(numbers, arrays, result.seconds)
 
 
-ARRAY_DIMENSIONS = {"contact_bits": ("step", "byte"), "contact_pressure": ("contact_point",)}
+ARRAY_DIMENSIONS = {
+    "contact_bits": ("step", "byte"),
+    "contact_pressure": ("contact_point",),
+    "pressure_density": ("step", "pressure_bin"),
+    "gap_density": ("step", "gap_bin"),
+}
 """Dimensions of arrays that are no fields."""
+BIN_CENTRES = {"pressure_bin": PRESSURE_BINS.centres, "gap_bin": GAP_BINS.centres}
+"""Coordinates of distributions."""
 
 
 def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequence[str]) -> xr.Dataset:
@@ -159,6 +192,8 @@ def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequen
         variables[name] = (ARRAY_DIMENSIONS.get(name, ("step", *plane)), joined)
     if "fields" in keep:
         variables["heights"] = (plane, heights)
+    if "distributions" in keep:
+        variables |= BIN_CENTRES
     if "profile" in keep:
         half, modes = grid.forward(heights), scene.upper.surface.modes
         half = half if modes is None else half[grid.low_modes(modes)]
@@ -166,9 +201,6 @@ def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequen
         variables |= {"profile_real": (across, half.real.copy()), "profile_imag": (across, half.imag.copy())}
     variables |= {
         "seconds": ("step", [point.seconds for point in points]),
-        "rms_height": rms_height(heights),
-        "rms_gradient": rms_gradient(heights, grid.spacing),
-        "rms_curvature": rms_curvature(heights, grid.spacing),
         "approach_first_touch": -float(heights.max()),
         "points": heights.shape[-1],
         "length": scene.length,

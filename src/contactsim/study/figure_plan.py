@@ -40,18 +40,23 @@ FIGURE_KEYS = {
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
     "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
     "footer": Key(choice(FOOTERS), f"one of {', '.join(FOOTERS)}", FOOTERS[0]),
+    "module": Key(text, "a module of contactsim.figures with the figure's function, if not that of the chapter", None),
     "film": Key(positive, "frames a second, for a film through the snapshots of the study beside the figure", None),
 }
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: name, chapter, its settings as read, and apart from them the columns to compare, not drawn."""
+    """One figure: name, chapter, its settings as read, and apart from them what is not drawn.
+
+    That is the module of its function, and the columns to compare.
+    """
 
     name: str
     chapter: str
     settings: dict
     compare: list[str]
+    module: str
 
     @property
     def endings(self) -> tuple[str, ...]:
@@ -85,16 +90,17 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
         if not (study_settings.get("slide") and study_settings["snapshots"]) or study_settings["vary"]:
             allowed = "left out, but for one slide, nothing of it varied, with snapshots"
             raise InputError(f"{prefix}.film", settings["film"], allowed, file)
-    _check_function(name, settings, studies, file, prefix)
-    compare = settings.pop("compare")
-    return Figure(name, file.stem, settings, compare)
+    compare, module = settings.pop("compare"), f"contactsim.figures.{settings.pop('module') or file.stem}"
+    figure = Figure(name, file.stem, settings, compare, module)
+    _check_function(figure, studies, file, prefix)
+    return figure
 
 
-def _check_function(name: str, settings: dict, studies: dict[str, Study], file: Path, prefix: str) -> None:
+def _check_function(figure: Figure, studies: dict[str, Study], file: Path, prefix: str) -> None:
     """Refuse a figure without a function, or whose function wants other datasets or other values of the thesis."""
-    functions = _functions(f"contactsim.figures.{file.stem}")
+    name, settings, functions = figure.name, figure.settings, _functions(figure.module)
     if name not in functions:
-        raise InputError(prefix, name, f"a function of contactsim.figures.{file.stem}: {', '.join(functions)}", file)
+        raise InputError(prefix, name, f"a function of {figure.module}: {', '.join(functions)}", file)
     parameters = [argument.arg for argument in functions[name].args[:-1]]  # the last are the axes
     datasets = [settings["study"] or "a law", *settings["datasets"]]
     if len(datasets) != len(parameters):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.elasticity.registry import ELASTICITIES
 from contactsim.interface.registry import EFFECTS, PAIRINGS
-from contactsim.observables.contact import KEPT
+from contactsim.observables.contact import DEFAULT_KEPT, KEPT
 from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import ENDS
 from contactsim.solvers.registry import SOLVERS, solver_class
@@ -122,7 +122,7 @@ STUDY_KEYS = {
     "solver": Key(mapping, "a mapping with `kind` and that solver's options", {}),
     "tolerance": Key(positive, "a positive number: of grid steps or, of smooth laws, parts of their strength", None),
     "accuracy": Key(error_or_mapping, "a relative error below 1, or a mapping with `error` and `quantities`", None),
-    "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(KEPT[:-1])),
+    "keep": Key(listed(choice(KEPT)), f"a list from {', '.join(KEPT)}", list(DEFAULT_KEPT)),
     "fit_limits": Key(listed(positive), "a list of largest reduced pressures to fit Eq. 3.11 to", None),
 }
 STUDY_KEYS |= {

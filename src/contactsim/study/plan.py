@@ -207,10 +207,9 @@ class Plan:
     def figure_settings(self, name: str) -> dict:
         """Return what a figure depends on: its settings, its code, and all that its data depend on."""
         figure = self.figures[name]
-        module = f"contactsim.figures.{figure.chapter}"
-        code = stage_digest("figure_of_law" if figure.settings["law"] else "figure", module)
+        code = stage_digest("figure_of_law" if figure.settings["law"] else "figure", figure.module)
         data = digest(*(self.study_digest(study) for study in figure.studies))
-        return {"name": name, "module": module, "settings": figure.settings, "source": code, "data": data}
+        return {"name": name, "module": figure.module, "settings": figure.settings, "source": code, "data": data}
 
     def study_digest(self, study: str) -> str:
         """Return a digest of what a study's dataset depends on."""

@@ -1,0 +1,184 @@
+"""What the contact of rough surfaces transmits: area, stiffness, distributions and patches, beside theories."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from contactsim.analysis.mean_errors import mean_error
+from contactsim.figures import style
+from contactsim.figures.parts.proportionality import persson_curve
+from contactsim.grid import Array
+from contactsim.reference.bush import bush_area
+from contactsim.reference.hard_wall import persson_pressure_density
+
+REDUCED_PRESSURE = r"reduced pressure $p^*$"
+PERSSON, BUSH = "-.", "--"
+"""Lines of the theories of Persson, and of Bush, Gibson and Thomas."""
+SHADE = 0.25
+"""Opacity of the error of a density."""
+LEAST_DENSITY = 1e-4
+"""Least density that is drawn."""
+
+
+def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the contact area and its ratio to the reduced pressure beside the theories."""
+    area, factor = axes
+    _plot_means(area, data, "relative_contact_area_corrected", data.reduced_pressure)
+    _plot_means(factor, data, "kappa_corrected", data.reduced_pressure)
+    pressure, persson = persson_curve(data)
+    _plot_theory(axes, pressure, persson, color=style.EXACT, ls=PERSSON)
+    nayak = data.nayak_parameter.mean("member")
+    for hurst_exponent, surfaces in _by_hurst_exponent(data):
+        bush = bush_area(pressure, float(nayak.sel(hurst_exponent=hurst_exponent)))
+        _plot_theory(axes, pressure, bush, color=style.hurst_colour(hurst_exponent), ls=BUSH)
+    area.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"relative contact area $a_{\mathrm{rel}}$")
+    factor.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"$\kappa=a_{\mathrm{rel}}/p^*$")
+    labels = [rf"$H={value:g}$, $\alpha={float(nayak.sel(hurst_exponent=value)):.3g}$" for value in _exponents(data)]
+    area.legend(handles=_hurst_handles(data, labels), loc="upper left")
+    theories = {r"Persson, erf$(\sqrt{2}p^*)$": PERSSON, "Bush, Gibson and Thomas": BUSH}
+    factor.legend(handles=style.line_handles(theories), loc="lower left")
+    style.add_letters(axes)
+    table = style.mean_table(data, ("relative_contact_area_corrected", "kappa_corrected"))
+    return table.merge(nayak.to_dataframe().reset_index(), on="hurst_exponent")
+
+
+def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot contact stiffness, conductance and mean gap against the reduced pressure."""
+    stiffness, gap = axes
+    height, gradient = (data[name].mean("member") for name in ("rms_height", "rms_gradient"))
+    pressure = data.reduced_pressure
+    _plot_means(stiffness, data, "contact_stiffness", pressure, height / (gradient * data.contact_modulus))
+    _plot_means(gap, data, "mean_gap", pressure, 1 / height)
+    stiffness.plot(pressure, 2 * pressure, color=style.LIGHT_GREY, lw=0.8, zorder=0)
+    stiffness.text(0.02, 2 * 0.02 * 1.5, "slope 1", color=style.GREY, fontsize=7, ha="right")
+    label = r"$K\bar h/(E^*\bar g)=G\bar h/(2c\bar g)$"
+    stiffness.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=label)
+    gap.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"mean gap over $\bar h$")
+    stiffness.legend(handles=_hurst_handles(data), loc="upper left")
+    style.add_letters(axes)
+    return style.mean_table(data, ("contact_stiffness", "mean_gap"))
+
+
+def pressure_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the density of pressure, one panel a Hurst exponent, with that of Persson."""
+
+    def persson(bins: Array, reduced_pressure: float) -> Array:
+        """Return Persson's density of p/(E* ḡ)."""
+        return persson_pressure_density(bins, reduced_pressure, 1.0, 1.0)
+
+    table = _plot_densities(axes, data, "pressure_density", r"pressure $p/(E^*\bar g)$", persson)
+    handles = style.line_handles({"Persson": PERSSON})
+    axes[-1].legend(handles=[*_load_handles(data), *handles], loc="upper right")
+    return table
+
+
+def gap_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the density of the gap, one panel a Hurst exponent."""
+    table = _plot_densities(axes, data, "gap_density", r"gap over $\bar h$", None)
+    axes[-1].legend(handles=_load_handles(data), loc="upper right")
+    return table
+
+
+def contact_patches(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot the number of patches and the share of the largest against the contact area."""
+    count, share = axes
+    area = data.relative_contact_area_mean
+    _plot_means(count, data, "patches", area)
+    _plot_means(share, data, "largest_patch_share", area)
+    for hurst_exponent, surfaces in _by_hurst_exponent(data):
+        spans = surfaces.where(surfaces.spanning_mean > 0.5)
+        look = style.hurst_look(hurst_exponent) | {"linestyle": "", "color": style.hurst_colour(hurst_exponent)}
+        look["markerfacecolor"] = style.hurst_colour(hurst_exponent)
+        share.plot(spans.relative_contact_area_mean, spans.largest_patch_share_mean, **look)
+    for panel, label in ((count, "number of patches"), (share, "share of the contact in the largest patch")):
+        panel.set(xscale="log", xlabel=r"relative contact area $a_{\mathrm{rel}}$", ylabel=label)
+    count.set(yscale="log")
+    share.legend(handles=_hurst_handles(data), loc="upper left")
+    style.add_letters(axes)
+    return style.mean_table(data, ("patches", "largest_patch_share", "spanning"))
+
+
+def _exponents(data: xr.Dataset) -> list[float]:
+    """Return the Hurst exponents of a dataset."""
+    return [float(value) for value in data.hurst_exponent.values]
+
+
+def _by_hurst_exponent(data: xr.Dataset) -> Iterator[tuple[float, xr.Dataset]]:
+    """Yield each Hurst exponent and its part of a dataset."""
+    return ((value, data.sel(hurst_exponent=value)) for value in _exponents(data))
+
+
+def _hurst_handles(data: xr.Dataset, labels: Sequence[str] | None = None) -> list[Line2D]:
+    """Return legend handles of the Hurst exponents in their colours."""
+    handles = style.hurst_handles(_exponents(data))
+    for handle, value, label in zip(handles, _exponents(data), labels or [None] * len(handles), strict=True):
+        handle.set_color(style.hurst_colour(value))
+        handle.set_linestyle("-")
+        if label is not None:
+            handle.set_label(label)
+    return handles
+
+
+def _plot_means(
+    axes: Axes, data: xr.Dataset, name: str, across: xr.DataArray, factor: xr.DataArray | float = 1.0
+) -> None:
+    """Plot the means of a quantity times a factor, one curve a Hurst exponent, with all their errors."""
+    means, errors = data[f"{name}_mean"] * factor, mean_error(data, name) * factor
+    x = across.broadcast_like(means)
+    for value in _exponents(data):
+        look = style.hurst_look(value) | {"color": style.hurst_colour(value), "linestyle": "-"}
+        curve = [part.sel(hurst_exponent=value).transpose() for part in (x, means, errors)]
+        style.errorbars(axes, *curve, **look)
+
+
+def _plot_theory(axes: Sequence[Axes], pressure: Array, areas: Array, **look: Any) -> None:
+    """Plot the area of a theory and its ratio to the reduced pressure."""
+    for panel, values in zip(axes, (areas, areas / pressure), strict=True):
+        panel.plot(pressure, values, lw=0.9, zorder=1, **look)
+
+
+def _plot_densities(
+    axes: Sequence[Axes], data: xr.Dataset, name: str, label: str, theory: Callable[[Array, float], Array] | None
+) -> pd.DataFrame:
+    """Plot densities, one panel a Hurst exponent and one colour a load; return them as a table."""
+    bins = next(dim for dim in data[f"{name}_mean"].dims if str(dim).endswith("_bin"))
+    means, errors = data[f"{name}_mean"], mean_error(data, name)
+    x = data[bins].values
+    for panel, hurst_exponent in zip(axes, _exponents(data), strict=True):
+        for pressure, colour in style.shades(data.reduced_pressure.values).items():
+            place = {"hurst_exponent": hurst_exponent, "reduced_pressure": pressure}
+            mean, error = (part.sel(place, method="nearest").values for part in (means, errors))
+            seen = np.where(mean > 0, mean, np.nan)
+            panel.plot(x, seen, color=colour, lw=1.1)
+            low = np.maximum(mean - error, LEAST_DENSITY / 10)
+            panel.fill_between(x, low, mean + error, color=colour, alpha=SHADE, lw=0)
+            if theory is not None:
+                panel.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
+        panel.set(yscale="log", ylim=(LEAST_DENSITY, None), xlabel=label, ylabel="density")
+        panel.set_title(f"$H={hurst_exponent:g}$", fontsize=9)
+    _end_where_all_is_zero(axes, x, means)
+    style.share_vertical_range(list(axes))
+    style.add_letters(list(axes))
+    table = xr.Dataset({name: means, f"{name}_error": errors}).to_dataframe().reset_index()
+    return table[table[name] > 0]
+
+
+def _end_where_all_is_zero(axes: Sequence[Axes], bins: Array, means: xr.DataArray) -> None:
+    """End the horizontal axes at the last bin of which a density is drawn."""
+    others = [dim for dim in means.dims if not str(dim).endswith("_bin")]
+    seen = np.flatnonzero(means.max(others).values > LEAST_DENSITY)
+    for panel in axes:
+        panel.set_xlim(0, bins[seen[-1]] * 1.03 if seen.size else None)
+
+
+def _load_handles(data: xr.Dataset) -> list[Line2D]:
+    """Return legend handles of the loads in their colours."""
+    colours = style.shades(data.reduced_pressure.values)
+    return style.colour_handles({f"$p^*={pressure:.3g}$": colour for pressure, colour in colours.items()})
