@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,7 @@ def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     pressure, persson = persson_curve(data)
     _plot_theory(axes, pressure, persson, color=style.EXACT, ls=PERSSON)
     nayak = data.nayak_parameter.mean("member")
-    for hurst_exponent, surfaces in _by_hurst_exponent(data):
+    for hurst_exponent in _exponents(data):
         bush = bush_area(pressure, float(nayak.sel(hurst_exponent=hurst_exponent)))
         _plot_theory(axes, pressure, bush, color=style.hurst_colour(hurst_exponent), ls=BUSH)
     area.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"relative contact area $a_{\mathrm{rel}}$")
@@ -92,7 +92,8 @@ def contact_patches(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     area = data.relative_contact_area_mean
     _plot_means(count, data, "patches", area)
     _plot_means(share, data, "largest_patch_share", area)
-    for hurst_exponent, surfaces in _by_hurst_exponent(data):
+    for hurst_exponent in _exponents(data):
+        surfaces = data.sel(hurst_exponent=hurst_exponent)
         spans = surfaces.where(surfaces.spanning_mean > 0.5)
         look = style.hurst_look(hurst_exponent) | {"linestyle": "", "color": style.hurst_colour(hurst_exponent)}
         look["markerfacecolor"] = style.hurst_colour(hurst_exponent)
@@ -110,19 +111,14 @@ def _exponents(data: xr.Dataset) -> list[float]:
     return [float(value) for value in data.hurst_exponent.values]
 
 
-def _by_hurst_exponent(data: xr.Dataset) -> Iterator[tuple[float, xr.Dataset]]:
-    """Yield each Hurst exponent and its part of a dataset."""
-    return ((value, data.sel(hurst_exponent=value)) for value in _exponents(data))
-
-
-def _hurst_handles(data: xr.Dataset, labels: Sequence[str] | None = None) -> list[Line2D]:
-    """Return legend handles of the Hurst exponents in their colours."""
+def _hurst_handles(data: xr.Dataset, labels: Sequence[str] = ()) -> list[Line2D]:
+    """Return legend handles of the Hurst exponents in their colours, with their own labels where none are given."""
     handles = style.hurst_handles(_exponents(data))
-    for handle, value, label in zip(handles, _exponents(data), labels or [None] * len(handles), strict=True):
+    for handle, value in zip(handles, _exponents(data), strict=True):
         handle.set_color(style.hurst_colour(value))
         handle.set_linestyle("-")
-        if label is not None:
-            handle.set_label(label)
+    for handle, label in zip(handles, labels, strict=False):
+        handle.set_label(label)
     return handles
 
 
