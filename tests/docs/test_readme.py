@@ -25,6 +25,7 @@ from contactsim.evaluation.robustness.survey import ROBUSTNESS_KEYS
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS, KEPT_TIERS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
+from contactsim.status import FLAGS, LIMITS, Status
 from contactsim.study.claim_plan import CLAIM_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS
 from contactsim.study.keys import (
@@ -51,6 +52,7 @@ PAGES = {
     for page in (
         "README.md",
         "docs/python.md",
+        "docs/conventions.md",
         "docs/workflow.md",
         "docs/accuracy.md",
         "docs/architecture.md",
@@ -92,6 +94,14 @@ def test_the_python_of_the_readme_runs_and_reconstructs_the_solution(made, monke
     assert np.allclose(law.traction(gap)[0], between[1] / (2 * step), atol=1e-6)
     assert np.isclose(law.traction(np.linspace(0, 6, 2000)[None]).max(), law.strength, rtol=1e-5)
     assert names["pressed"].status.values.max() == 0
+
+
+def test_the_conventions_have_every_status_and_limit():
+    page = PAGES["docs/conventions.md"]
+    for status in Status:
+        assert f"| {status.value[0]} | `{status.name}` | {status.sentence} |" in page
+    for name, (limit, words) in LIMITS.items():
+        assert f"| {FLAGS[name]} | `{name}`, {words} | {limit:g} |" in page
 
 
 @pytest.fixture(scope="module")
