@@ -22,6 +22,7 @@ PUBLIC = {
     "approaches": "contact.loading",
     "sliding": "contact.loading",
     "HalfSpace": "elasticity.half_space",
+    "FreeHalfSpace": "elasticity.half_space",
     "Layer": "elasticity.layer",
     "Flat": "surfaces.shapes",
     "Cylinder": "surfaces.shapes",

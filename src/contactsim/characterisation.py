@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,15 +11,16 @@ import xarray as xr
 from contactsim.dataset import describe
 from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positive
 from contactsim.grid import Array
-from contactsim.observables.contact import relative_contact_area_subgrid
+from contactsim.observables.contact import relative_contact_area_subgrid, yielding_share
 from contactsim.observables.patches import find_patches
 from contactsim.paths.contact_stiffness import contact_stiffness
 from contactsim.single_load import press
 from contactsim.solvers.base import Result
 from contactsim.status import validity_flags
-from contactsim.surfaces.statistics import rms_gradient_open, rms_height
+from contactsim.surfaces.open_statistics import rms_gradient_open
+from contactsim.surfaces.spectral_moments import nayak_parameter
+from contactsim.surfaces.statistics import rms_height
 from contactsim.surfaces.topography import Topography
-from contactsim.traits import Trait
 
 MIN_POINTS = 8
 """Fewest points each way: half of them make the coarser grid."""
@@ -66,8 +65,8 @@ def characterise(
     xarray.Dataset
         With dimension `mean_pressure`: relative contact area with edges between points, approach, mean gap, largest
         pressure, contact stiffness, yielding share with a hardness, number of patches, and status; without it rms
-        height and gradient, E*, lengths of the heights, and `validity_flags`, which tell if slopes are too large for
-        linear elasticity. The error of a number is that with `_grid_error` behind its name.
+        height and gradient, Nayak's parameter, E*, lengths of the heights, and `validity_flags`, which tell if slopes
+        are too large for linear elasticity. The error of a number is that with `_grid_error` behind its name.
 
     Raises
     ------
@@ -85,19 +84,13 @@ def characterise(
     options |= {"contact_modulus": contact_modulus, "tolerance": tolerance, "threads": threads}
     fine, coarse = (
         _numbers_at(surface, pressures.astype(float), hardness, options)
-        for surface in (topography, _every_second(topography))
+        for surface in (topography, topography.every_second())
     )
     fine["validity_flags"] = np.int8(validity_flags({"rms_gradient": float(fine.rms_gradient)}))
     names = [str(name) for name in fine if name not in ("status", "patches", "validity_flags")]
     errors = {f"{name}_grid_error": abs(fine[name] - coarse[name]) for name in names}
     sizes = zip(("length", "length_y"), topography.lengths[::-1], strict=False)
     return describe(fine.assign(errors).assign({"contact_modulus": contact_modulus, **dict(sizes)}))
-
-
-def _every_second(topography: Topography) -> Topography:
-    """Return a topography with every second point in each direction."""
-    values = topography.values[(slice(None, None, 2),) * topography.values.ndim]
-    return replace(topography, values=values, spacing=tuple(2 * step for step in topography.spacing))
 
 
 def _numbers_at(
@@ -107,7 +100,7 @@ def _numbers_at(
     results = [press(topography, mean_pressure=float(pressure), **options) for pressure in pressures]
     readers = dict(NUMBERS)
     if hardness is not None:
-        readers["yielding_share"] = partial(_yielding_share, hardness)
+        readers["yielding_share"] = lambda result: yielding_share(result.pressure, hardness)
     data = xr.Dataset(coords={"mean_pressure": pressures})
     for name, read in readers.items():
         values = [read(result) if result.status.solved else np.nan for result in results]
@@ -115,18 +108,13 @@ def _numbers_at(
     data["status"] = "mean_pressure", np.array([result.status.value[0] for result in results], np.int8)
     data["rms_gradient"] = rms_gradient_open(topography.values, topography.spacing)
     data["rms_height"] = rms_height(topography.values)
+    data["nayak_parameter"] = nayak_parameter(topography.values, topography.spacing, periodic=False)
     return data
 
 
 def _repeats(result: Result) -> bool:
     """Return whether the heights of a result repeat."""
-    return result.scene is not None and Trait.FREE not in result.scene.traits
-
-
-def _yielding_share(hardness: float, result: Result) -> float:
-    """Return the share of the contact with a pressure above the hardness; NaN without contact."""
-    contact = result.contact
-    return float((result.pressure[contact] > hardness).mean()) if contact.any() else np.nan
+    return result.scene is not None and result.scene.repeats
 
 
 NUMBERS: Mapping[str, Callable[[Result], float]] = {

@@ -192,7 +192,7 @@ def _missing_parts(scene: Scene) -> dict[str, str]:
             parts[f"deformation of the {side} body"] = "rigid: absent, not stiff"
     if len(scene.elasticities) == 2:
         parts["the second displacement field"] = "aligned bodies: their compliances add"
-    if scene.compliance(np.zeros(1))[0] == 0 and Trait.FREE not in scene.traits:
+    if scene.compliance(np.zeros(1))[0] == 0 and scene.repeats:
         free, fixed = "free on a half-space: zero by convention", "zero: an incompressible layer keeps its volume"
         parts["mean displacement"] = free if Trait.HALF_SPACE in scene.traits else fixed
     unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(effect, kind) for effect in scene.effects)]

@@ -46,12 +46,15 @@ LIMITS = {
     "slip": (2.0, "slip under repulsion over the laws' length"),
     "process_zone_step": (0.2, "grid spacing over the process zone"),
     "rms_gradient": (0.45, "rms slope"),
+    "wave_step": (0.25, "grid spacing over the shortest wavelength"),
+    "yielding_share": (0.0, "share of the contact above the hardness"),
 }
 """Largest value of each number, and its name in words.
 
 Beyond that overlap the laws' repulsion grows too slowly; beyond that slip shear removes the repulsion of a coupled law.
 With steps of a fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %; with longer ones it jumps from point
-to point. Small slopes leave out half of their square, a tenth at this limit.
+to point. Small slopes leave out half of their square, a tenth at this limit. With fewer than four points to the
+shortest wavelength the area of rough surfaces is off by a tenth and more.
 """
 FLAGS = {name: 1 << place for place, name in enumerate(LIMITS)}
 """Bits of `validity_flags`, one for each limit."""

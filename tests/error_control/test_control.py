@@ -153,7 +153,7 @@ def test_the_choice_does_not_depend_on_the_grid_and_increments_that_a_run_has():
 
 def test_what_was_not_measured_is_refused():
     wave = LINE_SCENE | {"surface": {"kind": "sinusoid", "length": 1.0, "amplitude": 0.1}}
-    with refused("surface", "were not measured"):
+    with refused("surface", "are not known"):
         study(wave)
     with refused("accuracy.quantities", "relative_contact_area"):
         study(LINE_SCENE, accuracy={"error": 0.1, "quantities": ["pull_off_load_loading"]})

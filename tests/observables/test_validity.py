@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import contactsim as cs
 from contactsim import status
 from contactsim.contact.loading import approaches
 from contactsim.dataset import describe
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.simulation import simulate
 from contactsim.surfaces.shapes import Sinusoid
+from support.cases import refused
 from support.smooth import LENGTH, along, scene_of
 
 
@@ -29,11 +31,11 @@ def test_the_process_zone_is_that_of_the_specification():
 
 
 def test_every_limit_has_its_bit_and_missing_numbers_are_within():
-    assert sorted(status.FLAGS.values()) == [1, 2, 4, 8]
+    assert sorted(status.FLAGS.values()) == [1, 2, 4, 8, 16, 32]
     assert status.validity_flags({}) == 0
     for name, (limit, _) in status.LIMITS.items():
         assert status.validity_flags({name: limit}) == 0
-        assert status.validity_flags({name: 1.01 * limit}) == status.FLAGS[name]
+        assert status.validity_flags({name: 1.01 * limit + 1e-9}) == status.FLAGS[name]
 
 
 def test_overlap_is_flagged_from_where_it_is_too_deep(caplog):
@@ -74,6 +76,43 @@ def test_exceeded_limits_are_reported_in_words_even_where_states_are_missing():
     numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0], "validity_flags": [0, 1, np.nan, 1]}
     data = describe(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
     assert status.describe_excess(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]
-    assert list(data.validity_flags.flag_masks) == [1, 2, 4, 8]
-    assert data.validity_flags.flag_meanings == "max_interpenetration slip process_zone_step rms_gradient"
+    assert list(data.validity_flags.flag_masks) == [1, 2, 4, 8, 16, 32]
+    assert data.validity_flags.flag_meanings == " ".join(status.LIMITS)
     assert not status.describe_excess(data.isel(step=[0]))
+
+
+def wall_scene(surface, hardness=None):
+    """Return a surface against a hard wall under two loads."""
+    return cs.Scene(cs.HalfSpace(1.0), surface, cs.HardWall(hardness=hardness), cs.pressures([0.001, 0.05]))
+
+
+def test_at_a_hard_wall_steep_slopes_coarse_waves_and_yielding_are_flagged():
+    rough = {"length": 64.0, "hurst_exponent": 0.8, "long_cutoff": 32.0, "short_cutoff": 8.0, "seed": 1}
+    gentle = cs.simulate(wall_scene(cs.SelfAffine(rms_gradient=0.1, **rough)), points=64)
+    assert not gentle.validity_flags.values.any()
+    assert "yielding_share" not in gentle
+    steep = cs.simulate(wall_scene(cs.SelfAffine(rms_gradient=0.5, **rough)), points=64)
+    assert flagged(steep, "rms_gradient").all()
+    coarse = cs.simulate(wall_scene(cs.SelfAffine(rms_gradient=0.1, **rough)), points=24)
+    assert flagged(coarse, "wave_step").all()
+    assert coarse.wave_step.values == pytest.approx(7 / 24)  # the shortest of the waves has a seventh of the length
+
+
+def test_yielding_is_the_share_of_the_contact_above_the_hardness():
+    data = cs.simulate(wall_scene(Sinusoid(64.0, 1.0), hardness=0.05), points=256, keep=["contact", "pressure"])
+    ends = np.cumsum(data.contact_points.values)
+    for step, (begin, end) in enumerate(zip([0, ends[0]], ends, strict=True)):
+        share = float((data.contact_pressure.values[begin:end] > 0.05).mean())
+        assert data.yielding_share.values[step] == share
+        assert flagged(data, "yielding_share")[step] == (share > 0)
+    assert data.yielding_share.values[0] < data.yielding_share.values[1]
+    for hardness in (0.0, -1.0, np.nan, "hard"):
+        with refused("hardness", "positive"):
+            cs.HardWall(hardness=hardness)
+
+
+def test_fields_stand_at_their_places():
+    data = cs.simulate(wall_scene(cs.Sphere(radius=10.0, length=8.0)), points=16, keep=["fields"])
+    assert list(data.x.values) == list(data.y.values) == [0.5 * place for place in range(16)]
+    assert data.x.attrs["units"] == "nm"
+    assert data.pressure.dims == ("step", "y", "x")

@@ -140,7 +140,7 @@ def test_every_figure_has_a_function_that_takes_data_axes_and_the_values_of_the_
     figures = tiers["standard"].figures
     assert figures
     for name, figure in figures.items():
-        draw = getattr(import_module(f"contactsim.figures.{figure.chapter}"), name)
+        draw = getattr(import_module(figure.module), name)
         shown = max(len(figure.studies), 1)  # a law by itself is one dataset too
         _, *beside, axes = list(inspect.signature(draw).parameters)[: shown + 1]
         assert (len(beside), axes) == (shown - 1, "axes")

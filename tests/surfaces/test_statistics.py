@@ -3,9 +3,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from contactsim.surfaces.open_statistics import (
+    rms_curvature_open,
+    rms_gradient_open,
+    rms_gradient_pairs_open,
+    squared_gradient_open,
+)
+from contactsim.surfaces.spectral_moments import nayak_parameter
 from contactsim.surfaces.squared_gradient import squared_gradient
 from contactsim.surfaces.statistics import (
-    nayak_parameter,
     rms_curvature,
     rms_gradient,
     rms_gradient_pairs,
@@ -94,3 +100,37 @@ def test_nayaks_parameter_of_waves_in_all_directions_is_three_halves_of_that_of_
     exact = 1.5 * 2 * sum(count**4 for count in waves) / sum(count**2 for count in waves) ** 2
     spacing = (10.0 / points, 10.0 / points)
     assert nayak_parameter(heights, spacing, periodic) == pytest.approx(exact, rel=within)
+
+
+def test_heights_that_do_not_repeat_have_no_slope_across_their_ends():
+    """A parabola h = x²/2 + y² on 0 to 4 by 0 to 2."""
+    y, x = np.linspace(0, 2, 201)[:, None], np.linspace(0, 4, 401)
+    heights, spacing = x**2 / 2 + y**2, (0.01, 0.01)
+    everywhere = np.ones(heights.shape, bool)
+    exact = np.sqrt(16 / 3 + 4 * 4 / 3)
+    assert rms_gradient_open(heights, spacing) == pytest.approx(exact, rel=1e-4)
+    assert rms_gradient_open(heights, spacing, everywhere) == pytest.approx(exact, rel=1e-2)
+    assert rms_gradient_pairs_open(heights, spacing, everywhere) == rms_gradient_open(heights, spacing)
+    assert rms_curvature_open(heights, spacing) == pytest.approx(1.5, rel=1e-9)
+    assert np.allclose(squared_gradient_open(heights, spacing), x**2 + (2 * y) ** 2, atol=1e-9)
+
+
+def test_open_slopes_over_a_part_are_those_of_its_points_and_pairs():
+    heights = np.array([0.0, 1.0, 3.0, 3.0])
+    where = np.array([True, True, False, True])
+    # squared slopes 1, 4, 0; of the points 1, (1+4)/2, (4+0)/2, 0
+    assert rms_gradient_open(heights, (1.0,), where) ** 2 == pytest.approx((1 + 2.5 + 0) / 3)
+    assert rms_gradient_pairs_open(heights, (1.0,), where) == pytest.approx(1.0)
+    assert np.isnan(rms_gradient_open(heights, (1.0,), np.zeros(4, bool)))
+    assert np.isnan(rms_gradient_pairs_open(heights, (1.0,), np.array([True, False, False, True])))
+
+
+def test_inside_they_are_those_of_heights_that_repeat():
+    rng = np.random.default_rng(1)
+    heights, where = rng.normal(size=(20, 30)), np.zeros((20, 30), bool)
+    where[3:-3, 4:-4] = rng.uniform(size=(14, 22)) > 0.5
+    spacing = (0.5, 0.2)
+    assert rms_gradient_open(heights, spacing, where) == pytest.approx(rms_gradient(heights, spacing, where))
+    assert rms_gradient_pairs_open(heights, spacing, where) == pytest.approx(
+        rms_gradient_pairs(heights, spacing, where)
+    )

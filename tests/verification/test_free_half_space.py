@@ -8,7 +8,10 @@ from scipy.integrate import quad
 
 import contactsim as cs
 from contactsim.elasticity.half_space import FreeHalfSpace
+from contactsim.paths.driver import follow_path
+from contactsim.paths.options import Setup
 from contactsim.status import Status
+from contactsim.study.study import Study
 from support.cases import orders, refused, rough
 
 LENGTH = 3.0
@@ -182,9 +185,13 @@ def test_what_cannot_be_free_is_refused():
         cs.press(heights, **options, periodic="no")
     with refused("solver", "accepts FREE"):
         cs.press(heights[0], **options, periodic=False, solver="verlet")
-    wall = cs.Scene(FreeHalfSpace(1.0), cs.Topography(heights, 1.0), cs.HardWall(), cs.pressures([0.1]))
-    with refused("elasticity", "`press` takes a free half-space"):
-        cs.simulate(wall, points=16)
+    with refused("elasticity", "two free half-spaces, or two bodies that repeat"):
+        bodies = cs.Body(cs.Flat(16.0), FreeHalfSpace(1.0)), cs.Body(cs.Sphere(radius=16.0, length=16.0), cs.HalfSpace(1.0))
+        cs.Scene(*bodies, cs.HardWall(), cs.pressures([0.1]))
+    law = cs.NormalCohesiveZone(work_of_separation=0.1, normal_length=1.0)
+    adhesive = cs.Scene(FreeHalfSpace(1.0), cs.Cylinder(radius=16.0, length=16.0), law, cs.approaches([0.0, 1.0], 0.5))
+    with refused("solver", "accepts FREE"):
+        cs.simulate(adhesive, points=64)
 
 
 def test_a_topography_that_was_made_periodic_repeats():
@@ -207,3 +214,84 @@ def test_a_topography_is_free_unless_it_is_said_to_repeat():
     assert cs.press(measured, thickness=1.0, poisson_ratio=0.3, **load).status is Status.CONVERGED
     with refused("spacing", "a topography has its own"):
         cs.press(measured, spacing=1.0, **load)
+
+
+def sphere_scene(body, loads, length=4.0):
+    """Return a sphere of radius 10 under loads."""
+    return cs.Scene(body, cs.Sphere(radius=10.0, length=length), cs.HardWall(), cs.pressures(loads))
+
+
+@pytest.mark.parametrize("dimensions", [1, 2])
+def test_a_run_is_the_states_of_single_loads(dimensions):
+    surface = cs.SelfAffine(64.0, 0.8, 32.0, 8.0, 0.5, dimensions=dimensions, seed=2)
+    loads = [0.01, 0.1]
+    data = cs.simulate(cs.Scene(FreeHalfSpace(2.0), surface, cs.HardWall(), cs.pressures(loads)), points=64)
+    for step, load in enumerate(loads):
+        state = cs.press(surface.heights(64), spacing=1.0, contact_modulus=2.0, mean_pressure=load, periodic=False)
+        assert data.approach.values[step] == state.approach
+        assert data.relative_contact_area.values[step] == state.relative_contact_area
+    assert (data.status == 0).all()
+
+
+def test_contact_that_reaches_the_ends_has_no_edge_there():
+    flat = cs.simulate(cs.Scene(FreeHalfSpace(1.0), cs.Flat(8.0), cs.HardWall(), cs.pressures([0.1])), points=32)
+    assert flat.relative_contact_area.item() == flat.relative_contact_area_corrected.item() == 1
+    assert flat.contact_edges.item() == 0
+    slope = cs.Topography(np.arange(16.0), 1.0)
+    tilted = cs.simulate(cs.Scene(FreeHalfSpace(1.0), slope, cs.HardWall(), cs.pressures([1e-3])))
+    assert tilted.rms_gradient.item() == tilted.rms_gradient_contact_subgrid.item() == pytest.approx(1)
+    assert tilted.contact_edges.item() == 1
+
+
+def test_a_run_of_a_sphere_follows_hertz_and_a_period_of_four_radii_does_not():
+    """Contact radius 1 of a sphere of radius 10 and E* = 1: load 4/30. Images 4 apart take up approach and area."""
+    load = 4 / 30 / 16
+    free, periodic = (
+        cs.simulate(sphere_scene(body, [load]), points=256, tolerance=1e-5)
+        for body in (FreeHalfSpace(1.0), cs.HalfSpace(1.0))
+    )
+    radii = [4 * np.sqrt(data.relative_contact_area_subgrid.item() / np.pi) for data in (free, periodic)]
+    assert radii[0] == pytest.approx(1, rel=1e-3)
+    assert free.approach.item() == pytest.approx(0.1, rel=1e-3)
+    assert radii[1] < 0.99
+    assert free.max_pressure.item() == pytest.approx(1.5 * load * 16 / np.pi, rel=5e-3)
+
+
+def test_accuracy_is_kept_on_a_free_half_space_and_its_cost_foreseen():
+    scene = sphere_scene(FreeHalfSpace(1.0), [4 / 30 / 16])
+    data = cs.simulate(scene, accuracy=0.01)
+    exact = np.pi / 16
+    assert data.accuracy_reached.item() == 1
+    error = abs(data.relative_contact_area_subgrid.item() / exact - 1)
+    assert error < 0.01
+    forecast = cs.estimate_cost(scene, accuracy=0.01)
+    work = data.transforms.sum().item() + data.coarse_run_transforms.item()
+    assert 0.3 < work / forecast.transforms < 3
+    half, whole = (forecast_of(body) for body in (cs.HalfSpace(1.0), FreeHalfSpace(1.0)))
+    assert whole == pytest.approx(3 * half)
+
+
+def forecast_of(body):
+    """Return the transforms that a sphere on a body is expected to take."""
+    return cs.estimate_cost(sphere_scene(body, [4 / 30 / 16]), points=64).transforms
+
+
+def test_free_and_periodic_bodies_have_different_fingerprints():
+    free, periodic = (Setup(sphere_scene(body, [0.1])).fingerprint for body in (FreeHalfSpace(1.0), cs.HalfSpace(1.0)))
+    assert free != periodic
+
+
+def test_a_study_has_a_free_half_space():
+    section = {
+        "title": "Sphere",
+        "surface": {"kind": "sphere", "radius": 10.0, "length": 4.0},
+        "body": {"kind": "free_half_space", "contact_modulus": 1.0},
+        "effects": ["hard_wall"],
+        "load": {"contact_ratio": [0.05, 0.1]},
+        "points": 64,
+        "tolerance": 1e-4,
+    }
+    (run,) = Study.read("sphere", section, "ch3.yaml", 1).runs()
+    data = follow_path(run.setup)
+    radii = 4 * np.sqrt(data.relative_contact_area_subgrid.values / np.pi)
+    assert radii == pytest.approx([0.5, 1.0], rel=0.02)

@@ -92,7 +92,7 @@ def pose_hard_wall(
     grid = Grid(heights.shape, scene.lengths, threads)
     highest = float(heights.max())
     value = step.value + scene.path.origin(heights)
-    is_free = Trait.FREE in scene.traits
+    is_free = not scene.repeats
     overlap = value + highest  # beyond first touch, if it is an approach
     pressure = step.value if step.control is Trait.MEAN_PRESSURE else None
     # A profile that is flat but for rounding has no grid step of its own: the displacement takes its place.

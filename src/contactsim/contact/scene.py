@@ -119,6 +119,8 @@ class Scene:
         """Raise InputError for bodies, effects or loads that are missing or impossible."""
         if not self.elasticities:
             raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
+        if len({Trait.FREE in body.traits for body in self.elasticities}) > 1:
+            raise InputError("elasticity", "FreeHalfSpace", "two free half-spaces, or two bodies that repeat")
         if not self.effects:
             raise InputError("effects", self.effects, "at least one, which resists overlap")
         for pressure in self.path.mean_pressures if self.kind is ProblemKind.HARD_WALL else ():
@@ -226,6 +228,11 @@ class Scene:
     def kind(self) -> ProblemKind:
         """Kind of problem that the scene poses."""
         return ProblemKind.COHESIVE if self.acting_laws else ProblemKind.HARD_WALL
+
+    @property
+    def repeats(self) -> bool:
+        """True where contact and displacement go on at the other end of the heights: on all but free half-spaces."""
+        return Trait.FREE not in self.traits
 
     @property
     def lengths(self) -> tuple[float, ...]:

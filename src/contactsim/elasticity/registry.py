@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from contactsim.elasticity.base import Elasticity
-from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.half_space import FreeHalfSpace, HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import NOTHING, POSITIVE, InputError, Words, is_positive
 
-ELASTICITIES = {"half_space": HalfSpace, "layer": Layer}
+ELASTICITIES = {"half_space": HalfSpace, "free_half_space": FreeHalfSpace, "layer": Layer}
 
 
 def make_elasticity(

@@ -20,6 +20,7 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.contact.scene import ProblemKind
 from contactsim.error_control.knobs import grid_features
+from contactsim.error_control.measured import is_measured
 from contactsim.error_control.options import SAFETY, choose_options, coarsen, expect_error, scale_increment, set_grid
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
@@ -116,6 +117,8 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
         The final solution with its estimates. `met` is false where the error is missed after one refinement.
     """
     first = choose_options(setup, error, quantities)
+    if is_measured(first.scene):
+        return _solve_measured(first, error, quantities)
     name_of_family = scene_family(first.scene)
     family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
     companion = COMPANIONS[setup.scene.kind](coarsen(first))
@@ -129,6 +132,15 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
         errors = estimate_errors(last, before[1], family, names)
         logger.info("refined to %d points: %s", last.points, describe_errors(errors, error))
     return Controlled(last, before, errors, error)
+
+
+def _solve_measured(setup: Setup, error: float, quantities: Sequence[str]) -> Controlled:
+    """Solve measured heights and every second point of them; the difference is the error, and no grid makes it less."""
+    names = tuple(quantities or QUANTITIES[scene_family(setup.scene)])
+    fine, coarse = (solve_setup(part, names) for part in (setup, coarsen(setup)))
+    errors = {name: relative_difference(fine, coarse, name) for name in names}
+    logger.info("on %d points, and on every second: %s", fine.points, describe_errors(errors, error))
+    return Controlled(fine, [coarse], errors, error)
 
 
 COMPANIONS: dict[ProblemKind, Callable[[Setup], Setup]] = {

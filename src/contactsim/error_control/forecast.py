@@ -15,8 +15,9 @@ from functools import cache
 import numpy as np
 
 from contactsim.error_control.knobs import PATH_TOLERANCE, grid_features
+from contactsim.error_control.measured import is_measured
 from contactsim.error_control.options import choose_options, coarsen, expect_error
-from contactsim.error_control.relations import scaling_relations
+from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import QUANTITIES, scene_family
 from contactsim.errors import InputError
 from contactsim.grid import Grid
@@ -26,6 +27,10 @@ from contactsim.solvers.registry import default_solver_name, make_solver, solver
 
 TIMINGS, UNIT_POINTS, BATCH = 7, 4096, 100
 """How the unit of forecast times is timed: the best of some batches of transforms of a grid."""
+
+
+FREE_WORK = {1: 2.0, 2: 3.0}
+"""Transforms of a product on a free half-space, over those of a periodic one, by dimension."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +52,7 @@ class Forecast:
     megabytes : float
         Memory of all arrays at their peak.
     errors : dict from str to float
-        Relative errors by quantity.
+        Relative errors by quantity; NaN for measured heights, whose spacing decides them.
     unsure : tuple of str
         Features in which the scene lies beyond all that was measured.
     """
@@ -92,7 +97,8 @@ def forecast_setup(setup: Setup, quantities: Sequence[str] = ()) -> Forecast:
     family = relations.families[name_of_family]
     size, steps = setup.size, len(scene.path.steps)
     places = [numbers | step_features(setup) for numbers in grid_features(scene, setup.points)]
-    transforms, per = sum(family.transforms(numbers) for numbers in places), family.seconds
+    factor = 1.0 if scene.repeats else FREE_WORK[len(scene.lengths)]
+    transforms, per = factor * sum(family.transforms(numbers) for numbers in places), family.seconds
     seconds = per["step"] * steps + transforms * (per["transform"] + per["point"] * size * math.log2(size))
     method = options.solver or make_solver(default)
     return Forecast(
@@ -102,9 +108,14 @@ def forecast_setup(setup: Setup, quantities: Sequence[str] = ()) -> Forecast:
         transforms=transforms,
         units=seconds / relations.unit,
         megabytes=method.fields * len(scene.components) * size * 8 / 1e6,
-        errors={name: expect_error(setup, family, name) for name in quantities or QUANTITIES[name_of_family]},
+        errors={name: _expected_error(setup, family, name) for name in quantities or QUANTITIES[name_of_family]},
         unsure=tuple(dict.fromkeys(name for numbers in places for name in family.outside(numbers))),
     )
+
+
+def _expected_error(setup: Setup, family: Family, name: str) -> float:
+    """Return the expected relative error of a quantity; NaN for measured heights, whose spacing decides it."""
+    return math.nan if is_measured(setup.scene) else expect_error(setup, family, name)
 
 
 def step_features(setup: Setup) -> dict[str, float]:

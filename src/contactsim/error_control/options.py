@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from contactsim.contact.scene import Scene
 from contactsim.error_control.knobs import KNOBS, solve_relations
+from contactsim.error_control.measured import choose_measured, is_measured, sample_every_second
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import (
     LINE,
@@ -66,6 +67,8 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
         For a quantity or a scene without a relation, or where no affordable grid is fine enough.
     """
     scene = setup.scene
+    if is_measured(scene):
+        return choose_measured(setup)
     name_of_family = scene_family(scene)
     family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
     for name in names:
@@ -121,6 +124,8 @@ def scale_increment(setup: Setup, factor: float) -> Setup:
 
 def coarsen(setup: Setup) -> Setup:
     """Return the coarse companion of a setup: a coarser grid and longer increments."""
+    if is_measured(setup.scene):
+        return sample_every_second(setup)
     ratio = COARSE_GRID_RATIOS.get(scene_family(setup.scene), 3.0)
     return set_grid(scale_increment(setup, COARSE_INCREMENT_RATIO), setup.points / ratio)
 

@@ -12,11 +12,14 @@ import itertools
 import numpy as np
 
 from contactsim.contact.scene import ProblemKind, Scene
+from contactsim.error_control.measured import MeasuredRoughness
 from contactsim.errors import InputError
 from contactsim.reference import hard_wall
 from contactsim.status import process_zone
+from contactsim.surfaces.measured import MeasuredLine
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Sphere
+from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
 
 LINE, SURFACE, PATH, ROUGH_PATH, SLIDE = FAMILIES = ("line", "surface", "path", "rough_path", "slide")
@@ -49,8 +52,8 @@ def scene_family(scene: Scene) -> str:
     return FAMILY_READERS[scene.kind](scene, _rough_surface(scene) is not None)
 
 
-def _rough_surface(scene: Scene) -> SelfAffine | None:
-    """Return the surface of a rough scene; None for a round one.
+def _rough_surface(scene: Scene) -> SelfAffine | MeasuredRoughness | None:
+    """Return the surface of a rough scene, measured heights by their roughness; None for a round one.
 
     Raises
     ------
@@ -60,8 +63,10 @@ def _rough_surface(scene: Scene) -> SelfAffine | None:
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
         return surface
+    if isinstance(surface, Topography | MeasuredLine):
+        return MeasuredRoughness.of(surface)
     if not isinstance(surface, Cylinder | Sphere):
-        allowed = "a cylinder, sphere or self-affine surface: others were not measured"
+        allowed = "a cylinder, a sphere, a self-affine surface or measured heights: the costs of others are not known"
         raise InputError("surface", type(surface).__name__, allowed)
     return None
 
@@ -117,7 +122,7 @@ def features(scene: Scene) -> list[dict[str, float]]:
     family, surface = scene_family(scene), _rough_surface(scene)
     bodies = scene.elasticities
     numbers = {"one": 1.0, "rough": 0.0, "hurst_exponent": 0.0, "bandwidth": 0.0, "bodies": float(len(bodies))}
-    numbers["layers"] = float(sum(Trait.HALF_SPACE not in body.traits for body in bodies))
+    numbers["layers"] = float(sum(Trait.LAYER in body.traits for body in bodies))
     if surface is not None:
         bandwidth = np.log(surface.long_cutoff / surface.effective_short_cutoff)
         numbers |= {"rough": 1.0, "hurst_exponent": surface.hurst_exponent, "bandwidth": float(bandwidth)}

@@ -7,13 +7,32 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
 from contactsim.traits import Trait
 
 
 @dataclass(frozen=True)
 class HardWall:
-    """Impenetrability (Section 2.3): gap ≥ 0, pressure ≥ 0, and one of them is zero at each point."""
+    """Impenetrability (Section 2.3): gap ≥ 0, pressure ≥ 0, and one of them is zero at each point.
 
+    Parameters
+    ----------
+    hardness : float, optional
+        Pressure above which the softer body yields, GPa. Bodies stay elastic; a run tells the share of the contact
+        that would yield.
+
+    Raises
+    ------
+    InputError
+        For a hardness that is not positive.
+    """
+
+    hardness: float | None = None
     reads = frozenset({"n"})
     exerts = frozenset({"n"})
     traits = frozenset({Trait.WALL})
+
+    def __post_init__(self) -> None:
+        if not (self.hardness is None or is_positive(self.hardness)):
+            raise InputError("hardness", self.hardness, f"{POSITIVE}, in GPa")
+        keep_floats(self)

@@ -25,6 +25,12 @@ def touching(pressure: Array) -> Array:
     return pressure > 0
 
 
+def yielding_share(pressure: Array, hardness: float) -> float:
+    """Return the share of the contact whose pressure exceeds a hardness; NaN without contact."""
+    contact = touching(pressure)
+    return float((pressure[contact] > hardness).mean()) if contact.any() else float("nan")
+
+
 EDGES = (-0.19, 0.81)
 """Least and largest distance, in steps, of a straight edge along the grid beyond the last point in contact."""
 EDGE_FIT = (1.333, -0.522)
@@ -101,6 +107,17 @@ def _steepness(places: Array, axis: int, pressure: Array, shape: tuple[int, ...]
     return np.maximum(*(np.where(touching(other), np.abs(other**2 - here), 0.0) for other in beside))
 
 
-def contact_edges(contact: Array) -> int:
-    """Return the number of pairs of neighbours with one point in contact; contact: bool (n,) or (ny, nx), periodic."""
-    return sum(int(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in range(contact.ndim))
+def contact_edges(contact: Array, periodic: bool = True) -> int:
+    """Return the number of pairs of neighbours with one point in contact.
+
+    Parameters
+    ----------
+    contact : array of bool, shape (n,) or (ny, nx)
+        Points in contact.
+    periodic : bool
+        Whether the first and the last points are neighbours.
+    """
+    pairs = (
+        contact ^ np.roll(contact, 1, axis) if periodic else np.diff(contact, axis=axis) for axis in range(contact.ndim)
+    )
+    return sum(int(np.count_nonzero(pair)) for pair in pairs)

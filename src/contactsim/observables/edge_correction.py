@@ -27,16 +27,20 @@ doi:10.1016/j.triboint.2017.04.023.
 """
 
 
-def corrected_area(contact: Array) -> float:
-    """Return the relative contact area without the mean excess of its edges; contact: bool (n,) or (ny, nx)."""
-    return (np.count_nonzero(contact) - EDGE_EXCESS[contact.ndim] * contact_edges(contact)) / contact.size
+def corrected_area(contact: Array, periodic: bool = True) -> float:
+    """Return the relative contact area without the mean excess of its edges; parameters as of `contact_edges`."""
+    return (np.count_nonzero(contact) - EDGE_EXCESS[contact.ndim] * contact_edges(contact, periodic)) / contact.size
 
 
-def edge_points(contact: Array) -> Array:
-    """Return the points in contact with a neighbour that is not, bool of the same shape, periodic."""
+def edge_points(contact: Array, periodic: bool = True) -> Array:
+    """Return the points in contact with a neighbour that is not, bool of the same shape; see `contact_edges`."""
+    around = np.pad(contact, 1, "wrap") if periodic else np.pad(contact, 1, constant_values=True)
     inside = contact.copy()
     for axis in range(contact.ndim):
-        inside &= np.roll(contact, 1, axis) & np.roll(contact, -1, axis)
+        for shift in (0, 2):
+            window = [slice(1, -1)] * contact.ndim
+            window[axis] = slice(shift, shift + contact.shape[axis])
+            inside &= around[tuple(window)]
     return contact & ~inside
 
 
@@ -61,9 +65,11 @@ class ContactGradient:
     edge_total: float
 
     @classmethod
-    def of(cls, squared_gradient: Iterable[tuple[slice, Array]], contact: Array) -> ContactGradient:
+    def of(
+        cls, squared_gradient: Iterable[tuple[slice, Array]], contact: Array, periodic: bool = True
+    ) -> ContactGradient:
         """Return the sums over a contact, bool (n,) or (ny, nx), of a squared gradient that comes by blocks of rows."""
-        edge, columns = edge_points(contact), contact.shape[-1]
+        edge, columns = edge_points(contact, periodic), contact.shape[-1]
         inside, at_edge = contact.reshape(-1, columns), edge.reshape(-1, columns)
         sums = [(values[inside[rows]].sum(), values[at_edge[rows]].sum()) for rows, values in squared_gradient]
         total, edge_total = (math.fsum(part) for part in zip(*sums, strict=True))

@@ -7,7 +7,11 @@ from collections.abc import Iterable, Sequence
 from contactsim.grid import Array
 from contactsim.observables.contact import contact_edges, relative_contact_area_subgrid, touching
 from contactsim.observables.edge_correction import ContactGradient, corrected_area
+from contactsim.surfaces.open_statistics import rms_gradient_open, rms_gradient_pairs_open
 from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
+
+GRADIENTS = {True: (rms_gradient, rms_gradient_pairs), False: (rms_gradient_open, rms_gradient_pairs_open)}
+"""Gradients over the points in contact, and over pairs, of heights that repeat and of others."""
 
 
 def wall_observables(
@@ -16,6 +20,7 @@ def wall_observables(
     spacing: Sequence[float],
     pressure: Array,
     gap: Array,
+    periodic: bool = True,
 ) -> dict[str, float]:
     """Return the numbers of one hard-wall state.
 
@@ -27,26 +32,30 @@ def wall_observables(
         Squared gradient of the heights, by blocks of rows.
     spacing : sequence of float
         Distance between points in each direction, nm.
+    periodic : bool
+        Whether the contact goes on at the other end of the heights.
 
     Returns
     -------
     dict
         Relative contact area by points, corrected for the mean excess of edges, and with edges between points; pairs of
         points at edges; rms gradient over the contact (Eqs 3.8-3.9), of pairs with both ends in contact, and over the
-        two other areas, NaN without contact; mean gap, nm; mean pressure, GPa.
+        two other areas, NaN without contact; mean gap, nm; mean and largest pressure, GPa.
     """
     contact = touching(pressure)
-    corrected, subgrid = corrected_area(contact), relative_contact_area_subgrid(pressure, gap)
-    gradient = ContactGradient.of(squared_gradient, contact)
+    corrected, subgrid = corrected_area(contact, periodic), relative_contact_area_subgrid(pressure, gap, periodic)
+    gradient = ContactGradient.of(squared_gradient, contact, periodic)
+    over_points, over_pairs = GRADIENTS[periodic]
     return {
         "relative_contact_area": float(contact.mean()),
         "relative_contact_area_corrected": corrected,
         "relative_contact_area_subgrid": subgrid,
-        "contact_edges": contact_edges(contact),
-        "rms_gradient_contact": rms_gradient(heights, spacing, contact),
-        "rms_gradient_contact_pairs": rms_gradient_pairs(heights, spacing, contact),
+        "contact_edges": contact_edges(contact, periodic),
+        "rms_gradient_contact": over_points(heights, spacing, contact),
+        "rms_gradient_contact_pairs": over_pairs(heights, spacing, contact),
         "rms_gradient_contact_corrected": gradient.within(corrected),
         "rms_gradient_contact_subgrid": gradient.within(subgrid),
         "mean_gap": float(gap.mean()),
         "mean_pressure": float(pressure.mean()),
+        "max_pressure": float(pressure.max()),
     }

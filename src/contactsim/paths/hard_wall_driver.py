@@ -7,25 +7,20 @@ from typing import Any
 
 import xarray as xr
 
-from contactsim.errors import InputError
 from contactsim.observables.contact import DEFAULT_KEPT
 from contactsim.paths.options import Setup
 from contactsim.paths.pressures import read_points, simulate_loads
 from contactsim.paths.reuse import Point, Reuse
-from contactsim.traits import Trait
 
 
 class HardWallDriver:
     """Loads on their own at a hard wall: one need not be solved again if an earlier dataset holds it."""
 
     def check(self, setup: Setup) -> None:
-        """Raise InputError for a free half-space: what a run reads of a state counts across the ends of the heights."""
-        if Trait.FREE in setup.scene.traits:
-            raise InputError("elasticity", "FreeHalfSpace", "a periodic body; `press` takes a free half-space")
+        """Do nothing: any options go together."""
 
     def follow(self, setup: Setup, solver: Any, reuse: Reuse) -> xr.Dataset:
         """Return one solution for each load."""
-        self.check(setup)
         options = setup.options
         return simulate_loads(
             setup.scene,

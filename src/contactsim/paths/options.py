@@ -15,6 +15,7 @@ from contactsim.paths.increments import Increments
 from contactsim.provenance import digest
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.traits import Trait
 
 ENDS = ("complete_contact",)
 """Events that end a path: every gap is closed. Beyond it a contact only overlaps more."""
@@ -141,6 +142,6 @@ class Setup:
 
 def _acting_body(body: Elasticity | None, components: tuple[str, ...]) -> Elasticity | float | None:
     """Return a body as it acts: a half-space in which nothing moves along the surface is its contact modulus."""
-    if body is None or components != ("n",) or body.base_depth < math.inf:
+    if body is None or components != ("n",) or Trait.HALF_SPACE not in body.traits:
         return body
     return body.contact_modulus

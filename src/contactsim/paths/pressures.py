@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -26,16 +26,19 @@ from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
-from contactsim.observables.contact import DEFAULT_KEPT, KEPT
+from contactsim.interface.hard_wall import HardWall
+from contactsim.observables.contact import DEFAULT_KEPT, KEPT, yielding_share
 from contactsim.observables.distributions import GAP_BINS, PRESSURE_BINS, distributions
 from contactsim.observables.hard_wall import wall_observables
 from contactsim.observables.patches import find_patches
 from contactsim.paths.contact_stiffness import contact_stiffness
 from contactsim.paths.reuse import Point
 from contactsim.solvers.base import HardWallSolver, Result, solve
-from contactsim.status import status_sentence
+from contactsim.status import status_sentence, validity_flags
+from contactsim.surfaces.open_statistics import rms_curvature_open, rms_gradient_open, squared_gradient_open
+from contactsim.surfaces.spectral_moments import nayak_parameter
 from contactsim.surfaces.squared_gradient import squared_gradient_blocks
-from contactsim.surfaces.statistics import nayak_parameter, rms_curvature, rms_gradient, rms_height
+from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
 
 logger = logging.getLogger(__name__)
 
@@ -81,7 +84,7 @@ def simulate_loads(
         if name not in KEPT:
             raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
-    roughness = _roughness(heights, Grid(heights.shape, scene.lengths).spacing, keep)
+    roughness = _roughness(scene, heights, keep)
 
     def solve_step(step: LoadStep) -> Point:
         """Return one load on its own."""
@@ -119,16 +122,29 @@ def _solve_steps(
     return points
 
 
-def _roughness(heights: Array, spacing: Sequence[float], keep: Sequence[str]) -> dict[str, float]:
+STATISTICS: Mapping[bool, tuple[Callable[..., float], Callable[..., float]]] = {
+    True: (rms_gradient, rms_curvature),
+    False: (rms_gradient_open, rms_curvature_open),
+}
+"""Rms gradient and curvature of heights that repeat, and of others."""
+
+
+def _roughness(scene: Scene, heights: Array, keep: Sequence[str]) -> dict[str, float]:
     """Return the statistics of heights, (n,) or (ny, nx)."""
-    numbers = {
-        "rms_height": rms_height(heights),
-        "rms_gradient": rms_gradient(heights, spacing),
-        "rms_curvature": rms_curvature(heights, spacing),
-    }
+    spacing = Grid(heights.shape, scene.lengths).spacing
+    gradient, curvature = (read(heights, spacing) for read in STATISTICS[scene.repeats])
+    numbers = {"rms_height": rms_height(heights), "rms_gradient": gradient, "rms_curvature": curvature}
     if "distributions" in keep:
-        numbers["nayak_parameter"] = nayak_parameter(heights, spacing)
+        numbers["nayak_parameter"] = nayak_parameter(heights, spacing, scene.repeats)
     return numbers
+
+
+def _squared_gradient(scene: Scene, heights: Array) -> Iterable[tuple[slice, Array]]:
+    """Return the squared gradient of heights, by blocks of rows."""
+    if scene.repeats or scene.modes is not None:
+        return squared_gradient_blocks(heights, scene.lengths, scene.modes)
+    squares = squared_gradient_open(heights, Grid(heights.shape, scene.lengths).spacing)
+    return [(slice(None), squares.reshape(-1, heights.shape[-1]))]
 
 
 def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], keep: Sequence[str]) -> Point:
@@ -137,8 +153,8 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
     certificate = result.record.certificate
     contact = result.contact
     spacing = Grid(heights.shape, scene.lengths).spacing
-    slopes = squared_gradient_blocks(heights, scene.lengths, scene.modes)
-    numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap) | {
+    slopes = _squared_gradient(scene, heights)
+    numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap, scene.repeats) | {
         "approach": result.approach,
         "iterations": result.record.iterations,
         "transforms": result.record.transforms,
@@ -149,8 +165,9 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
         "status": result.status.value[0],
         "contact_points": int(contact.sum()),
     }
+    numbers |= _validity(scene, result.pressure, heights.shape, roughness)
     if "patches" in keep:
-        numbers |= find_patches(contact).numbers
+        numbers |= find_patches(contact, scene.repeats).numbers
     if "stiffness" in keep:
         numbers["contact_stiffness"] = contact_stiffness(result) if result.status.solved else np.nan
     arrays = {}
@@ -164,6 +181,19 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
         unit = scene.contact_modulus * roughness["rms_gradient"]
         arrays |= distributions(result.pressure, result.gap, unit, roughness["rms_height"])
     return Point(numbers, arrays, result.seconds)
+
+
+def _validity(
+    scene: Scene, pressure: Array, shape: tuple[int, ...], roughness: Mapping[str, float]
+) -> dict[str, float]:
+    """Return what of a state may lie beyond the model, and the bits of what does."""
+    numbers = {}
+    if scene.modes:
+        numbers["wave_step"] = scene.modes / shape[-1]
+    hardness = next((effect.hardness for effect in scene.effects if isinstance(effect, HardWall)), None)
+    if hardness is not None:
+        numbers["yielding_share"] = yielding_share(pressure, hardness)
+    return numbers | {"validity_flags": validity_flags(numbers | {"rms_gradient": roughness["rms_gradient"]})}
 
 
 ARRAY_DIMENSIONS = {
@@ -180,7 +210,7 @@ BIN_CENTRES = {"pressure_bin": PRESSURE_BINS.centres, "gap_bin": GAP_BINS.centre
 def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequence[str]) -> xr.Dataset:
     """Return the dataset of all loads."""
     grid = Grid(heights.shape, scene.lengths)
-    kinds = {"status": np.int8, "iterations": np.int32, "contact_points": np.int32}
+    kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "contact_points": np.int32}
     variables: dict[str, Any] = {
         name: ("step", np.array([point.numbers[name] for point in points], kinds.get(name, float)))
         for name in points[0].numbers
@@ -192,6 +222,7 @@ def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequen
         variables[name] = (ARRAY_DIMENSIONS.get(name, ("step", *plane)), joined)
     if "fields" in keep:
         variables["heights"] = (plane, heights)
+        variables |= {name: grid.positions(axis) for axis, name in enumerate(plane)}
     if "distributions" in keep:
         variables |= BIN_CENTRES
     if "profile" in keep:

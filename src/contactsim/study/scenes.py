@@ -144,7 +144,7 @@ def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elastic
         radius = settings["surface"].get("radius")
         if radius is None:
             raise InputError("load", name, "mean_pressure or reduced_pressure: this surface has no radius")
-        if any(Trait.HALF_SPACE not in body.traits for body in elasticities):
+        if any(Trait.LAYER in body.traits for body in elasticities):
             raise InputError("load", name, "mean_pressure or reduced_pressure: Eq. 3.5 holds on a half-space")
         load = {1: hard_wall.cylinder_load, 2: hard_wall.sphere_load}[len(surface.lengths)]
         values = load(values * radius, radius, contact_modulus) / np.prod(surface.lengths)

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from contactsim.grid import Array, Grid, blocks
+from contactsim.grid import Array, blocks
 
 
 def rms_height(heights: Array, where: Array | None = None) -> float:
@@ -44,12 +44,6 @@ def _squares(strip: Array, axis: int, step: float) -> Array:
 def _steps(spacing: float | Sequence[float], dimensions: int) -> list[tuple[int, float]]:
     """Each axis of the surface, of which a line has the second, and the spacing along it."""
     return list(zip(range(2 - dimensions, 2), np.broadcast_to(spacing, dimensions), strict=True))
-
-
-def rms_gradient_open(heights: Array, spacing: Sequence[float]) -> float:
-    """Root-mean-square gradient over all pairs of neighbours of heights (n,) or (ny, nx) that do not repeat."""
-    slopes = (np.diff(heights, axis=axis) / step for axis, step in enumerate(spacing))
-    return float(np.sqrt(sum(np.mean(slope**2) for slope in slopes)))
 
 
 def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array | None = None) -> float:
@@ -90,38 +84,6 @@ def rms_gradient_pairs(heights: Array, spacing: float | Sequence[float], where: 
             total[place] += np.sum(slopes**2)
             count[place] += slopes.size
     return float(np.sqrt(np.sum(total / count))) if count.all() else float("nan")
-
-
-def nayak_parameter(heights: Array, spacing: Sequence[float], periodic: bool = True) -> float:
-    """Return Nayak's parameter m₀m₄/m₂² of the spectral moments of a profile; NaN for flat heights.
-
-    Parameters
-    ----------
-    heights : array, shape (n,) or (ny, nx)
-        Heights, of a surface alike in all directions: there the mean square of the gradient is 2 m₂, and that of the
-        sum of both curvatures 8 m₄/3.
-    spacing : sequence of float
-        Distance between points in each direction, in the unit of heights.
-    periodic : bool
-        True: derivatives are those of the waves. False: those of differences inside, where heights do not repeat.
-    """
-    if periodic:
-        grid = Grid(heights.shape, tuple(size * step for size, step in zip(heights.shape, spacing, strict=True)))
-        power = np.abs(grid.forward(heights - heights.mean())) ** 2
-        power[..., 1 : (heights.shape[-1] + 1) // 2] *= 2  # with the opposite waves
-        squares = grid.wavenumber**2
-        height, gradient, curvature = (float(np.sum(power * squares**order)) for order in range(3))
-    else:
-        inner = np.s_[1:-1]
-        second = sum(
-            np.diff(heights, 2, axis=axis)[(inner,) * axis + (slice(None),) + (inner,) * (heights.ndim - axis - 1)]
-            / step**2
-            for axis, step in enumerate(spacing)
-        )
-        height, gradient = float(np.var(heights)), rms_gradient_open(heights, spacing) ** 2
-        curvature = float(np.mean(np.square(second)))
-    factor = {1: 1.0, 2: 1.5}[heights.ndim]
-    return factor * height * curvature / gradient**2 if gradient else float("nan")
 
 
 def rms_curvature(heights: Array, spacing: float | Sequence[float], where: Array | None = None) -> float:
