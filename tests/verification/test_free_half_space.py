@@ -186,7 +186,10 @@ def test_what_cannot_be_free_is_refused():
     with refused("solver", "accepts FREE"):
         cs.press(heights[0], **options, periodic=False, solver="verlet")
     with refused("elasticity", "two free half-spaces, or two bodies that repeat"):
-        bodies = cs.Body(cs.Flat(16.0), FreeHalfSpace(1.0)), cs.Body(cs.Sphere(radius=16.0, length=16.0), cs.HalfSpace(1.0))
+        bodies = (
+            cs.Body(cs.Flat(16.0), FreeHalfSpace(1.0)),
+            cs.Body(cs.Sphere(radius=16.0, length=16.0), cs.HalfSpace(1.0)),
+        )
         cs.Scene(*bodies, cs.HardWall(), cs.pressures([0.1]))
     law = cs.NormalCohesiveZone(work_of_separation=0.1, normal_length=1.0)
     adhesive = cs.Scene(FreeHalfSpace(1.0), cs.Cylinder(radius=16.0, length=16.0), law, cs.approaches([0.0, 1.0], 0.5))

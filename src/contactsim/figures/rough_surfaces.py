@@ -68,15 +68,15 @@ def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 
 def pressure_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the density of pressure, one panel a Hurst exponent, with that of Persson."""
-
-    def persson(bins: Array, reduced_pressure: float) -> Array:
-        """Return Persson's density of p/(E* ḡ)."""
-        return persson_pressure_density(bins, reduced_pressure, 1.0, 1.0)
-
-    table = _plot_densities(axes, data, "pressure_density", r"pressure $p/(E^*\bar g)$", persson)
+    table = _plot_densities(axes, data, "pressure_density", r"pressure $p/(E^*\bar g)$", _persson_density)
     handles = style.line_handles({"Persson": PERSSON})
     axes[-1].legend(handles=[*_load_handles(data), *handles], loc="upper right")
     return table
+
+
+def _persson_density(pressures: Array, reduced_pressure: float) -> Array:
+    """Return Persson's density of p/(E* ḡ)."""
+    return persson_pressure_density(pressures, reduced_pressure, 1.0, 1.0)
 
 
 def gap_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -104,6 +104,33 @@ def contact_patches(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     share.legend(handles=_hurst_handles(data), loc="upper left")
     style.add_letters(axes)
     return style.mean_table(data, ("patches", "largest_patch_share", "spanning"))
+
+
+def challenge(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
+    """Plot mean gap and stiffness against the load, and pressures, gaps and patches at each load, of one surface."""
+    data = data if "hurst_exponent" in data.dims else data.expand_dims(hurst_exponent=[np.nan])
+    gap, stiffness, pressures, patches = axes
+    height = data.rms_height.mean("member")
+    scale = height / (data.rms_gradient.mean("member") * data.contact_modulus)
+    _plot_means(gap, data, "mean_gap", data.reduced_pressure, 1 / height)
+    _plot_means(stiffness, data, "contact_stiffness", data.reduced_pressure, scale)
+    gap.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"mean gap over $\bar h$")
+    stiffness.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"$K\bar h/(E^*\bar g)$")
+    _plot_density(pressures, data.isel(hurst_exponent=0), "pressure_density", _persson_density)
+    pressures.set(yscale="log", ylim=(LEAST_DENSITY, None), xlabel=r"pressure $p/(E^*\bar g)$", ylabel="density")
+    _end_where_all_is_zero([pressures], data.pressure_bin.values, data.pressure_density_mean)
+    pressures.legend(handles=[*_load_handles(data), *style.line_handles({"Persson": PERSSON})], loc="upper right")
+    means, errors = data.patches_by_area_mean.isel(hurst_exponent=0), mean_error(data, "patches_by_area")
+    for load, colour in style.shades(data.reduced_pressure.values).items():
+        mean = means.sel(reduced_pressure=load)
+        error = errors.isel(hurst_exponent=0).sel(reduced_pressure=load)
+        seen = mean.where(mean > 0)
+        style.errorbars(patches, data.area_bin, seen, error, color=colour, marker="o", ms=2.5, lw=1.0)
+    patches.set(
+        xscale="log", yscale="log", xlabel="area of a patch over that of the surface", ylabel="number of patches"
+    )
+    style.add_letters(axes)
+    return style.mean_table(data, ("mean_gap", "contact_stiffness", "relative_contact_area_corrected", "patches"))
 
 
 def _exponents(data: xr.Dataset) -> list[float]:
@@ -146,24 +173,29 @@ def _plot_densities(
     """Plot densities, one panel a Hurst exponent and one colour a load; return them as a table."""
     bins = next(dim for dim in data[f"{name}_mean"].dims if str(dim).endswith("_bin"))
     means, errors = data[f"{name}_mean"], mean_error(data, name)
-    x = data[bins].values
     for panel, hurst_exponent in zip(axes, _exponents(data), strict=True):
-        for pressure, colour in style.shades(data.reduced_pressure.values).items():
-            place = {"hurst_exponent": hurst_exponent, "reduced_pressure": pressure}
-            mean, error = (part.sel(place, method="nearest").values for part in (means, errors))
-            seen = np.where(mean > 0, mean, np.nan)
-            panel.plot(x, seen, color=colour, lw=1.1)
-            low = np.maximum(mean - error, LEAST_DENSITY / 10)
-            panel.fill_between(x, low, mean + error, color=colour, alpha=SHADE, lw=0)
-            if theory is not None:
-                panel.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
+        _plot_density(panel, data.sel(hurst_exponent=hurst_exponent), name, theory)
         panel.set(yscale="log", ylim=(LEAST_DENSITY, None), xlabel=label, ylabel="density")
         panel.set_title(f"$H={hurst_exponent:g}$", fontsize=9)
-    _end_where_all_is_zero(axes, x, means)
+    _end_where_all_is_zero(axes, data[bins].values, means)
     style.share_vertical_range(list(axes))
     style.add_letters(list(axes))
     table = xr.Dataset({name: means, f"{name}_error": errors}).to_dataframe().reset_index()
     return table[table[name] > 0]
+
+
+def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Callable[[Array, float], Array] | None) -> None:
+    """Plot a density with its error, one colour a load."""
+    bins = next(dim for dim in data[f"{name}_mean"].dims if str(dim).endswith("_bin"))
+    x, means, errors = data[bins].values, data[f"{name}_mean"], mean_error(data, name)
+    for pressure, colour in style.shades(data.reduced_pressure.values).items():
+        mean, error = (part.sel(reduced_pressure=pressure, method="nearest").values for part in (means, errors))
+        axes.plot(x, np.where(mean > 0, mean, np.nan), color=colour, lw=1.1)
+        axes.fill_between(
+            x, np.maximum(mean - error, LEAST_DENSITY / 10), mean + error, color=colour, alpha=SHADE, lw=0
+        )
+        if theory is not None:
+            axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
 
 
 def _end_where_all_is_zero(axes: Sequence[Axes], bins: Array, means: xr.DataArray) -> None:

@@ -50,6 +50,7 @@ AVERAGED = (
     "spanning",
     "pressure_density",
     "gap_density",
+    "patches_by_area",
 )
 """Numbers of a state at a hard wall that are averaged over members, of those that a run keeps."""
 AVERAGED_STATES = (

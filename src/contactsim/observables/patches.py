@@ -8,6 +8,11 @@ import numpy as np
 
 from contactsim.grid import Array
 
+AREA_EDGES = 2.0 ** np.arange(-30, 1)
+"""Ends of the bins of areas of patches, over the area of the heights; the last is in the last bin."""
+AREA_BINS = np.sqrt(AREA_EDGES[1:] * AREA_EDGES[:-1])
+"""Geometric middle of each bin."""
+
 
 @dataclass(frozen=True)
 class Patches:
@@ -31,6 +36,11 @@ class Patches:
     def count(self) -> int:
         """Number of patches."""
         return self.points.size
+
+    @property
+    def counts_by_area(self) -> Array:
+        """Number of patches by their area over that of the heights, in the bins `AREA_EDGES`."""
+        return np.histogram(self.points / self.labels.size, AREA_EDGES)[0].astype(float)
 
     @property
     def numbers(self) -> dict[str, float]:

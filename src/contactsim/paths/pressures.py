@@ -30,7 +30,7 @@ from contactsim.interface.hard_wall import HardWall
 from contactsim.observables.contact import DEFAULT_KEPT, KEPT, yielding_share
 from contactsim.observables.distributions import GAP_BINS, PRESSURE_BINS, distributions
 from contactsim.observables.hard_wall import wall_observables
-from contactsim.observables.patches import find_patches
+from contactsim.observables.patches import AREA_BINS, find_patches
 from contactsim.paths.contact_stiffness import contact_stiffness
 from contactsim.paths.reuse import Point
 from contactsim.solvers.base import HardWallSolver, Result, solve
@@ -166,11 +166,13 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
         "contact_points": int(contact.sum()),
     }
     numbers |= _validity(scene, result.pressure, heights.shape, roughness)
-    if "patches" in keep:
-        numbers |= find_patches(contact, scene.repeats).numbers
     if "stiffness" in keep:
         numbers["contact_stiffness"] = contact_stiffness(result) if result.status.solved else np.nan
     arrays = {}
+    if "patches" in keep:
+        patches = find_patches(contact, scene.repeats)
+        numbers |= patches.numbers
+        arrays["patches_by_area"] = patches.counts_by_area
     if "contact" in keep:
         arrays["contact_bits"] = np.packbits(contact)
     if "pressure" in keep:
@@ -201,10 +203,14 @@ ARRAY_DIMENSIONS = {
     "contact_pressure": ("contact_point",),
     "pressure_density": ("step", "pressure_bin"),
     "gap_density": ("step", "gap_bin"),
+    "patches_by_area": ("step", "area_bin"),
 }
 """Dimensions of arrays that are no fields."""
-BIN_CENTRES = {"pressure_bin": PRESSURE_BINS.centres, "gap_bin": GAP_BINS.centres}
-"""Coordinates of distributions."""
+BIN_CENTRES = {
+    "distributions": {"pressure_bin": PRESSURE_BINS.centres, "gap_bin": GAP_BINS.centres},
+    "patches": {"area_bin": AREA_BINS},
+}
+"""Coordinates of distributions, by what is kept."""
 
 
 def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequence[str]) -> xr.Dataset:
@@ -223,8 +229,7 @@ def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequen
     if "fields" in keep:
         variables["heights"] = (plane, heights)
         variables |= {name: grid.positions(axis) for axis, name in enumerate(plane)}
-    if "distributions" in keep:
-        variables |= BIN_CENTRES
+    variables |= {name: places for part in keep for name, places in BIN_CENTRES.get(part, {}).items()}
     if "profile" in keep:
         half, modes = grid.forward(heights), scene.upper.surface.modes
         half = half if modes is None else half[grid.low_modes(modes)]

@@ -19,7 +19,8 @@ from contactsim.grid import Array
 
 UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
 TEXT = (".csv", ".txt", ".xyz", ".dat")
-SUFFIXES = (".npy", ".npz", *TEXT, ".nc")
+HDF5 = (".nc", ".h5", ".hdf5")
+SUFFIXES = (".npy", ".npz", *TEXT, *HDF5)
 MAX_HEIGHTS = 2**28
 """Most heights of a measurement: 2 GiB."""
 TOLERANCE = 1e-3

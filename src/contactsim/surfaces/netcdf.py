@@ -1,4 +1,4 @@
-"""Heights in netCDF files: a variable along a line or over an area, with coordinates where the file has them."""
+"""Heights in netCDF and HDF5 files: a variable along a line or over an area, with coordinates where the file has them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from contactsim.surfaces.io import RawHeights
 
 
 def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: str | None) -> RawHeights:
-    """Return the heights of a netCDF file and their spacing.
+    """Return the heights of a netCDF or HDF5 file and their spacing.
 
     Without `dimensions`, those of the named variable count, and else an area is preferred. The dimensions of an area
     are y and x, in any order, or else rows and columns.

@@ -16,7 +16,7 @@ from contactsim.errors import POSITIVE, InputError
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
-from contactsim.surfaces.io import SUFFIXES, TEXT, RawHeights
+from contactsim.surfaces.io import HDF5, SUFFIXES, TEXT, RawHeights
 from contactsim.surfaces.missing import WAYS, fill_missing
 from contactsim.surfaces.netcdf import read_netcdf
 from contactsim.surfaces.text_layouts import read_text
@@ -110,7 +110,7 @@ def read_topography(
           Sizes and units are read from lines before the numbers, such as ``# Width: 12.3 µm``. Three columns that are
           the points x y z of a complete grid, in any order, are an area.
         - ``.xyz``: the same for a line; over an area the points x y z of a grid.
-        - ``.nc``: a variable with one or two dimensions.
+        - ``.nc``, ``.h5``, ``.hdf5``: a variable with one or two dimensions.
         - others: files of instruments, if the package SurfaceTopography is installed.
     dimensions : int, optional
         1 for a line, 2 for an area; as the file has by default.
@@ -121,7 +121,7 @@ def read_topography(
         Unit of all that the file states no unit for; it must agree with the heights' if they have one. Heights in
         ``.npy`` are in nm by default. In a text a header line like ``x [um], z [nm]`` states the units of all columns.
     variable : str, optional
-        Name of the heights in ``.npz`` and ``.nc``, of the channel in a file of an instrument.
+        Name of the heights in ``.npz``, ``.nc`` and ``.h5``, of the channel in a file of an instrument.
     delimiter : {",", ";", tab, " "}, optional
         Separator in a text, " " for any blanks; the rows show it by default.
     fill : {"linear", "nearest", "lowest"}, optional
@@ -142,7 +142,7 @@ def read_topography(
     if dimensions not in (None, 1, 2):
         raise InputError("dimensions", dimensions, "1, a line, or 2, an area; as the file has without it", file)
     if io.suffix_of(file) in SUFFIXES:
-        io.refuse_unused("variable", variable, (".npz", ".nc"), file)
+        io.refuse_unused("variable", variable, (".npz", *HDF5), file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
     heights, steps = _read(file, dimensions, unit, variable, delimiter, fill is not None)
     filled = 0.0
@@ -172,7 +172,7 @@ def _read(
     if suffix not in SUFFIXES:
         return read_instrument(file, dimensions, unit, variable)
     with io.report_unreadable(file):
-        if suffix == ".nc":
+        if suffix in HDF5:
             return read_netcdf(file, dimensions, unit, variable)
         if suffix in TEXT:
             return read_text(file, dimensions, unit, delimiter, with_gaps)
