@@ -277,8 +277,8 @@ def test_every_option_of_an_effect_is_explained_with_its_default(effect):
         own = part[part.index(f"| `{effect}`") :]
         row = re.search(rf"^.*\| `{name}` \|.*$", own, re.MULTILINE)
         default = row[0].rstrip("| ").rpartition("|")[2].strip()
-        known = {REQUIRED: "required", None: "none"}
-        assert default == (known[key.default] if key.default in known else f"{key.default:g}"), name
+        words = {REQUIRED: "required", None: "none"}.get(key.default)
+        assert default == (words or f"{key.default:g}"), name
 
 
 @pytest.mark.parametrize("section", [section for section in SECTION_KINDS if section != "counter_body"])  # as `body`

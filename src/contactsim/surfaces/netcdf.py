@@ -1,4 +1,4 @@
-"""Heights in netCDF and HDF5 files: a variable along a line or over an area, with coordinates where the file has them."""
+"""Heights in netCDF and HDF5 files: a variable along a line or over an area, and its coordinates if it has any."""
 
 from __future__ import annotations
 
