@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from contactsim.observables.patches import find_patches
+from contactsim.observables.patches import AREA_BINS, find_patches
 
 
 def drawn(text: str) -> np.ndarray:
@@ -60,3 +60,14 @@ def test_patches_that_are_drawn(text, periodic, points, spans):
     assert sorted(found.points) == sorted(points)
     assert found.count == len(points)
     assert found.spans == spans
+
+
+def test_patches_are_counted_by_their_area():
+    contact = np.zeros((16, 16), bool)
+    contact[0, 0] = contact[3, 3:5] = True  # one point and two of 256: 2^-8 and 2^-7 of the area
+    contact[8:12, 4:12] = True  # 32 points: 2^-3
+    counts = find_patches(contact).counts_by_area
+    assert counts.sum() == 3
+    places = np.flatnonzero(counts)
+    assert AREA_BINS[places] == pytest.approx(np.sqrt(2) * np.array([2.0**-8, 2.0**-7, 2.0**-3]))
+    assert find_patches(np.ones(8, bool)).counts_by_area[-1] == 1  # full contact is in the last bin

@@ -27,7 +27,7 @@ from contactsim.surfaces.measured import MeasuredSurface
 from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.topography import Topography, read_topography
-from support.cases import refusal
+from support.cases import refusal, refused
 
 DY, DX = SPACING = (2.5, 0.5)
 HEIGHTS = np.array([[0.0, 1.5, -2.25, 3.0], [0.5, -1.0, 8.0, 4.0], [7.0, 6.0, 5.5, -9.0]])
@@ -707,3 +707,16 @@ def test_a_measured_surface_with_a_hole_stops_the_study(tmp_path: Path) -> None:
     file = npy_file(tmp_path, np.where(HEIGHTS == 8.0, np.nan, HEIGHTS))
     error = refusal("studies.area.heights", file, lambda: area(file))
     assert error.value == "1 of 12 points missing or not finite, the first nan in row 2, column 3"
+
+
+def test_an_hdf5_file_without_positions_is_read_by_the_name_of_its_heights(tmp_path: Path) -> None:
+    values = np.random.default_rng(0).normal(size=(6, 8))
+    with netCDF4.Dataset(str(tmp_path / "surface.h5"), "w") as data:
+        data.createDimension("rows", 6)
+        data.createDimension("columns", 8)
+        data.createVariable("surface", "f8", ("rows", "columns"))[:] = values
+    topography = read_topography(tmp_path / "surface.h5", variable="surface", unit="um", spacing=12.0)
+    assert np.allclose(topography.values, 1e3 * values, rtol=1e-15)
+    assert topography.spacing == (12.0, 12.0)
+    with refused("unit", "nm"):
+        read_topography(tmp_path / "surface.h5", variable="surface", spacing=12.0)
