@@ -125,7 +125,7 @@ def test_a_run_has_the_varied_values_in_its_settings():
 def test_settings_hold_what_a_run_depends_on_and_nothing_else():
     run = study({"title": "Another title", "thesis_points": 999}).runs()[0]
     assert set(run.settings) == {
-        *("study", "member", "seed", "points", "effects", "hard_wall", "load", "tolerance", "keep"),
+        *("study", "member", "seed", "points", "effects", "load", "tolerance", "keep"),
         *("surface", "body", "solver"),
     }
     assert canonical(run.settings) == canonical(study().runs()[0].settings)

@@ -82,12 +82,13 @@ def test_scaling_heights_and_the_laws_length_together_scales_pressures_and_nothi
     assert np.allclose(scaled.mean_pressure, scale * plain.mean_pressure, rtol=1e-6, atol=1e-9)
 
 
-POWERS = {"1": (0, 0), "nm": (1, 0), "1/nm": (-1, 0), "GPa": (0, 1), "N/m": (1, 1), "nJ/m": (2, 1)}
+POWERS = {"1": (0, 0), "nm": (1, 0), "1/nm": (-1, 0), "GPa": (0, 1), "N/m": (1, 1), "nJ/m": (2, 1), "GPa/nm": (-1, 1)}
 POWERS |= {"nm (m/N)^2": (-1, -2)}
 """Powers of length and of modulus in each unit: N/m = GPa nm, nJ/m = GPa nm²."""
 AT_A_LENGTH = "stored_energy", "area_at_12nm", "pressure_at_12nm", "area_at_20nm", "pressure_at_20nm"
 """Numbers that are read at a length in nm, which is none of the scene."""
 HARD_TO_COME_BY = {"fold_load_before", "dissipated_energy", "event_released_energy", "average_friction"}
+HARD_TO_COME_BY |= {"contact_stiffness", "gap_density", "yielding_share", "nayak_parameter"}
 HARD_TO_COME_BY |= {"shear_strength", "quadratic_coefficient", "rms_curvature", "pull_off_displacement"}
 """Numbers of a wall, of a whole cycle with its jumps, and of three slides by a lattice constant with their slips."""
 
@@ -108,7 +109,10 @@ def datasets_in_units(length, modulus):
 
     rough_line = contactsim.SelfAffine(1000.0 * length, 0.8, 500.0 * length, 50.0 * length, rms_gradient=0.1, seed=1)
     loads = contactsim.pressures([0.01 * modulus, 0.1 * modulus])
-    wall = contactsim.Scene(contactsim.HalfSpace(3.0 * modulus), rough_line, contactsim.HardWall(), loads)
+    wall = contactsim.Scene(
+        contactsim.HalfSpace(3.0 * modulus), rough_line, contactsim.HardWall(hardness=0.2 * modulus), loads
+    )
+    kept = ("contact", "pressure", "distributions", "patches", "stiffness")
     cycle = contactsim.approaches([-8.0 * length, 0.0, -20.0 * length], length)
     asperity = contactsim.Cylinder(10000.0 * length, 25000.0 * length)
     runs = [(pressed(asperity, 77.0, 5000.0, cycle), {"member": 0})]
@@ -118,7 +122,10 @@ def datasets_in_units(length, modulus):
         path = contactsim.approaches([approach * length]) >> slide
         run = pressed(probe, 300.0, 1000.0, path, pairing=contactsim.Lattice(2.44 * length))
         slides.append((run, {"member": 0, "slide_approach": approach}))
-    return [simulate(wall), *(dataset.describe(summarise_paths(combine_runs(part))) for part in (runs, slides))]
+    return [
+        simulate(wall, keep=kept),
+        *(dataset.describe(summarise_paths(combine_runs(part))) for part in (runs, slides)),
+    ]
 
 
 def test_every_number_of_a_dataset_scales_as_its_unit_says():

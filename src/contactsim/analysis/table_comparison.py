@@ -20,6 +20,8 @@ SAME = 1e-6
 
 FIT_DIMENSIONS = ("fitted", "weighting", "fit_limit")
 """Dimensions of the fits of `contactsim.analysis.fits`."""
+BIN_DIMENSIONS = ("pressure_bin", "gap_bin", "area_bin")
+"""Dimensions of distributions."""
 
 
 def join_rows(first: pd.DataFrame, second: pd.DataFrame, keys: list[str]) -> pd.DataFrame:

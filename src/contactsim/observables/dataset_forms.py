@@ -26,6 +26,16 @@ from contactsim.variables import LOADS
 
 STEP = "step"
 """Dimension of the load of a path."""
+KEPT_NUMBERS = (
+    "contact_stiffness",
+    "patches",
+    "largest_patch_share",
+    "spanning",
+    "pressure_density",
+    "gap_density",
+    "patches_by_area",
+)
+"""Numbers of a state at a hard wall that a run has where it is asked to keep them."""
 AVERAGED = (
     "relative_contact_area",
     "relative_contact_area_corrected",
@@ -44,15 +54,9 @@ AVERAGED = (
     "reduced_pressure_contact",
     "reduced_pressure_contact_corrected",
     "mean_gap",
-    "contact_stiffness",
-    "patches",
-    "largest_patch_share",
-    "spanning",
-    "pressure_density",
-    "gap_density",
-    "patches_by_area",
+    *KEPT_NUMBERS,
 )
-"""Numbers of a state at a hard wall that are averaged over members, of those that a run keeps."""
+"""Numbers of a state at a hard wall that are averaged over members."""
 AVERAGED_STATES = (
     "mean_pressure",
     "normalised_pressure",

@@ -97,7 +97,7 @@ def simulate_loads(
         return _read_point(replace(result, scene=scene), heights, roughness, keep)
 
     solved = _solve_steps(scene.path.steps, solved_points or {}, solve_step)
-    return _join_points(scene, heights, solved, keep).assign(roughness)
+    return _join_points(scene, heights, roughness, solved, keep)
 
 
 def _solve_steps(
@@ -213,7 +213,9 @@ BIN_CENTRES = {
 """Coordinates of distributions, by what is kept."""
 
 
-def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequence[str]) -> xr.Dataset:
+def _join_points(
+    scene: Scene, heights: Array, roughness: Mapping[str, float], points: list[Point], keep: Sequence[str]
+) -> xr.Dataset:
     """Return the dataset of all loads."""
     grid = Grid(heights.shape, scene.lengths)
     kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "contact_points": np.int32}
@@ -235,6 +237,7 @@ def _join_points(scene: Scene, heights: Array, points: list[Point], keep: Sequen
         half = half if modes is None else half[grid.low_modes(modes)]
         across = ("mode_y", "mode")[-heights.ndim :]
         variables |= {"profile_real": (across, half.real.copy()), "profile_imag": (across, half.imag.copy())}
+    variables |= roughness
     variables |= {
         "seconds": ("step", [point.seconds for point in points]),
         "approach_first_touch": -float(heights.max()),

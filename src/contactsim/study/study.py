@@ -222,8 +222,8 @@ class Study:
         """Return the names of the sections that this study's runs depend on."""
         path = study_kind(self.settings).sections
         others = [name for name in ("counter_body", "pairing", "slide") if self.settings[name] is not None]
-        laws = [name for name in self.settings["effects"] if name in self.settings]
-        return ["surface", "body", *others, "solver", *path, *laws]
+        effects = [name for name in self.settings["effects"] if self.settings.get(name) or _has_own_values(name)]
+        return ["surface", "body", *others, "solver", *path, *effects]
 
     def _part(self, name: str, section: dict) -> dict:
         """Return a section with its defaults; most runs of a study share all sections but one."""
@@ -276,3 +276,8 @@ class Study:
         except InputError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.located(self.file, f"studies.{self.name}{section}") from error
+
+
+def _has_own_values(effect: str) -> bool:
+    """Return True for an effect with keys that are required or have a default, which its runs depend on."""
+    return any(key.default is not None for key in keys_of(EFFECTS[effect]).values())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from contactsim.analysis.table_comparison import FIT_DIMENSIONS, differences, join_rows
+from contactsim.analysis.table_comparison import BIN_DIMENSIONS, FIT_DIMENSIONS, differences, join_rows
 from contactsim.errors import InputError, Words
 from contactsim.study.plan import Plan
 
@@ -27,7 +27,8 @@ def _compare_figure(first: Plan, second: Plan, name: str) -> pd.DataFrame:
     """Return the differences of one figure; its key columns are dimensions of its studies and columns of words."""
     figure = second.figures[name]
     tables = [_read_numbers(plan, name) for plan in (first, second)]
-    dims = (*FIT_DIMENSIONS, *(dim for study in figure.studies for dim in second.studies[study].dimensions))
+    own = (dim for study in figure.studies for dim in second.studies[study].dimensions)
+    dims = (*FIT_DIMENSIONS, *BIN_DIMENSIONS, *own)
     candidates = dict.fromkeys((*dims, *tables[0].select_dtypes(exclude="number")))
     keys = [key for key in candidates if all(key in table for table in tables)]
     for plan, table in zip((first, second), tables, strict=True):
