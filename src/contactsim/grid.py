@@ -149,6 +149,34 @@ class Grid:
         """Return the real field, shape `shape`, that has these coefficients; the inverse of `forward`."""
         return ducc0.fft.c2r(coefficients, lastsize=self.shape[-1], forward=False, nthreads=self.threads, out=out)
 
+    @cached_property
+    def half_size(self) -> int:
+        """Number of coefficients of a real field."""
+        return math.prod(self.half_shape)
+
+    def forward_rows(self, fields: Array) -> Array:
+        """Return the coefficients (rows, half_size) of real fields (rows, size), each in the order of the grid."""
+        axes = tuple(range(1, 1 + len(self.shape)))
+        shaped = fields.reshape(len(fields), *self.shape)
+        half = ducc0.fft.r2c(shaped, axes=axes, forward=True, inorm=2, nthreads=self.threads)
+        return half.reshape(len(fields), -1)
+
+    def backward_rows(self, coefficients: Array) -> Array:
+        """Return the real fields (rows, size) that have these coefficients; the inverse of `forward_rows`."""
+        axes = tuple(range(1, 1 + len(self.shape)))
+        shaped = coefficients.reshape(len(coefficients), *self.half_shape)
+        fields = ducc0.fft.c2r(shaped, axes=axes, lastsize=self.shape[-1], forward=False, nthreads=self.threads)
+        return fields.reshape(len(coefficients), -1)
+
+    @cached_property
+    def mode_weights(self) -> Array:
+        """Number of times that each coefficient counts in a mean over the period, (half_size,): 1 or 2."""
+        weights = np.full(self.half_shape, 2.0)
+        weights[..., 0] = 1.0
+        if self.shape[-1] % 2 == 0:
+            weights[..., -1] = 1.0
+        return weights.ravel()
+
     def coarser(self, shape: tuple[int, ...]) -> Grid:
         """Return a grid with the same periods and fewer points."""
         return Grid(shape, self.lengths, self.threads)

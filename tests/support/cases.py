@@ -21,7 +21,9 @@ ALL = tuple(
     kind for kind in SOLVERS if kind not in REQUIRED_PACKAGES and {Trait.LINE, Trait.WALL} <= solver_class(kind).accepts
 )
 ON_SURFACES = tuple(
-    kind for kind in SOLVERS if kind not in REQUIRED_PACKAGES and Trait.SURFACE in solver_class(kind).accepts
+    kind
+    for kind in SOLVERS
+    if kind not in REQUIRED_PACKAGES and {Trait.SURFACE, Trait.WALL} <= solver_class(kind).accepts
 )
 FAST = ("active_set", "polonsky_keer")
 

@@ -1,11 +1,12 @@
-"""The problem that smooth laws pose between two elastic bodies on a line, at one load step.
+"""The problem that smooth laws pose between two elastic bodies, at one load step.
 
 The bodies are aligned, so one relative displacement v is enough: the growth of the gap when both surfaces deform. With
 C the sum of the bodies' compliances and T the traction of the laws,
 
     v = -C T(g + v),   or   K v + T(g + v) = 0   with K = C⁻¹,
 
-where g is the gap of the undeformed bodies. The unknowns are the Fourier coefficients of v in the components in which a
+where g is the gap of the undeformed bodies. Fields of a surface are rows of all its points, and of all its waves. The
+unknowns are the Fourier coefficients of v in the components in which a
 law exerts traction; K is diagonal in the wavenumber. A component that is read but not exerted, like the tangential gap
 of a frictionless coupled law, is no unknown: the tangential displacement of a surface free of shear is the normal one
 times a factor at each wavenumber. K is always the inverse of the compliance of the exerted components; a part of the
@@ -23,7 +24,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import ducc0
 import numpy as np
 
 from contactsim.contact.steps import LoadStep
@@ -62,7 +62,7 @@ class CohesiveProblem:
     Parameters
     ----------
     grid
-        Grid of the line.
+        Grid of the line or surface.
     shape
         Gap of the undeformed bodies at zero approach (components, n), nm.
     law
@@ -121,14 +121,10 @@ class CohesiveProblem:
         diagonal[0, 0] = min(diagonal[0, 1], self.law_stiffness)
         return self.stiffness.with_diagonal(diagonal)
 
-    @cached_property
+    @property
     def mode_weights(self) -> Array:
         """Number of times that each coefficient of a real transform counts in a mean over the period (m,): 1 or 2."""
-        weights = np.full(self.unknowns[1], 2.0)
-        weights[0] = 1.0
-        if self.grid.size % 2 == 0:
-            weights[-1] = 1.0
-        return weights
+        return self.grid.mode_weights
 
     @property
     def mean_displacement(self) -> float:
@@ -187,12 +183,12 @@ class CohesiveProblem:
         if self.slip_factor is not None:
             coefficients = np.concatenate((coefficients, self.slip_factor * coefficients))
         self.counter.add(len(coefficients), self.grid.size)
-        return self._backward(coefficients)
+        return self.grid.backward_rows(coefficients)
 
     def coefficients(self, field: Array) -> Array:
         """Return the Fourier coefficients (rows, m) of values (rows, n)."""
         self.counter.add(len(field), self.grid.size)
-        return ducc0.fft.r2c(field, axes=(1,), forward=True, inorm=2, nthreads=self.grid.threads)
+        return self.grid.forward_rows(field)
 
     def gap(self, displacement: Array) -> Array:
         """Return the gap (read, n), nm, at the coefficients of a displacement (exerted, m)."""
@@ -249,10 +245,4 @@ class CohesiveProblem:
         if bound <= self.tolerance:
             return float(bound)
         self.counter.add(len(residual), self.grid.size)
-        return float(np.abs(self._backward(residual)).max() / self.strength)
-
-    def _backward(self, coefficients: Array) -> Array:
-        """Return the values (rows, n) of coefficients (rows, m)."""
-        return ducc0.fft.c2r(
-            coefficients, axes=(1,), lastsize=self.grid.size, forward=False, nthreads=self.grid.threads
-        )
+        return float(np.abs(self.grid.backward_rows(residual)).max() / self.strength)

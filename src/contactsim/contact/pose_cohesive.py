@@ -30,9 +30,9 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
     Parameters
     ----------
     scene
-        Scene on a line whose effects are all laws.
+        Scene whose effects are all laws.
     heights
-        Sum of both surfaces' heights (n,), nm.
+        Sum of both surfaces' heights (n,) or (ny, nx), nm.
     tolerance
         Largest residual at any point, over the strength of the laws.
     threads
@@ -47,8 +47,9 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
     grid = Grid(heights.shape, scene.lengths, threads)
     stiffness, slip_factor = _stiffness(scene, grid)
     shape = np.zeros((len(scene.components), grid.size))
-    shape[0] = -heights
-    law = scene.pairing.join(superpose(scene.acting_laws), scene.lower.surface.heights(grid.size), scene.length)
+    shape[0] = -heights.ravel()
+    lower = scene.lower.surface.heights(grid.shape[-1])
+    law = scene.pairing.join(superpose(scene.acting_laws), lower, scene.length)
     return CohesiveProblem(
         grid=grid,
         shape=shape,
@@ -66,6 +67,6 @@ def _stiffness(scene: Scene, grid: Grid) -> tuple[Symbol, Array | None]:
     """Return K of the exerted components, and the slip factor where the tangential gap is only read."""
     lower, upper = scene.lower.elasticity, scene.upper.elasticity
     if len(scene.exerted) == len(scene.components):
-        return relative_compliance(lower, upper, grid, scene.components).inverse(), None
+        return relative_compliance(lower, upper, grid, scene.components).flattened().inverse(), None
     compliance = relative_coupled_compliance(lower, upper, grid)
     return compliance.without_shear().inverse(), compliance.slip()

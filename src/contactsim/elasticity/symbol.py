@@ -46,8 +46,12 @@ class Symbol(Protocol):
         """Return the same symbol with other entries of each component with itself."""
         ...
 
-    def modes(self, selection: slice) -> Symbol:
-        """Return the symbol at some of the wavenumbers of a line."""
+    def flattened(self) -> Symbol:
+        """Return the symbol with all wavenumbers in one row, shape (component, m)."""
+        ...
+
+    def modes(self, selection: slice | Array) -> Symbol:
+        """Return the symbol, with its wavenumbers in one row, at some of them."""
         ...
 
     def coarser(self, count: int) -> Symbol:
@@ -86,8 +90,12 @@ class NormalSymbol:
         """Return the same symbol with other entries of each component with itself."""
         return replace(self, diagonal=diagonal)
 
-    def modes(self, selection: slice) -> NormalSymbol:
-        """Return the symbol at some of the wavenumbers of a line."""
+    def flattened(self) -> NormalSymbol:
+        """Return the symbol with all wavenumbers in one row, shape (1, m)."""
+        return NormalSymbol(self.diagonal.reshape(1, -1))
+
+    def modes(self, selection: slice | Array) -> NormalSymbol:
+        """Return the symbol, with its wavenumbers in one row, at some of them."""
         return NormalSymbol(self.diagonal[:, selection])
 
     def coarser(self, count: int) -> NormalSymbol:
@@ -154,7 +162,11 @@ class CoupledSymbol:
         """Return the same symbol with other entries of each component with itself."""
         return replace(self, diagonal=diagonal)
 
-    def modes(self, selection: slice) -> CoupledSymbol:
+    def flattened(self) -> CoupledSymbol:
+        """Return the symbol itself: that of a line is one row."""
+        return self
+
+    def modes(self, selection: slice | Array) -> CoupledSymbol:
         """Return the symbol at some of the wavenumbers."""
         return CoupledSymbol(self.diagonal[:, selection], self.coupling[selection])
 

@@ -94,6 +94,10 @@ def _load_family(scene: Scene, rough: bool) -> str:
 
 def _path_family(scene: Scene, rough: bool) -> str:
     """Return the family of a path of cohesive laws."""
+    if Trait.SURFACE in scene.traits:
+        raise InputError(
+            "surface", type(scene.upper.surface).__name__, "a line: smooth laws on surfaces have no relations"
+        )
     if Trait.MEAN_PRESSURE in scene.traits:
         raise InputError("path", "mean_pressure", "approaches: paths under given loads were not measured")
     if scene.sliding and rough:

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from contactsim.errors import InputError
 
 QUANTITIES = {
-    "hard_wall": ("mean_pressure", "relative_contact_area"),
-    "cohesive": ("approach", "line_load"),
+    "hard_wall": (("mean_pressure", "relative_contact_area"),),
+    "cohesive": (("approach", "line_load"), ("approach", "normal_force")),
 }
-"""Quantities across and up, by the problem that a dataset solves."""
+"""Quantities across and up, by the problem that a dataset solves; the first pair that it has is drawn."""
 
 
 def plot(data: xr.Dataset, axes: Axes | None = None, *, across: str | None = None, up: str | None = None) -> Axes:
@@ -31,7 +31,8 @@ def plot(data: xr.Dataset, axes: Axes | None = None, *, across: str | None = Non
     matplotlib.axes.Axes
         With a line for each member and variant, and labels with units.
     """
-    default_across, default_up = QUANTITIES[data.attrs["problem"]]
+    pairs = QUANTITIES[data.attrs["problem"]]
+    default_across, default_up = next((pair for pair in pairs if set(pair) <= set(data.variables)), pairs[0])
     names = across or default_across, up or default_up
     for name in names:
         if name not in data.variables:

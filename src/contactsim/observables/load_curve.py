@@ -16,7 +16,9 @@ from contactsim.grid import Array
 from contactsim.status import is_solved
 
 FOLD = ("fold_step", "fold_approach_before", "fold_approach_after", "fold_load_before", "fold_load_after")
-"""Numbers of each jump on a path of approach or load."""
+"""Numbers of each jump on a path of approach or load, on a line."""
+FOLDS = {1: FOLD, 2: (*FOLD[:3], "fold_force_before", "fold_force_after")}
+"""The same by the number of dimensions: a load is that of a unit of thickness, N/m, a force that of a surface, nN."""
 ROUNDING = 1e-9
 """Difference of approach (nm) up to which a side of a jump is the state beside it."""
 
@@ -124,8 +126,9 @@ def curve_inputs(data: xr.Dataset) -> tuple[tuple[xr.DataArray, ...], list[list[
     return (*states, *(data[name] for name in FOLD)), [["step"]] * len(states) + [["fold"]] * len(FOLD)
 
 
-def join_folds(folds: Sequence[Mapping[str, float]]) -> xr.Dataset:
-    """Return jumps along dimension `fold`; one of NaN where there is none."""
-    rows = folds or [dict.fromkeys(FOLD, np.nan)]
-    columns = {name: ("fold", np.array([row[name] for row in rows], float)) for name in FOLD}
+def join_folds(folds: Sequence[Mapping[str, float]], dimensions: int = 1) -> xr.Dataset:
+    """Return jumps of a line or a surface along dimension `fold`; one of NaN where there is none."""
+    names = FOLDS[dimensions]
+    rows = folds or [dict.fromkeys(names, np.nan)]
+    columns = {name: ("fold", np.array([row[name] for row in rows], float)) for name in names}
     return xr.Dataset(columns, {"fold": np.arange(len(rows))})

@@ -8,10 +8,13 @@ from typing import Any
 import xarray as xr
 
 from contactsim.contact.pose_cohesive import check_tolerance
+from contactsim.errors import InputError
+from contactsim.paths.nested import Nested
 from contactsim.paths.options import Setup
 from contactsim.paths.record import simulate_path
 from contactsim.paths.requested import Requested
 from contactsim.paths.reuse import Point, Reuse
+from contactsim.traits import Trait
 
 
 class CohesiveDriver:
@@ -21,6 +24,7 @@ class CohesiveDriver:
         """Raise InputError for a tolerance, increments or snapshots that the path cannot have."""
         scene, options = setup.scene, setup.options
         check_tolerance(options.tolerance)
+        _check_increments(setup)
         solver: Any = options.solver  # one of cohesive problems, as the scene has been checked
         (options.increments or Requested()).check(setup.points, scene.path.steps, solver)
         for value in options.snapshots or ():
@@ -28,6 +32,7 @@ class CohesiveDriver:
 
     def follow(self, setup: Setup, solver: Any, reuse: Reuse) -> xr.Dataset:
         """Return one state for each step."""
+        _check_increments(setup)
         options = setup.options
         return simulate_path(
             setup.scene,
@@ -44,3 +49,9 @@ class CohesiveDriver:
     def read_points(self, data: str | Path, costs: str | Path) -> dict[str, Point]:
         """Return no state of an earlier dataset."""
         return {}
+
+
+def _check_increments(setup: Setup) -> None:
+    """Raise InputError for nested grids on a surface."""
+    if isinstance(setup.options.increments, Nested) and Trait.SURFACE in setup.scene.traits:
+        raise InputError("increments", "nested", "requested or adaptive: grids are not nested on surfaces")

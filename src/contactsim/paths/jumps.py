@@ -5,6 +5,7 @@ A jump is a motion that the load does not account for: the surface snaps into co
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,6 +14,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.observables.adhesion import contact_length
+from contactsim.observables.load_curve import FOLDS
 from contactsim.observables.sliding import TOUCHING, slide_observables
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.traits import Trait
@@ -143,7 +145,7 @@ class JumpCriterion:
 
 
 def fold_numbers(problem: CohesiveProblem, jump: Jump, step: int) -> dict[str, float]:
-    """Return the numbers of one jump on a path of approach or load (`FOLD`).
+    """Return the numbers of one jump on a path of approach or load (`FOLDS`).
 
     Parameters
     ----------
@@ -154,11 +156,11 @@ def fold_numbers(problem: CohesiveProblem, jump: Jump, step: int) -> dict[str, f
     step
         Number of the step of the path during which the jump came.
     """
-    numbers: dict[str, float] = {"fold_step": step}
-    for side, at, state in (("before", jump.step_before, jump.before), ("after", jump.step, jump.after)):
-        numbers[f"fold_approach_{side}"] = approach_of(problem.at(at), state.displacement)
-        numbers[f"fold_load_{side}"] = -float(state.traction[0].mean() * problem.grid.lengths[0])
-    return numbers
+    values: list[float] = [step]
+    sides = (jump.step_before, jump.before), (jump.step, jump.after)
+    values += [approach_of(problem.at(at), state.displacement) for at, state in sides]
+    values += [-float(state.traction[0].mean() * math.prod(problem.grid.lengths)) for _, state in sides]
+    return dict(zip(FOLDS[len(problem.grid.lengths)], values, strict=True))
 
 
 def approach_of(problem: CohesiveProblem, displacement: Array) -> float:

@@ -16,23 +16,14 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array
-from contactsim.observables.adhesion import (
-    OPENINGS,
-    PULLS,
-    find_peaks,
-    gradients,
-    histograms,
-    state_observables,
-    touching_peaks,
-)
-from contactsim.observables.conformity import conformities, first_short_mode
+from contactsim.observables.adhesion import OPENINGS, PULLS, histograms
 from contactsim.observables.load_curve import join_folds
 from contactsim.observables.sliding import join_slips, slide_observables
 from contactsim.paths.increments import Increments
 from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
+from contactsim.paths.state_numbers import STATE_READERS, StateReader
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.surfaces.statistics import local_squares
 
 logger = logging.getLogger(__name__)
 
@@ -89,77 +80,36 @@ def simulate_path(
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_cohesive(scene, heights, tolerance, threads)
     snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
-    profile = Profile(problem)
+    reader = STATE_READERS[len(scene.lengths)](problem)
     fields: dict[int, dict[str, Array]] = {}
     rows, folds, slips, begin, total, marks = [], [], [], time.process_time(), 0.0, [0.0]
     for count, state in enumerate(increments.follow(problem, method, steps)):
         total += state.transforms
         marks.append(time.process_time() - begin)
-        rows.append(_state_numbers(scene, state, profile))
+        rows.append(_state_numbers(scene, state, reader))
         folds += [fold_numbers(problem, jump, count) for jump in state.jumps if not jump.step.held]
         slips += [slip_numbers(problem, jump, count) for jump in state.jumps if jump.step.held]
         if count in snapshot_steps:
             fields[count] = _state_fields(problem.at(state.step), state, keep_fields)
         if count % max(len(steps) // LOG_LINES, 1) == 0 or state.jump or count == len(steps) - 1:
             _log_progress(state, count, len(steps), total, marks[-1])
-        if until_complete and state.status.solved and rows[-1]["contact_length"] >= scene.length:
+        if until_complete and state.status.solved and reader.is_complete(rows[-1]):
             break
-    data = _join_states(scene, problem, rows, fields).merge(join_folds(folds))
+    data = _join_states(scene, problem, rows, fields).merge(join_folds(folds, len(scene.lengths)))
     data = dataset.describe(data.merge(join_slips(slips)) if scene.sliding else data)
     for words in status.describe_excess(data):
         logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
 
 
-class Profile:
-    """What numbers of states need of the profile; it does not change along a path, and is found once for each grid.
-
-    Parameters
-    ----------
-    problem
-        The problem on the full grid.
-    """
-
-    def __init__(self, problem: CohesiveProblem) -> None:
-        self._squares: dict[int, Array] = {}
-        self._coefficients: dict[int, Array] = {}
-        self._peaks: dict[int, Array] = {}
-        self.first_short = first_short_mode(self.coefficients(problem))
-
-    def squares(self, problem: CohesiveProblem) -> Array:
-        """Return the local squares of the slopes on the grid of a problem, (n,)."""
-        points = problem.grid.size
-        if points not in self._squares:
-            self._squares[points] = local_squares(problem.shape[0], problem.grid.spacing[0])
-        return self._squares[points]
-
-    def peaks(self, problem: CohesiveProblem) -> Array:
-        """Return the peaks of the profile on the grid of a problem, bool (n,)."""
-        points = problem.grid.size
-        if points not in self._peaks:
-            self._peaks[points] = find_peaks(problem.shape[0])
-        return self._peaks[points]
-
-    def coefficients(self, problem: CohesiveProblem) -> Array:
-        """Return the Fourier coefficients of the undeformed gap on the grid of a problem, (m,), nm."""
-        points = problem.grid.size
-        if points not in self._coefficients:
-            self._coefficients[points] = problem.grid.forward(problem.shape[0])
-        return self._coefficients[points]
-
-
-def _state_numbers(scene: Scene, state: PathState, profile: Profile) -> dict[str, float]:
+def _state_numbers(scene: Scene, state: PathState, reader: StateReader) -> dict[str, float]:
     """Return the numbers of a state."""
     problem, (gap, traction) = state.problem, state.fields()
     zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
-    before = profile.coefficients(problem)
     numbers: dict[str, float] = {
         "approach": approach_of(problem, state.displacement),
-        **state_observables(problem, gap, traction),
-        "touching_peaks": touching_peaks(profile.peaks(problem), np.abs(traction[0]) / problem.strength),
-        **gradients(profile.squares(problem), problem, gap, traction),
-        **conformities(before, before + state.displacement[0], profile.first_short),
-        "process_zone_step": problem.grid.spacing[0] / zone,
+        **reader.numbers(problem, state.displacement, gap, traction),
+        "process_zone_step": problem.grid.spacing[-1] / zone,
     }
     if scene.sliding:
         numbers = {"friction_force": 0.0} | numbers | slide_observables(problem, gap, state.displacement)
@@ -205,7 +155,8 @@ def _join_states(
     scene: Scene, problem: CohesiveProblem, rows: list[dict[str, float]], fields: dict[int, dict[str, Array]]
 ) -> xr.Dataset:
     """Return the dataset of a path; fields: at snapshots, by step."""
-    heights = -problem.shape[0]
+    grid = problem.grid
+    heights, plane = -problem.shape[0].reshape(grid.shape), ("y", "x")[-len(grid.shape) :]
     kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "solved_points": np.int32}
     variables: dict[str, Any] = {
         name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]
@@ -213,21 +164,26 @@ def _join_states(
     coordinates = {}
     if fields:
         for name in next(iter(fields.values())):
-            across = BINS[name][0] if name in BINS else "x"
-            variables[name] = (("snapshot", across), np.stack([snapshot[name] for snapshot in fields.values()]))
+            rows_of_name = np.stack([snapshot[name] for snapshot in fields.values()])
+            if name in BINS:
+                variables[name] = (("snapshot", BINS[name][0]), rows_of_name)
+            else:
+                variables[name] = (("snapshot", *plane), rows_of_name.reshape(-1, *grid.shape))
         coordinates = {"snapshot": np.array([scene.path.steps[count].value for count in fields])}
         coordinates |= {name: (edges[1:] + edges[:-1]) / 2 for name, edges in BINS.values()}
         if GAPS[0] in variables:
-            variables["heights"] = ("x", heights)
-            coordinates["x"] = np.arange(heights.size) * scene.length / heights.size
+            variables["heights"] = (plane, heights)
+            coordinates |= {name: grid.positions(axis) for axis, name in enumerate(plane)}
     variables |= {
-        "points": heights.size,
+        "points": grid.shape[-1],
         "length": scene.length,
         "approach_first_touch": -float(heights.max()),
         "contact_modulus": scene.contact_modulus,
         "control": scene.path.steps[0].control.name.lower(),
         "strength": sum(law.strength for law in scene.laws),
     }
+    if len(grid.shape) == 2:
+        variables |= {"points_y": grid.shape[0], "length_y": scene.lengths[0]}
     if scene.sliding:
         lattice = problem.lattice_constant
         variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan

@@ -30,10 +30,7 @@ DEFAULT_SOLVERS = {
     (ProblemKind.COHESIVE, 1): "newton",
     (ProblemKind.COHESIVE, 2): "newton",
 }
-"""Solver that is used unless another one is asked for, by kind of problem and number of dimensions.
-
-Cohesive problems on surfaces are not modelled: their solver refuses the scene, and says so.
-"""
+"""Solver that is used unless another one is asked for, by kind of problem and number of dimensions."""
 REQUIRED_PACKAGES = {"tamaas": "tamaas"}
 """Package that a solver needs beside those that contactsim depends on."""
 

@@ -1,4 +1,4 @@
-"""Preconditioner of the stiffness plus the tangent of laws that act on a small part of a line.
+"""Preconditioner of the stiffness plus the tangent of laws that act on a small part of a line or surface.
 
 Long waves, those of a coarser grid, are solved for exactly: with C the compliance and D the tangent, (K + D) w = r is
 w = C (r - t) with the tractions t = D w. As D is not zero on the process zone Z alone,
@@ -18,17 +18,18 @@ A negative 1 - k eᵀ y is one more negative eigenvalue of K + D.
 
 from __future__ import annotations
 
-import ducc0
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array
+from contactsim.solvers.cohesive.long_waves import WAVES, LongWaves, node_averages
 from contactsim.solvers.cohesive.zone_factors import GeneralFactors, SymmetricFactors, ZoneFactors
 
-COARSENING, MIN_NODES, SMALL_GRID = 8, 128, 256
-"""Points of the grid for each node of the coarse grid of long waves, smallest number of nodes, and points up to which
-the grid itself is the coarse one."""
+COARSENING = 8
+"""Points of the grid for each node of the coarse grid of long waves, along a side."""
+MIN_NODES, SMALL_GRID = {1: 128, 2: 32}, {1: 256, 2: 32}
+"""Smallest number of nodes, and points up to which the grid itself is the coarse one, along x, by dimension."""
 SHORT_WAVE_SHIFT, MIN_TANGENT = 0.3, (1.0, 0.01)
 """Shift of short waves, over the largest tangent of a component; smallest value taken for that, normal and tangential,
 over the laws' tangent at zero gap."""
@@ -38,8 +39,9 @@ ZONE_THRESHOLD = 1e-3
 """Tangent, over the laws' largest, below which a point is outside the process zone."""
 MIN_REST = 1e-9
 """Smallest size of 1 - k eᵀ y that rounding leaves right."""
-MAX_UNKNOWNS = 300
-"""Unknowns of the zone above which its factorisation costs more than it saves: the coarse grid gets coarser."""
+MAX_UNKNOWNS = {1: 300, 2: 900}
+"""Unknowns of the zone above which its factorisation costs more than it saves, by dimension: the coarse grid gets
+coarser."""
 
 
 class ZonePreconditioner:
@@ -65,15 +67,14 @@ class ZonePreconditioner:
         before: ZonePreconditioner | None = None,
     ) -> None:
         self._problem = problem
-        points = problem.grid.size
-        ratio = min(COARSENING, points // MIN_NODES) if points > SMALL_GRID else 1
-        values = _averages(tangent.values, ratio)
-        while np.count_nonzero(self._acting(values)) * len(values) > MAX_UNKNOWNS:
+        points, dimensions = problem.grid.shape[-1], len(problem.grid.shape)
+        ratio = min(COARSENING, points // MIN_NODES[dimensions]) if points > SMALL_GRID[dimensions] else 1
+        values = node_averages(tangent.values, problem.grid, ratio)
+        while np.count_nonzero(self._acting(values)) * len(values) > MAX_UNKNOWNS[dimensions]:
             ratio *= 2
-            values = _averages(tangent.values, ratio)
-        self._nodes = values.shape[-1]
-        self._low = min(self._nodes // 2, problem.unknowns[1])
-        before = before if before is not None and before._nodes == self._nodes else None
+            values = node_averages(tangent.values, problem.grid, ratio)
+        before = before if before is not None and before._waves.nodes == values.shape[-1] else None
+        self._waves: LongWaves = WAVES[dimensions](problem.grid, ratio) if before is None else before._waves
         diagonal = tangent.values[range(len(values)), range(len(values))]
         least = problem.law_stiffness * np.array(MIN_TANGENT[: len(values)])
         self._largest_tangents = np.maximum(np.abs(diagonal).max(axis=1), least)
@@ -93,14 +94,14 @@ class ZonePreconditioner:
             self._high, self._largest_tangents = before._high, before._largest_tangents
             return
         extra = shift + SHORT_WAVE_SHIFT * self._largest_tangents
-        self._high = self._problem.stiffness.modes(slice(self._low, None)).inverse(extra)
+        self._high = self._problem.stiffness.modes(self._waves.high).inverse(extra)
 
     def _set_long_waves(self, shift: float, before: ZonePreconditioner | None) -> None:
         """Invert the stiffness of long waves, or share it with another preconditioner."""
         if before is not None:
             self._compliance, self._responses = before._compliance, before._responses
             return
-        self._compliance = self._problem.regularised_stiffness.modes(slice(0, self._low)).inverse(shift)
+        self._compliance = self._problem.regularised_stiffness.modes(self._waves.low).inverse(shift)
         self._responses = [self._response(row) for row in range(self._problem.unknowns[0])]
 
     def _acting(self, values: Array) -> Array:
@@ -108,27 +109,25 @@ class ZonePreconditioner:
         return np.abs(values).max(axis=(0, 1)) > ZONE_THRESHOLD * self._problem.law_stiffness
 
     def _field(self, coefficients: Array) -> Array:
-        """Return the values (read, nodes) on the coarse grid of long waves (exerted, low)."""
+        """Return the values (read, nodes) of long waves (exerted, low)."""
         factor = self._problem.slip_factor
         if factor is not None:
-            coefficients = np.concatenate((coefficients, factor[: self._low] * coefficients))
-        wide = np.zeros((len(coefficients), self._nodes // 2 + 1), complex)
-        wide[:, : self._low] = coefficients
-        return ducc0.fft.c2r(wide, axes=(1,), lastsize=self._nodes, forward=False)
+            coefficients = np.concatenate((coefficients, factor[self._waves.low] * coefficients))
+        return self._waves.field(coefficients)
 
     def _response(self, row: int) -> Array:
         """Return the displacement (read, nodes) under a unit of traction in one component at the first node."""
-        unit = np.zeros((len(self._compliance.diagonal), self._low), complex)
-        unit[row] = 1 / self._nodes
+        unit = np.zeros((len(self._compliance.diagonal), self._waves.count), complex)
+        unit[row] = 1 / self._waves.nodes
         return self._field(self._compliance.apply(unit))
 
     def _factor(self, values: Array) -> None:
         """Factorise 1 + D C on the process zone, for derivatives (exerted, read, nodes)."""
         self._zone = np.flatnonzero(self._acting(values))
         self._factors: ZoneFactors | None = None
-        tangent, apart = values[..., self._zone], (self._zone[:, None] - self._zone) % self._nodes
         if not len(self._zone):
             return
+        tangent, apart = values[..., self._zone], self._waves.differences(self._zone)
         if values.shape[:2] == (1, 1):
             self._factors = SymmetricFactors(tangent[0, 0], self._responses[0][0][apart])
             return
@@ -157,14 +156,14 @@ class ZonePreconditioner:
         if traction is None:
             return self._free_wave if self._free_wave is not None and self._rest < 0 else None
         wave = np.zeros(self._problem.unknowns, complex)
-        wave[:, : self._low] = self._spread(traction)
+        wave[:, self._waves.low] = self._spread(traction)
         return wave
 
     def _spread(self, traction: Array) -> Array:
         """Return the displacement (exerted, low) under tractions on the zone (exerted, zone)."""
-        pull = np.zeros((len(traction), self._nodes))
+        pull = np.zeros((len(traction), self._waves.nodes))
         pull[:, self._zone] = traction
-        return self._compliance.apply(ducc0.fft.r2c(pull, axes=(1,), forward=True, inorm=2)[:, : self._low])
+        return self._compliance.apply(self._waves.coefficients(pull))
 
     def __call__(self, residual: Array) -> Array:
         """Return the displacement (exerted, m) for a residual of the same shape."""
@@ -176,19 +175,10 @@ class ZonePreconditioner:
     def _solve(self, residual: Array) -> Array:
         """Return the displacement (exerted, m) where a free uniform mode has a stiffness."""
         out = np.empty_like(residual)
-        out[:, self._low :] = self._high.apply(residual[:, self._low :])
-        long = self._compliance.apply(residual[:, : self._low])
+        out[:, self._waves.high] = self._high.apply(residual[:, self._waves.high])
+        long = self._compliance.apply(residual[:, self._waves.low])
         if self._factors is not None:
             long -= self._spread(self._factors.solve(self._field(long)[:, self._zone]))
-            self._problem.counter.add(len(self._problem.shape) + len(residual), self._nodes)
-        out[:, : self._low] = long
+            self._problem.counter.add(len(self._problem.shape) + len(residual), self._waves.nodes)
+        out[:, self._waves.low] = long
         return out
-
-
-def _averages(values: Array, ratio: int) -> Array:
-    """Return the means of values (…, n) over `ratio` points about every ratio-th point, two means or more."""
-    size = values.shape[-1]
-    ratio = min(ratio, size // 2)
-    cells = size // ratio
-    shifted = np.concatenate((values[..., size - ratio // 2 :], values[..., : size - ratio // 2]), -1)
-    return shifted[..., : cells * ratio].reshape(*values.shape[:-1], cells, ratio).mean(-1)
