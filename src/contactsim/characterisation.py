@@ -14,10 +14,10 @@ from contactsim.grid import Array
 from contactsim.observables.contact import relative_contact_area_subgrid, yielding_share
 from contactsim.observables.patches import find_patches
 from contactsim.paths.contact_stiffness import contact_stiffness
+from contactsim.paths.pressures import STATISTICS
 from contactsim.single_load import press
-from contactsim.solvers.base import Result
+from contactsim.solvers.base import HardWallSolver, Result
 from contactsim.status import validity_flags
-from contactsim.surfaces.open_statistics import rms_gradient_open
 from contactsim.surfaces.spectral_moments import nayak_parameter
 from contactsim.surfaces.statistics import rms_height
 from contactsim.surfaces.topography import Topography
@@ -34,13 +34,16 @@ def characterise(
     hardness: float | None = None,
     tolerance: float = 1e-4,
     threads: int = 1,
-    **options: Any,
+    periodic: bool | None = None,
+    thickness: float | None = None,
+    poisson_ratio: float | None = None,
+    solver: str | HardWallSolver | None = None,
 ) -> xr.Dataset:
     """Press a surface at several loads and return what the contact transmits, with its error.
 
-    All is done once more with every second point. The change is the error: of the grid where the heights are resolved,
-    and where they are rough down to the spacing, what finer points would add. An error as large as the number says that
-    the spacing decides it.
+    All is done once more with every second point, of an even number each way. The change is the error: of the grid
+    where the heights are resolved, and where they are rough down to the spacing, what finer points would add. An error
+    as large as the number says that the spacing decides it.
 
     Parameters
     ----------
@@ -57,16 +60,17 @@ def characterise(
         Gap in contact and overlap outside, in grid steps.
     threads : int
         Threads of the transforms.
-    **options
-        Further options of `contactsim.press`: `periodic`, `thickness`, `poisson_ratio`, `solver`.
+    periodic, thickness, poisson_ratio, solver
+        As in `contactsim.press`.
 
     Returns
     -------
     xarray.Dataset
         With dimension `mean_pressure`: relative contact area with edges between points, approach, mean gap, largest
-        pressure, contact stiffness, yielding share with a hardness, number of patches, and status; without it rms
-        height and gradient, Nayak's parameter, E*, lengths of the heights, and `validity_flags`, which tell if slopes
-        are too large for linear elasticity. The error of a number is that with `_grid_error` behind its name.
+        pressure, contact stiffness, yielding share with a hardness, number of patches, status, and `validity_flags`,
+        which tell if slopes are too large for linear elasticity and if the contact would yield; without it rms height
+        and gradient, Nayak's parameter, E*, and lengths of the heights. The error of a number is that with
+        `_grid_error` behind its name.
 
     Raises
     ------
@@ -81,14 +85,14 @@ def characterise(
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
     if not (hardness is None or is_positive(hardness)):
         raise InputError("hardness", hardness, f"{POSITIVE}, in GPa")
-    options |= {"contact_modulus": contact_modulus, "tolerance": tolerance, "threads": threads}
-    fine, coarse = (
-        _numbers_at(surface, pressures.astype(float), hardness, options)
-        for surface in (topography, topography.every_second())
-    )
-    fine["validity_flags"] = np.int8(validity_flags({"rms_gradient": float(fine.rms_gradient)}))
+    options: dict[str, Any] = {"contact_modulus": contact_modulus, "tolerance": tolerance, "threads": threads}
+    options |= {"periodic": periodic, "thickness": thickness, "poisson_ratio": poisson_ratio, "solver": solver}
+    even = topography.even_part()
+    surfaces = [topography, *([] if even is topography else [even]), even.every_second()]
+    numbers = [_numbers_at(surface, pressures.astype(float), hardness, options) for surface in surfaces]
+    fine, (base, coarse) = numbers[0], numbers[-2:]
     names = [str(name) for name in fine if name not in ("status", "patches", "validity_flags")]
-    errors = {f"{name}_grid_error": abs(fine[name] - coarse[name]) for name in names}
+    errors = {f"{name}_grid_error": abs(base[name] - coarse[name]) for name in names}
     sizes = zip(("length", "length_y"), topography.lengths[::-1], strict=False)
     return describe(fine.assign(errors).assign({"contact_modulus": contact_modulus, **dict(sizes)}))
 
@@ -106,9 +110,14 @@ def _numbers_at(
         values = [read(result) if result.status.solved else np.nan for result in results]
         data[name] = "mean_pressure", values
     data["status"] = "mean_pressure", np.array([result.status.value[0] for result in results], np.int8)
-    data["rms_gradient"] = rms_gradient_open(topography.values, topography.spacing)
+    repeats = _repeats(results[0])
+    data["rms_gradient"] = STATISTICS[repeats][0](topography.values, topography.spacing)
     data["rms_height"] = rms_height(topography.values)
-    data["nayak_parameter"] = nayak_parameter(topography.values, topography.spacing, periodic=False)
+    data["nayak_parameter"] = nayak_parameter(topography.values, topography.spacing, repeats)
+    yielding = data.get("yielding_share", xr.zeros_like(data.mean_pressure)).values
+    gradient = float(data.rms_gradient)
+    flags = [validity_flags({"rms_gradient": gradient, "yielding_share": share}) for share in yielding]
+    data["validity_flags"] = "mean_pressure", np.array(flags, np.int8)
     return data
 
 

@@ -64,6 +64,10 @@ class Explanation:
     solvers: dict[str, str]
     solver: str
 
+    def __str__(self) -> str:
+        """Return the explanation in lines of words."""
+        return self.text
+
     @property
     def text(self) -> str:
         """The explanation as it is printed."""

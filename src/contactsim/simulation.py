@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 
 import xarray as xr
@@ -19,6 +20,8 @@ from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver
+
+logger = logging.getLogger(__name__)
 
 
 @check_option_names
@@ -61,7 +64,9 @@ def simulate(
     snapshots : sequence of float, optional
         With cohesive laws: values of the path near which histograms and fields are kept.
     keep : sequence of str, optional
-        At a hard wall: what to keep of each solution, some of "contact", "pressure", "profile" and "fields".
+        At a hard wall: what to keep of each solution, some of "contact", "pressure", "profile", "fields",
+        "distributions" of pressure and gap, "patches" of contact, and "stiffness" of the contact; the first three by
+        default.
     keep_fields : bool, optional
         With cohesive laws: False to keep histograms alone at the snapshots.
     until : str, optional
@@ -101,7 +106,10 @@ def simulate(
         if value is not None:
             raise InputError(name, value, "left out, for it follows from the accuracy")
     wanted = Accuracy(accuracy, tuple(quantities))
-    return solve_to_error(setup, wanted.error, wanted.quantities).data
+    controlled = solve_to_error(setup, wanted.error, wanted.quantities)
+    if not controlled.met:
+        logger.warning("an accuracy of %g is not reached: %s", controlled.wanted, controlled.summary)
+    return controlled.data
 
 
 @check_option_names

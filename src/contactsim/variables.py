@@ -43,7 +43,7 @@ SECTIONS = re.compile("^(surface|body|counter_body|solver|increments|pairing|sli
 LOADS = ("mean_pressure", "reduced_pressure", "contact_ratio")
 """By which loads on their own are prescribed; a study has one of them, and its dataset the dimension of that name."""
 ERRORS = {
-    "grid": "change of the mean on halving the grid",
+    "grid": "change on halving the grid",
     "increment": "what the increments of the path leave open",
     "approach": "jackknife error over the approaches that are fitted together",
     "tolerance": "change of the mean on solving more tightly",

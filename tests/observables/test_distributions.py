@@ -20,10 +20,10 @@ def test_densities_integrate_to_the_areas_in_and_out_of_contact():
     assert densities["gap_density"].sum() * GAP_BINS.width == pytest.approx(1 - contact, rel=1e-12)
 
 
-def test_a_value_lies_in_its_bin_and_one_beyond_the_last_in_none():
+def test_a_value_lies_in_its_bin_and_one_beyond_the_last_in_the_last():
     bins = Bins(2.0, 4)
     assert list(bins.centres) == [0.25, 0.75, 1.25, 1.75]
-    assert list(bins.density(np.array([0.6, 0.7, 1.9, 2.5]), 10)) == [0.0, 0.4, 0.0, 0.2]
+    assert list(bins.density(np.array([0.6, 0.7, 1.9, 2.5]), 10)) == [0.0, 0.4, 0.0, 0.4]
 
 
 def test_flat_heights_have_no_unit_and_their_densities_are_unknown():

@@ -20,7 +20,7 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.contact.scene import ProblemKind
 from contactsim.error_control.knobs import grid_features
-from contactsim.error_control.measured import is_measured
+from contactsim.error_control.measured import KEPT_QUANTITIES, even_part, is_measured
 from contactsim.error_control.options import SAFETY, choose_options, coarsen, expect_error, scale_increment, set_grid
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
@@ -81,7 +81,7 @@ class Controlled:
             accuracy=self.wanted,
             accuracy_reached=int(self.met),
             coarse_run_points=self.before[-1].points,
-            refinements=len(self.before) - 1,
+            refinements=sum(run.points < self.before[-1].points for run in self.before),
             coarse_run_transforms=self.work - self.last.transforms,
             seconds=("step", seconds),
         )
@@ -135,12 +135,17 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
 
 
 def _solve_measured(setup: Setup, error: float, quantities: Sequence[str]) -> Controlled:
-    """Solve measured heights and every second point of them; the difference is the error, and no grid makes it less."""
+    """Solve measured heights and every second point of them; the change is the error, and no grid makes it less."""
     names = tuple(quantities or QUANTITIES[scene_family(setup.scene)])
-    fine, coarse = (solve_setup(part, names) for part in (setup, coarsen(setup)))
-    errors = {name: relative_difference(fine, coarse, name) for name in names}
+    kept = {KEPT_QUANTITIES[name] for name in names if name in KEPT_QUANTITIES}
+    lean = setup.with_options(keep=tuple(kept))
+    even = even_part(lean)
+    coarse = solve_setup(coarsen(lean), names)
+    fine = solve_setup(setup, names)
+    base = fine if even is lean else solve_setup(even, names)
+    errors = {name: relative_difference(base, coarse, name) for name in names}
     logger.info("on %d points, and on every second: %s", fine.points, describe_errors(errors, error))
-    return Controlled(fine, [coarse], errors, error)
+    return Controlled(fine, [coarse] if base is fine else [base, coarse], errors, error)
 
 
 COMPANIONS: dict[ProblemKind, Callable[[Setup], Setup]] = {

@@ -68,7 +68,7 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     """
     scene = setup.scene
     if is_measured(scene):
-        return choose_measured(setup)
+        return choose_measured(setup, quantities)
     name_of_family = scene_family(scene)
     family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
     for name in names:

@@ -12,14 +12,12 @@ import itertools
 import numpy as np
 
 from contactsim.contact.scene import ProblemKind, Scene
-from contactsim.error_control.measured import MeasuredRoughness
+from contactsim.error_control.measured import MeasuredRoughness, is_measured, measure_roughness
 from contactsim.errors import InputError
 from contactsim.reference import hard_wall
 from contactsim.status import process_zone
-from contactsim.surfaces.measured import MeasuredLine
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Sphere
-from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
 
 LINE, SURFACE, PATH, ROUGH_PATH, SLIDE = FAMILIES = ("line", "surface", "path", "rough_path", "slide")
@@ -60,11 +58,11 @@ def _rough_surface(scene: Scene) -> SelfAffine | MeasuredRoughness | None:
     InputError
         For surfaces that were not measured.
     """
+    if is_measured(scene):
+        return measure_roughness(scene)
     surface = scene.upper.surface
     if isinstance(surface, SelfAffine):
         return surface
-    if isinstance(surface, Topography | MeasuredLine):
-        return MeasuredRoughness.of(surface)
     if not isinstance(surface, Cylinder | Sphere):
         allowed = "a cylinder, a sphere, a self-affine surface or measured heights: the costs of others are not known"
         raise InputError("surface", type(surface).__name__, allowed)

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.observables.derived import combine_runs, summarise_paths
 from contactsim.paths.driver import follow_path
@@ -67,10 +66,6 @@ class Solution:
 
 def _read_loads(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
     """Return quantities of each load at a hard wall, and how well its contacts are resolved."""
-    for name in names:
-        if name not in data or data[name].dims != ("step",):
-            known = sorted(str(other) for other in data if data[other].dims == ("step",))
-            raise InputError("quantities", name, f"some of {', '.join(known)}")
     values = {name: data[name].values.astype(float) for name in names}
     return values, data.contact_edges.values / np.maximum(data.contact_points.values, 1)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 from matplotlib.axes import Axes
 
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 
 QUANTITIES = {
     "hard_wall": (("mean_pressure", "relative_contact_area"),),
@@ -31,6 +31,9 @@ def plot(data: xr.Dataset, axes: Axes | None = None, *, across: str | None = Non
     matplotlib.axes.Axes
         With a line for each member and variant, and labels with units.
     """
+    if data.attrs.get("problem") not in QUANTITIES:
+        allowed = "a result of `simulate` or of the workflow; `plot_characterisation` draws one of `characterise`"
+        raise InputError("data", Words("another dataset"), allowed)
     pairs = QUANTITIES[data.attrs["problem"]]
     default_across, default_up = next((pair for pair in pairs if set(pair) <= set(data.variables)), pairs[0])
     names = across or default_across, up or default_up
@@ -42,7 +45,7 @@ def plot(data: xr.Dataset, axes: Axes | None = None, *, across: str | None = Non
 
         axes = plt.figure(layout="constrained").subplots()
     x, y = xr.broadcast(data[names[0]], data[names[1]])
-    steps = data.status.dims[-1]
+    steps = data[names[0]].dims[-1] if data[names[0]].ndim == 1 else data.status.dims[-1]
     rest = [dim for dim in x.dims if dim != steps]
     stacked = [values.stack(line=rest).transpose(steps, "line") if rest else values for values in (x, y)]
     axes.plot(*(values.values for values in stacked), ".-")

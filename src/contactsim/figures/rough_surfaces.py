@@ -43,7 +43,8 @@ def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     labels = [rf"$H={value:g}$, $\alpha={float(nayak.sel(hurst_exponent=value)):.3g}$" for value in _exponents(data)]
     area.legend(handles=_hurst_handles(data, labels), loc="upper left")
     theories = {r"Persson, erf$(\sqrt{2}p^*)$": PERSSON, "Bush, Gibson and Thomas": BUSH}
-    factor.legend(handles=style.line_handles(theories), loc="lower left")
+    factor.legend(handles=style.line_handles(theories), loc="upper right")
+    style.add_headroom(factor, 0.2)
     style.add_letters(axes)
     table = style.mean_table(data, ("relative_contact_area_corrected", "kappa_corrected"))
     return table.merge(nayak.to_dataframe().reset_index(), on="hurst_exponent")
@@ -52,10 +53,9 @@ def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot contact stiffness, conductance and mean gap against the reduced pressure."""
     stiffness, gap = axes
-    height, gradient = (data[name].mean("member") for name in ("rms_height", "rms_gradient"))
     pressure = data.reduced_pressure
-    _plot_means(stiffness, data, "contact_stiffness", pressure, height / (gradient * data.contact_modulus))
-    _plot_means(gap, data, "mean_gap", pressure, 1 / height)
+    _plot_means(stiffness, data, "reduced_stiffness", pressure)
+    _plot_means(gap, data, "reduced_gap", pressure)
     stiffness.plot(pressure, 2 * pressure, color=style.LIGHT_GREY, lw=0.8, zorder=0)
     stiffness.text(0.02, 2 * 0.02 * 1.5, "slope 1", color=style.GREY, fontsize=7, ha="right")
     label = r"$K\bar h/(E^*\bar g)=G\bar h/(2c\bar g)$"
@@ -63,7 +63,7 @@ def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     gap.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"mean gap over $\bar h$")
     stiffness.legend(handles=_hurst_handles(data), loc="upper left")
     style.add_letters(axes)
-    return style.mean_table(data, ("contact_stiffness", "mean_gap"))
+    return style.mean_table(data, ("reduced_stiffness", "reduced_gap"))
 
 
 def pressure_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -96,12 +96,13 @@ def contact_patches(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         surfaces = data.sel(hurst_exponent=hurst_exponent)
         spans = surfaces.where(surfaces.spanning_mean > 0.5)
         look = style.hurst_look(hurst_exponent) | {"linestyle": "", "color": style.hurst_colour(hurst_exponent)}
-        look["markerfacecolor"] = style.hurst_colour(hurst_exponent)
+        look |= {"markerfacecolor": style.hurst_colour(hurst_exponent), "zorder": 3}  # above the open markers
         share.plot(spans.relative_contact_area_mean, spans.largest_patch_share_mean, **look)
     for panel, label in ((count, "number of patches"), (share, "share of the contact in the largest patch")):
         panel.set(xscale="log", xlabel=r"relative contact area $a_{\mathrm{rel}}$", ylabel=label)
     count.set(yscale="log")
-    share.legend(handles=_hurst_handles(data), loc="upper left")
+    spanning = Line2D([], [], ls="", marker="o", color=style.GREY, ms=3.5, label="a patch spans the surface")
+    share.legend(handles=[*_hurst_handles(data), spanning], loc="upper left")
     style.add_letters(axes)
     return style.mean_table(data, ("patches", "largest_patch_share", "spanning"))
 
@@ -110,10 +111,8 @@ def challenge(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot mean gap and stiffness against the load, and pressures, gaps and patches at each load, of one surface."""
     data = data if "hurst_exponent" in data.dims else data.expand_dims(hurst_exponent=[np.nan])
     gap, stiffness, pressures, patches = axes
-    height = data.rms_height.mean("member")
-    scale = height / (data.rms_gradient.mean("member") * data.contact_modulus)
-    _plot_means(gap, data, "mean_gap", data.reduced_pressure, 1 / height)
-    _plot_means(stiffness, data, "contact_stiffness", data.reduced_pressure, scale)
+    _plot_means(gap, data, "reduced_gap", data.reduced_pressure)
+    _plot_means(stiffness, data, "reduced_stiffness", data.reduced_pressure)
     gap.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"mean gap over $\bar h$")
     stiffness.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"$K\bar h/(E^*\bar g)$")
     _plot_density(pressures, data.isel(hurst_exponent=0), "pressure_density", _persson_density)
@@ -129,8 +128,9 @@ def challenge(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     patches.set(
         xscale="log", yscale="log", xlabel="area of a patch over that of the surface", ylabel="number of patches"
     )
+    patches.legend(handles=_load_handles(data), loc="upper right")
     style.add_letters(axes)
-    return style.mean_table(data, ("mean_gap", "contact_stiffness", "relative_contact_area_corrected", "patches"))
+    return style.mean_table(data, ("reduced_gap", "reduced_stiffness", "relative_contact_area_corrected", "patches"))
 
 
 def _exponents(data: xr.Dataset) -> list[float]:
@@ -149,11 +149,9 @@ def _hurst_handles(data: xr.Dataset, labels: Sequence[str] = ()) -> list[Line2D]
     return handles
 
 
-def _plot_means(
-    axes: Axes, data: xr.Dataset, name: str, across: xr.DataArray, factor: xr.DataArray | float = 1.0
-) -> None:
-    """Plot the means of a quantity times a factor, one curve a Hurst exponent, with all their errors."""
-    means, errors = data[f"{name}_mean"] * factor, mean_error(data, name) * factor
+def _plot_means(axes: Axes, data: xr.Dataset, name: str, across: xr.DataArray) -> None:
+    """Plot the means of a quantity, one curve a Hurst exponent, with all their errors."""
+    means, errors = data[f"{name}_mean"], mean_error(data, name)
     x = across.broadcast_like(means)
     for value in _exponents(data):
         look = style.hurst_look(value) | {"color": style.hurst_colour(value), "linestyle": "-"}
@@ -191,9 +189,8 @@ def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Callable[[Arr
     for pressure, colour in style.shades(data.reduced_pressure.values).items():
         mean, error = (part.sel(reduced_pressure=pressure, method="nearest").values for part in (means, errors))
         axes.plot(x, np.where(mean > 0, mean, np.nan), color=colour, lw=1.1)
-        axes.fill_between(
-            x, np.maximum(mean - error, LEAST_DENSITY / 10), mean + error, color=colour, alpha=SHADE, lw=0
-        )
+        seen = mean > error  # a band down to zero would hide others on a logarithmic axis
+        axes.fill_between(x, mean - error, mean + error, where=seen, color=colour, alpha=SHADE, lw=0)
         if theory is not None:
             axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
 

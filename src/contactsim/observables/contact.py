@@ -17,7 +17,7 @@ from contactsim.grid import Array
 DEFAULT_KEPT = ("contact", "pressure", "profile")
 """What a run keeps of a solution beside its numbers, unless it is told otherwise."""
 KEPT = (*DEFAULT_KEPT, "fields", "distributions", "patches", "stiffness")
-"""All that it can keep; the stiffness of the contact costs about a further solution."""
+"""All that it can keep; the stiffness of the contact costs one to three further solutions."""
 
 
 def touching(pressure: Array) -> Array:

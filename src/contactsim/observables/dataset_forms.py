@@ -28,6 +28,8 @@ STEP = "step"
 """Dimension of the load of a path."""
 KEPT_NUMBERS = (
     "contact_stiffness",
+    "reduced_stiffness",
+    "yielding_share",
     "patches",
     "largest_patch_share",
     "spanning",
@@ -35,7 +37,7 @@ KEPT_NUMBERS = (
     "gap_density",
     "patches_by_area",
 )
-"""Numbers of a state at a hard wall that a run has where it is asked to keep them."""
+"""Numbers of a state at a hard wall that only some runs have, which were asked for them."""
 AVERAGED = (
     "relative_contact_area",
     "relative_contact_area_corrected",
@@ -54,6 +56,8 @@ AVERAGED = (
     "reduced_pressure_contact",
     "reduced_pressure_contact_corrected",
     "mean_gap",
+    "reduced_gap",
+    "max_pressure",
     *KEPT_NUMBERS,
 )
 """Numbers of a state at a hard wall that are averaged over members."""

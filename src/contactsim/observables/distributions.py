@@ -11,7 +11,7 @@ from contactsim.grid import Array
 
 @dataclass(frozen=True)
 class Bins:
-    """Equal bins from 0 to a largest value; what lies beyond is in none.
+    """Equal bins from 0 to a largest value; the last one holds what lies beyond, too.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Bins:
 
     def density(self, values: Array, size: int) -> Array:
         """Return the share of `size` points with a value in each bin, over the width of a bin; values: (m,)."""
-        counts = np.histogram(values, self.count, (0.0, self.largest))[0]
+        counts = np.histogram(np.minimum(values, self.largest), self.count, (0.0, self.largest))[0]
         return counts / (size * self.width)
 
 

@@ -19,7 +19,8 @@ def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
     Notes
     -----
     κ, of dimension `reduced_pressure`, is Eq. 3.1 and κ_r is Eq. 3.3. A contact of a cylinder has a `half_width`, that
-    of a sphere a `contact_radius`, both in nm.
+    of a sphere a `contact_radius`, both in nm. Mean gap and contact stiffness are also given over rms height and
+    gradient.
     """
     area, pressure, modulus = data.relative_contact_area, data.mean_pressure, data.contact_modulus
 
@@ -35,6 +36,9 @@ def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
         reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
         reduced_pressure_contact_corrected=pressure / (data.rms_gradient_contact_corrected * modulus),
     )
+    data["reduced_gap"] = data.mean_gap / data.rms_height
+    if "contact_stiffness" in data:
+        data["reduced_stiffness"] = data.contact_stiffness * data.rms_height / (data.rms_gradient * modulus)
     if "reduced_pressure" in data.dims:
         data["kappa"] = area / data.reduced_pressure
         data["kappa_corrected"] = data.relative_contact_area_corrected / data.reduced_pressure

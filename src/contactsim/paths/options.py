@@ -101,7 +101,8 @@ class Setup:
         InputError
             Without a number of points, unless the surface comes with its own.
         """
-        points = self.options.points or self.scene.upper.surface.points
+        own = (body.surface.points for body in (self.scene.upper, self.scene.lower))
+        points = self.options.points or next((count for count in own if count is not None), None)
         if points is None:
             raise InputError("points", None, "a whole number: only a measured surface comes with its own")
         return points

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import logging
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -34,13 +35,16 @@ from contactsim.observables.patches import AREA_BINS, find_patches
 from contactsim.paths.contact_stiffness import contact_stiffness
 from contactsim.paths.reuse import Point
 from contactsim.solvers.base import HardWallSolver, Result, solve
-from contactsim.status import status_sentence, validity_flags
+from contactsim.status import describe_excess, status_sentence, validity_flags
 from contactsim.surfaces.open_statistics import rms_curvature_open, rms_gradient_open, squared_gradient_open
 from contactsim.surfaces.spectral_moments import nayak_parameter
 from contactsim.surfaces.squared_gradient import squared_gradient_blocks
 from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
 
 logger = logging.getLogger(__name__)
+
+STIFFNESS_TOLERANCE = 1e-5
+"""Error of the displacement of a contact, over the displacement, from which its stiffness follows."""
 
 
 def simulate_loads(
@@ -97,7 +101,10 @@ def simulate_loads(
         return _read_point(replace(result, scene=scene), heights, roughness, keep)
 
     solved = _solve_steps(scene.path.steps, solved_points or {}, solve_step)
-    return _join_points(scene, heights, roughness, solved, keep)
+    data = _join_points(scene, heights, roughness, solved, keep)
+    for words in describe_excess(data):
+        logger.warning("beyond what the model describes: %s of the states", words)
+    return data
 
 
 def _solve_steps(
@@ -166,8 +173,11 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
         "contact_points": int(contact.sum()),
     }
     numbers |= _validity(scene, result.pressure, heights.shape, roughness)
+    begin = time.process_time()
     if "stiffness" in keep:
-        numbers["contact_stiffness"] = contact_stiffness(result) if result.status.solved else np.nan
+        known = result.status.solved
+        numbers["contact_stiffness"] = contact_stiffness(result, tolerance=STIFFNESS_TOLERANCE) if known else np.nan
+    seconds = result.seconds + time.process_time() - begin
     arrays = {}
     if "patches" in keep:
         patches = find_patches(contact, scene.repeats)
@@ -182,7 +192,7 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
     if "distributions" in keep:
         unit = scene.contact_modulus * roughness["rms_gradient"]
         arrays |= distributions(result.pressure, result.gap, unit, roughness["rms_height"])
-    return Point(numbers, arrays, result.seconds)
+    return Point(numbers, arrays, seconds)
 
 
 def _validity(

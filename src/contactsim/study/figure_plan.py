@@ -90,6 +90,9 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
         if not (study_settings.get("slide") and study_settings["snapshots"]) or study_settings["vary"]:
             allowed = "left out, but for one slide, nothing of it varied, with snapshots"
             raise InputError(f"{prefix}.film", settings["film"], allowed, file)
+    own = settings["module"]
+    if own is not None and not module_path(f"contactsim.figures.{own}" if own.isidentifier() else ""):
+        raise InputError(f"{prefix}.module", own, "the name of a module of contactsim.figures", file)
     compare, module = settings.pop("compare"), f"contactsim.figures.{settings.pop('module') or file.stem}"
     figure = Figure(name, file.stem, settings, compare, module)
     _check_function(figure, studies, file, prefix)

@@ -26,6 +26,7 @@ from contactsim.solvers.registry import configure_solver
 from contactsim.study.keys import BODIES, RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.base import Surface
+from contactsim.surfaces.open_statistics import rms_gradient_open
 from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
@@ -136,7 +137,8 @@ def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elastic
     name, values = settings["load"]["name"], np.array(settings["load"]["values"])
     labels = [f"{name}={value:g}" for value in values]
     if name == "reduced_pressure":
-        gradient = _rms_gradient(surface, settings["points"])
+        repeats = not any(Trait.FREE in body.traits for body in elasticities)
+        gradient = _rms_gradient(surface, settings["points"], repeats)
         if not gradient > 0:
             raise InputError("load", name, "mean_pressure: this surface is flat")
         values = values * contact_modulus * gradient
@@ -151,15 +153,15 @@ def _build_loads(settings: Mapping, surface: Surface, elasticities: list[Elastic
     return pressures([float(value) for value in values], labels=labels)
 
 
-def _rms_gradient(surface: Surface, points: int | None) -> float:
-    """Return the rms gradient that reduced pressures are counted by."""
+def _rms_gradient(surface: Surface, points: int | None, repeats: bool) -> float:
+    """Return the rms gradient that reduced pressures are counted by; repeats: whether the heights do."""
     if isinstance(surface, SelfAffine):
         return surface.profile_rms_gradient
     points = points or surface.points
     if points is None:
         raise InputError("points", None, "a whole number: only a measured surface comes with its own")
     heights = surface.heights(points)
-    return rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)
+    return (rms_gradient if repeats else rms_gradient_open)(heights, Grid(heights.shape, surface.lengths).spacing)
 
 
 @lru_cache(maxsize=8)

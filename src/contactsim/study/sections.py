@@ -75,7 +75,8 @@ def read_accuracy(section: dict, settings: dict, file: object, prefix: str) -> d
             allowed = "left out, for runs to an accuracy have grids of their own; or one run"
             raise InputError(f"{prefix}.{key}", fields[key], allowed, file)
     wanted = settings["accuracy"] if isinstance(settings["accuracy"], dict) else {"error": settings["accuracy"]}
-    return settings | INITIAL_OPTIONS | {"accuracy": read(wanted, ACCURACY_KEYS, file, f"{prefix}.accuracy")}
+    initial = INITIAL_OPTIONS | ({"points": None} if "file" in settings["surface"] else {})  # it has its own points
+    return settings | initial | {"accuracy": read(wanted, ACCURACY_KEYS, file, f"{prefix}.accuracy")}
 
 
 def read_load(settings: dict, file: object, prefix: str) -> dict:

@@ -69,10 +69,6 @@ class MeasuredLine:
         """Return the heights in nm; `points` must be their number along x."""
         return self.topography.heights(points)
 
-    def every_second(self) -> Topography:
-        """Return the heights with every second point in each direction, from the first."""
-        return self.topography.every_second()
-
 
 @dataclass(frozen=True)
 class MeasuredSurface(MeasuredLine):

@@ -40,4 +40,8 @@ def _wave_squares(heights: Array, spacing: Sequence[float]) -> tuple[float, ...]
 def _difference_squares(heights: Array, spacing: Sequence[float]) -> tuple[float, ...]:
     """Return the same of differences between neighbours."""
     total = sum(second_differences(heights, axis, step) for axis, step in enumerate(spacing))
-    return float(np.var(heights)), rms_gradient_open(heights, spacing) ** 2, float(np.mean(np.square(total)))
+    return (
+        float(np.var(heights)),
+        rms_gradient_open(heights, spacing) ** 2,
+        float(np.mean(np.square(total))) if np.size(total) else np.nan,
+    )

@@ -59,6 +59,16 @@ class Topography:
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "spacing", _read_spacing(self.spacing, values.ndim, self.source))
 
+    def __repr__(self) -> str:
+        """Return number of points, size, range of heights, and what was done to them, in one line."""
+        points = " × ".join(map(str, self.values.shape))
+        size = " × ".join(f"{length:.6g}" for length in self.lengths)
+        text = f"{points} points on {size} nm, heights from {self.values.min():.6g} to {self.values.max():.6g} nm"
+        shares = {"filled": self.filled, "replaced as spikes": self.spikes}
+        text += "".join(f", {share:.2%} {words}" for words, share in shares.items() if share)
+        text += ", periodic" if self.periodic else ""
+        return f"<Topography: {text}{f', of {self.source}' if self.source else ''}>"
+
     @property
     def points(self) -> int:
         """Number of heights along x."""
@@ -66,8 +76,8 @@ class Topography:
 
     @property
     def lengths(self) -> tuple[float, ...]:
-        """Period in each direction, x last: number of points times spacing, nm."""
-        return tuple(np.asarray(self.spacing) * self.values.shape)
+        """Length in each direction, x last: number of points times spacing, nm."""
+        return tuple(size * step for size, step in zip(self.values.shape, self.spacing, strict=True))
 
     def shape(self, points: int) -> tuple[int, ...]:
         """Return the shape of the heights, which does not depend on `points`."""
@@ -82,6 +92,11 @@ class Topography:
         """Return the heights in nm; `points` must be their number along x."""
         self.check(points)
         return self.values
+
+    def even_part(self) -> Topography:
+        """Return the topography without the last point in each direction that has an odd number of them."""
+        values = self.values[tuple(slice(0, size - size % 2) for size in self.values.shape)]
+        return self if values.shape == self.values.shape else dataclasses.replace(self, values=values)
 
     def every_second(self) -> Topography:
         """Return the topography with every second point in each direction, from the first."""
