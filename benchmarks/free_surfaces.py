@@ -20,7 +20,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from records import Table, on_one_thread
+from report import insert, markdown
 
 import contactsim as cs
 from contactsim.contact.hard_wall import HardWallProblem
@@ -39,6 +41,8 @@ FOUND = (
 TOLERANCE = 1e-6
 """Largest gap in contact, and overlap elsewhere, in grid steps."""
 ROUNDS = 3
+BEGIN, END = "<!-- free surfaces: written by free_surfaces.py -->", "<!-- end of free surfaces -->"
+"""Marks of the table in the README."""
 
 logger = logging.getLogger("free_surfaces")
 
@@ -180,6 +184,29 @@ def cases(sizes: tuple[int, ...]) -> Iterator[dict]:
             yield {"peer": name, "hurst_exponent": hurst_exponent, "points": points, "reduced_pressure": pressure}
 
 
+TABLE = {
+    "points": ("points along a side", "{:.0f}"),
+    "peer": ("code", "{}"),
+    "hurst_exponent": ("H", "{:g}"),
+    "reduced_pressure": ("p*", "{:g}"),
+    "seconds": ("theirs (s)", "{:.3g}"),
+    "own_seconds": ("ours (s)", "{:.3g}"),
+    "ratio": ("theirs ÷ ours", "{:.3g}"),
+    "error": ("error (steps)", "{:.1e}"),
+}
+"""Columns of the table in the README: their heads and forms."""
+
+
+def write_table() -> None:
+    """Put what has been measured into the README."""
+    rows = pd.read_csv(HERE / "free_surfaces.csv", na_values="none").sort_values(["points", "peer", "hurst_exponent"])
+    lines = [
+        ["–" if row[name] != row[name] else form.format(row[name]) for name, (_, form) in TABLE.items()]
+        for row in rows.to_dict("records")
+    ]
+    insert(HERE / "README.md", BEGIN, markdown([head for head, _ in TABLE.values()], lines), END)
+
+
 def main() -> None:
     """Measure what is missing."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -190,6 +217,8 @@ def main() -> None:
     table = Table(folder / "free_surfaces.csv", CASE, FOUND)
     for case in cases((128,) if options.quick else (512, 1024)):
         table.row(case, lambda case: compare(case, 1 if options.quick else ROUNDS))
+    if not options.quick:
+        write_table()
     logger.info("written to %s", folder)
 
 

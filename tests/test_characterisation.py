@@ -12,7 +12,7 @@ from contactsim.cli import main
 from contactsim.figures.characterisation import plot_characterisation
 from contactsim.observables.contact import relative_contact_area_subgrid
 from contactsim.status import FLAGS
-from support.cases import refused
+from support.cases import refused, rough
 
 LOADS = [0.01, 0.1, 0.3]
 ELEVATION = f"{get_data_path()}/sample_data/jacksboro_fault_dem.npz"
@@ -75,9 +75,9 @@ def test_what_would_yield_and_slopes_that_are_too_large_are_told():
     data = cs.characterise(whole, contact_modulus=1.0, mean_pressures=[0.1], hardness=0.5, periodic=True)
     pressure = cs.press(whole, contact_modulus=1.0, mean_pressure=0.1, tolerance=1e-4, periodic=True).pressure
     assert data.yielding_share[0] == pytest.approx((pressure > 0.5).sum() / (pressure > 0).sum(), abs=1e-3)
-    assert int(data.validity_flags) == FLAGS["rms_gradient"]
+    assert data.validity_flags.item() == FLAGS["rms_gradient"] + FLAGS["yielding_share"]
     gentle = cs.Topography(whole.values / 10, 1.0)
-    assert not cs.characterise(gentle, contact_modulus=1.0, mean_pressures=[0.1]).validity_flags
+    assert not cs.characterise(gentle, contact_modulus=1.0, mean_pressures=[0.1]).validity_flags.any()
     with refused("hardness", "a positive"):
         cs.characterise(whole, contact_modulus=1.0, mean_pressures=[0.1], hardness=0.0)
 
@@ -151,3 +151,27 @@ def test_the_figure_has_four_panels_with_bars():
     assert panels[0].get_legend() is not None
     line = cs.characterise(cs.Topography(surface().values[0], 1.0), contact_modulus=1.0, mean_pressures=LOADS)
     assert plot_characterisation(line).axes[0].get_legend() is None  # Persson's theory is of surfaces
+
+
+def test_flags_are_those_of_each_load_and_tell_what_would_yield():
+    numbers = cs.characterise(
+        cs.Topography(rough(256), 1.0), contact_modulus=1.0, mean_pressures=[1e-3, 0.3], hardness=0.8, periodic=True
+    )
+    yields = numbers.yielding_share.values > 0
+    assert ((numbers.validity_flags.values & FLAGS["yielding_share"]) > 0).tolist() == yields.tolist()
+    assert yields[-1]
+
+
+def test_the_gradient_of_periodic_heights_has_the_step_between_their_ends():
+    slope = cs.Topography(np.arange(32.0), 1.0)
+    alone, periodic = (
+        cs.characterise(slope, contact_modulus=1.0, mean_pressures=[1e-3], periodic=repeats).rms_gradient.item()
+        for repeats in (False, True)
+    )
+    assert alone == 1
+    assert periodic == pytest.approx(np.sqrt((31 + 31**2) / 32))
+
+
+def test_other_options_of_press_are_refused():
+    with refused("other", "periodic"):
+        cs.characterise(cs.Topography(rough(64), 1.0), contact_modulus=1.0, mean_pressures=[0.1], other=rough(64))

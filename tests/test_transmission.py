@@ -76,6 +76,8 @@ def test_a_circular_contact_conducts_as_holm_has_it():
     """Of two half-spaces of conductivity c through a circle of radius a: 2ac."""
     stiffness, modulus = 2 * 3.0 * 5.0, 5.0  # of a circle of radius 3 on E* = 5
     assert cs.conductance(stiffness, modulus, (2.0, 2.0)) == pytest.approx(2 * 3.0 * 2.0)
+    several = cs.conductance([stiffness, 2 * stiffness], modulus, (2.0, 2.0))
+    assert list(several) == pytest.approx([12.0, 24.0])
     assert cs.conductance(stiffness, modulus, (2.0, np.inf)) == pytest.approx(
         2 * cs.conductance(stiffness, modulus, (2.0, 2.0))
     )

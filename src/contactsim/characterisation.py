@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.dataset import describe
-from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positive
+from contactsim.errors import POSITIVE, InputError, Words, check_option_names, is_number, is_positive
 from contactsim.grid import Array
 from contactsim.observables.contact import relative_contact_area_subgrid, yielding_share
 from contactsim.observables.patches import find_patches
@@ -26,6 +26,7 @@ MIN_POINTS = 8
 """Fewest points each way: half of them make the coarser grid."""
 
 
+@check_option_names
 def characterise(
     topography: Topography,
     *,

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import contactsim as cs
+from contactsim.error_control.control import solve_to_error
+from contactsim.study.study import Study
 from support.cases import refused
 
 
@@ -45,8 +47,13 @@ def test_any_number_of_each_load_can_be_asked_for():
     data = cs.simulate(scene_of(heights(256)), accuracy=0.1, quantities=["mean_gap", "max_pressure"])
     assert {"mean_gap_estimated_error", "max_pressure_estimated_error"} <= set(data)
     assert "relative_contact_area_subgrid_estimated_error" not in data
-    with refused("quantities", "mean_gap"):
-        cs.simulate(scene_of(heights(256)), accuracy=0.1, quantities=["pull_off_load"])
+    for name in ("pull_off_load", "seconds", "status"):
+        with refused("quantities", "mean_gap"):
+            cs.simulate(scene_of(heights(256)), accuracy=0.1, quantities=[name])
+    with refused("quantities", "where `keep` has it"):
+        cs.simulate(scene_of(heights(256)), accuracy=0.1, quantities=["contact_stiffness"])
+    kept = cs.simulate(scene_of(heights(256)), accuracy=0.1, quantities=["contact_stiffness"], keep=["stiffness"])
+    assert "contact_stiffness_estimated_error" in kept
 
 
 def test_its_cost_is_foreseen_within_a_factor():
@@ -59,11 +66,57 @@ def test_its_cost_is_foreseen_within_a_factor():
         assert forecast.points == data.points.item()
 
 
+def test_of_an_odd_number_of_points_the_error_is_that_of_the_even_part():
+    """Hertz on 65 points: the coarser grid has the length of 64, and the error is not that of another length."""
+    x = (np.arange(65) - 32) / 16
+    scene = cs.Scene(
+        cs.FreeHalfSpace(1.0),
+        cs.Topography(-(x[:, None] ** 2 + x**2) / 2, 1 / 16),
+        cs.HardWall(),
+        cs.pressures([4 / 3 / (65 / 16) ** 2]),
+    )
+    data = cs.simulate(scene, accuracy=0.1, quantities=["approach", "relative_contact_area_subgrid"])
+    assert data.points.item() == 65
+    assert data.coarse_run_points.item() == 32
+    assert data.refinements.item() == 0
+    assert data.approach.item() == pytest.approx(1, abs=1e-3)
+    assert data.approach_estimated_error.item() < 4e-3
+
+
+def test_the_lower_body_may_be_the_measured_one():
+    values = heights(256)
+    topography = cs.Topography(values, 2.0)
+    up, down = (
+        cs.simulate(cs.Scene(*bodies, cs.HardWall(), cs.pressures([0.05])), accuracy=0.5)
+        for bodies in (
+            (cs.Body(cs.Flat(512.0), cs.HalfSpace(1.0)), cs.Body(topography)),
+            (cs.Body(topography, cs.HalfSpace(1.0)), cs.Body(cs.Flat(512.0))),
+        )
+    )
+    name = "relative_contact_area_subgrid"
+    assert down[name].item() == up[name].item()
+    assert down[f"{name}_estimated_error"].item() == up[f"{name}_estimated_error"].item()
+
+
+def test_a_study_of_a_file_has_an_accuracy_and_reduced_pressures_of_its_own_gradient(tmp_path):
+    np.save(tmp_path / "scan.npy", np.cumsum(np.random.default_rng(1).normal(size=256)))
+    section = {
+        "title": "Scan",
+        "surface": {"kind": "measured", "file": str(tmp_path / "scan.npy"), "spacing": 2.0, "ends": "none"},
+        "body": {"kind": "free_half_space", "contact_modulus": 1.0},
+        "effects": ["hard_wall"],
+        "load": {"reduced_pressure": [0.01]},
+        "accuracy": 0.5,
+    }
+    (run,) = Study.read("scan", section, "ch3.yaml", 1).runs()
+    data = solve_to_error(run.setup, 0.5).data
+    assert data.points.item() == 256
+    assert data.mean_pressure.item() == pytest.approx(0.01 * data.rms_gradient.item())
+    assert "relative_contact_area_subgrid_estimated_error" in data
+
+
 def test_what_has_no_coarser_grid_or_no_relations_is_refused():
-    with refused("surface", "an even number of points each way"):
-        cs.simulate(scene_of(heights(257)), accuracy=0.1)
-    cs.simulate(scene_of(heights(257), cs.FreeHalfSpace(1.0)), accuracy=0.5)
-    with refused("surface", "points each way, 8 or more"):
+    with refused("surface", "8 points or more each way"):
         cs.simulate(scene_of(heights(257)[:6], cs.FreeHalfSpace(1.0)), accuracy=0.1)
     law = cs.NormalCohesiveZone(work_of_separation=0.1, normal_length=1.0)
     path = cs.approaches([-1.0, 1.0], 0.5)

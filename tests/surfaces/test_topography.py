@@ -470,9 +470,9 @@ BAD_NETCDF = [
     ({"places": {"x": (X**3, "nm")}}, {}, "x", None, "equal steps"),
     ({"heights": np.where(HEIGHTS == 6, -999.0, HEIGHTS)}, {}, "heights",
      "1 of 12 points missing or not finite, the first nan in row 3, column 2", "none missing"),
-    ({}, {"dimensions": 1}, "variable", None, "1D"),
+    ({}, {"dimensions": 1}, "variable", None, "along a line"),
     ({}, {"variable": "none"}, "variable", "none", "heights"),
-    ({"heights": HEIGHTS[0], "order": "x", "places": BARE}, {"dimensions": 2}, "variable", None, "2D"),
+    ({"heights": HEIGHTS[0], "order": "x", "places": BARE}, {"dimensions": 2}, "variable", None, "over an area"),
 ]  # fmt: skip
 
 
@@ -720,3 +720,17 @@ def test_an_hdf5_file_without_positions_is_read_by_the_name_of_its_heights(tmp_p
     assert topography.spacing == (12.0, 12.0)
     with refused("unit", "nm"):
         read_topography(tmp_path / "surface.h5", variable="surface", spacing=12.0)
+
+
+def test_heights_in_a_group_of_an_hdf5_file_are_named_by_their_path(tmp_path: Path) -> None:
+    values = np.random.default_rng(0).normal(size=(6, 8))
+    with netCDF4.Dataset(str(tmp_path / "scan.h5"), "w") as data:
+        group = data.createGroup("scans").createGroup("first")
+        group.createDimension("y", 6)
+        group.createDimension("x", 8)
+        group.createVariable("data", "f8", ("y", "x"))[:] = values
+        group.createVariable("other", "f8", ("y", "x"))[:] = 0
+    options = {"unit": "nm", "spacing": 1.0}
+    assert np.array_equal(read_topography(tmp_path / "scan.h5", variable="scans/first/data", **options).values, values)
+    with refused("variable", "scans/first/data"):
+        read_topography(tmp_path / "scan.h5", **options)

@@ -21,13 +21,14 @@ def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: 
     are y and x, in any order, or else rows and columns.
     """
     with netCDF4.Dataset(str(file)) as data:
+        entries = _all_variables(data)
         if dimensions is None:
-            candidates = [data.variables[variable]] if variable in data.variables else data.variables.values()
+            candidates = [entries[variable]] if variable in entries else list(entries.values())
             dimensions = 2 if any(entry.ndim == 2 for entry in candidates) else 1
-        field = _find_heights(data, dimensions, variable, file)
+        field = _find_heights(entries, dimensions, variable, file)
         steps: list[float | None] = []
         for name in field.dimensions:
-            places = _positions_along(name, data, field, unit, file)
+            places = _positions_along(name, field, unit, file)
             steps.append(None if places is None else io.mean_step(places, name, file))
         scale = io.unit_factor(field.name, _stated_unit(field), unit, file)
         io.check_count(field.shape, field.name, file)
@@ -37,25 +38,35 @@ def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: 
         return (heights.T, spacing[::-1]) if field.dimensions == ("x", "y") else (heights, spacing)
 
 
-def _find_heights(data: netCDF4.Dataset, dimensions: int, variable: str | None, file: Path) -> netCDF4.Variable[Any]:
+def _all_variables(data: netCDF4.Dataset, path: str = "") -> dict[str, netCDF4.Variable[Any]]:
+    """Return the variables of a file or group, and of the groups in it, by their paths."""
+    entries = {f"{path}{name}": entry for name, entry in data.variables.items()}
+    for name, group in data.groups.items():
+        entries |= _all_variables(group, f"{path}{name}/")
+    return entries
+
+
+def _find_heights(
+    entries: dict[str, netCDF4.Variable[Any]], dimensions: int, variable: str | None, file: Path
+) -> netCDF4.Variable[Any]:
     """Return the heights in a netCDF file: `variable`, or the one named like heights, or the only floats."""
-    fields = {name: entry for name, entry in data.variables.items() if entry.ndim == dimensions}
-    coordinates = {name for entry in data.variables.values() for name in _coordinate_names(entry)}
+    fields = {name: entry for name, entry in entries.items() if entry.ndim == dimensions}
+    coordinates = {name for entry in entries.values() for name in _coordinate_names(entry)}
     free = [name for name in fields if name not in coordinates]
-    named = [name for name in free if name in ("heights", "height", "z")]
+    named = [name for name in free if name.rpartition("/")[2] in ("heights", "height", "z")]
     floats = [name for name in free if np.dtype(fields[name].dtype).kind == "f"]
     names = [str(variable)] if variable is not None else named if len(named) == 1 else floats
     if len(names) != 1 or names[0] not in fields:
-        raise InputError("variable", variable, f"the name of the {dimensions}D heights, of those: {list(fields)}", file)
+        kind = "heights along a line" if dimensions == 1 else "heights over an area"
+        raise InputError("variable", variable, f"the name of {kind}, of those: {list(fields)}", file)
     return fields[names[0]]
 
 
-def _positions_along(
-    dimension: str, data: netCDF4.Dataset, heights: netCDF4.Variable[Any], unit: str | None, file: Path
-) -> Array | None:
+def _positions_along(dimension: str, heights: netCDF4.Variable[Any], unit: str | None, file: Path) -> Array | None:
     """Return the coordinate (n,) of the heights along a dimension, in nm, or None."""
-    names = [name for name in _coordinate_names(heights) if name in data.variables and name != heights.name]
-    for place in (data.variables[name] for name in names):
+    beside = heights.group().variables
+    names = [name for name in _coordinate_names(heights) if name in beside and name != heights.name]
+    for place in (beside[name] for name in names):
         if place.dimensions == (dimension,):
             scale = io.unit_factor(place.name, _stated_unit(place) or unit, None, file)
             io.check_count(place.shape, place.name, file)
