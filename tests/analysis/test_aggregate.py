@@ -37,6 +37,7 @@ def numbers(hurst_exponent, member, coarse=False):
         "rms_gradient_contact": GRADIENT * (1 + 0.1 * draw.random(len(PRESSURES))),
         "rms_gradient_contact_pairs": GRADIENT * (1 - 0.1 * draw.random(len(PRESSURES))),
         "mean_gap": draw.random(len(PRESSURES)),
+        "max_pressure": draw.random(len(PRESSURES)),
     }
 
 

@@ -36,7 +36,8 @@ def derive_contact_factors(data: xr.Dataset) -> xr.Dataset:
         reduced_pressure_contact=pressure / (data.rms_gradient_contact * modulus),
         reduced_pressure_contact_corrected=pressure / (data.rms_gradient_contact_corrected * modulus),
     )
-    data["reduced_gap"] = data.mean_gap / data.rms_height
+    if "mean_gap" in data:
+        data["reduced_gap"] = data.mean_gap / data.rms_height
     if "contact_stiffness" in data:
         data["reduced_stiffness"] = data.contact_stiffness * data.rms_height / (data.rms_gradient * modulus)
     if "reduced_pressure" in data.dims:

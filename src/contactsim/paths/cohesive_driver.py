@@ -9,7 +9,6 @@ import xarray as xr
 
 from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.errors import InputError
-from contactsim.paths.nested import Nested
 from contactsim.paths.options import Setup
 from contactsim.paths.record import simulate_path
 from contactsim.paths.requested import Requested
@@ -53,5 +52,6 @@ class CohesiveDriver:
 
 def _check_increments(setup: Setup) -> None:
     """Raise InputError for nested grids on a surface."""
-    if isinstance(setup.options.increments, Nested) and Trait.SURFACE in setup.scene.traits:
+    increments = setup.options.increments or Requested()
+    if Trait.SURFACE in setup.scene.traits and not increments.follows_surfaces:
         raise InputError("increments", "nested", "requested or adaptive: grids are not nested on surfaces")

@@ -17,6 +17,11 @@ from contactsim.solvers.cohesive.base import CohesiveSolver
 class Increments(Protocol):
     """A way to choose the increments of a path."""
 
+    @property
+    def follows_surfaces(self) -> bool:
+        """True where paths over surfaces can be followed, too."""
+        ...
+
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Raise InputError for a grid, a path or a solver that these increments do not suit."""
         ...

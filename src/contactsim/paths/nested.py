@@ -51,6 +51,7 @@ class Nested:
     intermediate_ratio: int = 4
     coarse_tolerance: float = 1e-3
     intermediate_tolerance: float = 1e-4
+    follows_surfaces = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "full_grid_at", read_numbers("full_grid_at", self.full_grid_at, least=0))
