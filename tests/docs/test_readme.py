@@ -171,7 +171,7 @@ def test_what_the_readme_asks_of_a_study_is_understood():
     body = {"kind": "half_space", "youngs_modulus": 70.0, "poisson_ratio": 0.45}
     scene = {"title": "One", "surface": {"kind": "cylinder", "radius": 1e4, "length": 4e3}, "body": body}
     law = {"cohesive_zone": {"work_of_separation": 1.0}, "path": {"approach": [-6.0, 14.0]}}
-    asked = [yaml.safe_load(block) for block in blocks("yaml") if "my_profile" not in block]
+    asked = [yaml.safe_load(block) for block in blocks("yaml") if "title:" not in block]
     assert len(asked) == 2
     both = Study.read("one", scene | law | asked[0] | asked[1], "README.md", 1)
     assert both.settings["accuracy"]["error"] == 0.01

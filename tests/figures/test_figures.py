@@ -45,7 +45,7 @@ def figure_data(made, name):
 def test_every_panel_of_a_figure_has_labels_and_finite_data_and_its_csv_holds_what_is_plotted(made, name):
     settings = PLAN.figures[name].settings
     _, panels = layout.empty_figure(settings, "footer", settings["rows"])
-    plot = getattr(import_module(f"contactsim.figures.{PLAN.figures[name].chapter}"), name)
+    plot = getattr(import_module(PLAN.figures[name].module), name)
     table = plot(*figure_data(made, name), panels if len(panels) > 1 else panels[0], **settings["reference"])
     for panel in panels:
         lines = [np.asarray(line.get_ydata(), float) for line in panel.lines]

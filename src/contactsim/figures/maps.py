@@ -132,7 +132,7 @@ def plot_maps(data: xr.Dataset, *, size: tuple[float, float] = (10.2, 3.0)) -> F
 def plot_result(
     result: Result,
     *,
-    spacing: float | tuple[float, float] | None = None,
+    spacing: float | tuple[float, float],
     length_unit: str = "nm",
     pressure_unit: str = "GPa",
     size: tuple[float, float] = (10.2, 3.0),
@@ -142,7 +142,7 @@ def plot_result(
     Parameters
     ----------
     result : of `contactsim.press` for a surface
-    spacing : of its points, one number or those along y and x; that of the scene pressed by default
+    spacing : of its points, one number or those along y and x
     length_unit, pressure_unit : of the numbers; units of m and Pa are shown with the prefix that fits
     size : width and height, inches
 
@@ -151,9 +151,6 @@ def plot_result(
     InputError
         for a line, for another spacing than a positive number or two, and for a result that did not converge
     """
-    if spacing is None and result.scene is not None and result.pressure.ndim == 2:
-        height, width = (length / n for length, n in zip(result.scene.lengths, result.pressure.shape, strict=True))
-        spacing = height, width
     return _figure(SurfaceFields.of_result(result, spacing, length_unit, pressure_unit), size)
 
 

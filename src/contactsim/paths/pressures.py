@@ -173,11 +173,12 @@ def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], 
         "contact_points": int(contact.sum()),
     }
     numbers |= _validity(scene, result.pressure, heights.shape, roughness)
-    begin = time.process_time()
+    seconds = result.seconds
     if "stiffness" in keep:
+        begin = time.process_time()
         known = result.status.solved
         numbers["contact_stiffness"] = contact_stiffness(result, tolerance=STIFFNESS_TOLERANCE) if known else np.nan
-    seconds = result.seconds + time.process_time() - begin
+        seconds += time.process_time() - begin
     arrays = {}
     if "patches" in keep:
         patches = find_patches(contact, scene.repeats)
