@@ -2,28 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
+from contactsim.contact.loading import pressures
+from contactsim.contact.scene import Body, Scene
 from contactsim.dataset import describe
-from contactsim.errors import POSITIVE, InputError, Words, check_option_names, is_number, is_positive
-from contactsim.grid import Array
-from contactsim.observables.contact import relative_contact_area_subgrid, yielding_share
-from contactsim.observables.patches import find_patches
-from contactsim.paths.contact_stiffness import contact_stiffness
-from contactsim.paths.pressures import STATISTICS
-from contactsim.single_load import press
-from contactsim.solvers.base import HardWallSolver, Result
-from contactsim.status import validity_flags
+from contactsim.error_control.measured import MIN_POINTS
+from contactsim.errors import InputError, Words, check_option_names, is_number
+from contactsim.interface.hard_wall import HardWall
+from contactsim.simulation import simulate
+from contactsim.single_load import choose_elasticity
+from contactsim.solvers.base import HardWallSolver
+from contactsim.status import is_solved
+from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.spectral_moments import nayak_parameter
-from contactsim.surfaces.statistics import rms_height
 from contactsim.surfaces.topography import Topography
 
-MIN_POINTS = 8
-"""Fewest points each way: half of them make the coarser grid."""
+NUMBERS = (
+    "relative_contact_area_subgrid",
+    "approach",
+    "mean_gap",
+    "max_pressure",
+    "contact_stiffness",
+    "patches",
+    "yielding_share",
+)
+"""Numbers of each load, the last with a hardness; NaN where it did not converge."""
+OF_HEIGHTS = ("rms_gradient", "rms_height", "contact_modulus", "length", "length_y")
+"""Numbers of the heights and of the body, the last of a surface."""
+WITHOUT_ERROR = ("patches", "contact_modulus", "length", "length_y")
+"""Numbers that are exact or whole."""
 
 
 @check_option_names
@@ -81,60 +92,29 @@ def characterise(
     if not isinstance(topography, Topography) or min(topography.values.shape) < MIN_POINTS:
         value = Words(f"shape {topography.values.shape}") if isinstance(topography, Topography) else topography
         raise InputError("topography", value, f"a Topography of {MIN_POINTS} points or more each way")
-    pressures = np.atleast_1d(np.asarray(mean_pressures, object))
-    if pressures.ndim != 1 or not pressures.size or not all(is_number(value) and value > 0 for value in pressures):
+    loads = np.atleast_1d(np.asarray(mean_pressures, object))
+    if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
-    if not (hardness is None or is_positive(hardness)):
-        raise InputError("hardness", hardness, f"{POSITIVE}, in GPa")
-    options: dict[str, Any] = {"contact_modulus": contact_modulus, "tolerance": tolerance, "threads": threads}
-    options |= {"periodic": periodic, "thickness": thickness, "poisson_ratio": poisson_ratio, "solver": solver}
+    elasticity = choose_elasticity(topography, contact_modulus, thickness, poisson_ratio, periodic)
+    wall, values = HardWall(hardness), loads.astype(float).tolist()
+
+    def numbers_of(surface: Topography) -> xr.Dataset:
+        """Return the numbers of a surface at each load."""
+        lower = Body(Flat.facing(surface), elasticity)
+        scene = Scene(lower, surface, wall, pressures(values))
+        data = simulate(scene, tolerance=tolerance, solver=solver, threads=threads, keep=("patches", "stiffness"))
+        return _select_numbers(data, surface, scene.repeats, values)
+
     even = topography.even_part()
-    surfaces = [topography, *([] if even is topography else [even]), even.every_second()]
-    numbers = [_numbers_at(surface, pressures.astype(float), hardness, options) for surface in surfaces]
-    fine, (base, coarse) = numbers[0], numbers[-2:]
-    names = [str(name) for name in fine if name not in ("status", "patches", "validity_flags")]
-    errors = {f"{name}_grid_error": abs(base[name] - coarse[name]) for name in names}
-    sizes = zip(("length", "length_y"), topography.lengths[::-1], strict=False)
-    return describe(fine.assign(errors).assign({"contact_modulus": contact_modulus, **dict(sizes)}))
+    fine, coarse = numbers_of(topography), numbers_of(even.every_second())
+    base = fine if even is topography else numbers_of(even)
+    names = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine and name not in WITHOUT_ERROR]
+    return describe(fine.assign({f"{name}_grid_error": abs(base[name] - coarse[name]) for name in names}))
 
 
-def _numbers_at(
-    topography: Topography, pressures: Array, hardness: float | None, options: dict[str, Any]
-) -> xr.Dataset:
-    """Return the numbers at each load, NaN where it did not converge, and those of the heights."""
-    results = [press(topography, mean_pressure=float(pressure), **options) for pressure in pressures]
-    readers = dict(NUMBERS)
-    if hardness is not None:
-        readers["yielding_share"] = lambda result: yielding_share(result.pressure, hardness)
-    data = xr.Dataset(coords={"mean_pressure": pressures})
-    for name, read in readers.items():
-        values = [read(result) if result.status.solved else np.nan for result in results]
-        data[name] = "mean_pressure", values
-    data["status"] = "mean_pressure", np.array([result.status.value[0] for result in results], np.int8)
-    repeats = _repeats(results[0])
-    data["rms_gradient"] = STATISTICS[repeats][0](topography.values, topography.spacing)
-    data["rms_height"] = rms_height(topography.values)
-    data["nayak_parameter"] = nayak_parameter(topography.values, topography.spacing, repeats)
-    yielding = data.get("yielding_share", xr.zeros_like(data.mean_pressure)).values
-    gradient = float(data.rms_gradient)
-    flags = [validity_flags({"rms_gradient": gradient, "yielding_share": share}) for share in yielding]
-    data["validity_flags"] = "mean_pressure", np.array(flags, np.int8)
-    return data
-
-
-def _repeats(result: Result) -> bool:
-    """Return whether the heights of a result repeat."""
-    return result.scene is not None and result.scene.repeats
-
-
-NUMBERS: Mapping[str, Callable[[Result], float]] = {
-    "relative_contact_area_subgrid": lambda result: relative_contact_area_subgrid(
-        result.pressure, result.gap, _repeats(result)
-    ),
-    "approach": lambda result: result.approach,
-    "mean_gap": lambda result: float(result.gap.mean()),
-    "max_pressure": lambda result: float(result.pressure.max()),
-    "contact_stiffness": contact_stiffness,
-    "patches": lambda result: find_patches(result.contact, _repeats(result)).count,
-}
-"""How each number of a state is read."""
+def _select_numbers(data: xr.Dataset, surface: Topography, repeats: bool, loads: list[float]) -> xr.Dataset:
+    """Return what is told of a simulation, by its mean pressures."""
+    numbers = data[[name for name in NUMBERS if name in data]].where(is_solved(data.status))
+    others = data[["status", "validity_flags", *(name for name in OF_HEIGHTS if name in data)]]
+    selected = numbers.merge(others).rename(step="mean_pressure").assign_coords(mean_pressure=loads)
+    return selected.assign(nayak_parameter=nayak_parameter(surface.values, surface.spacing, repeats))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 import textwrap
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ from contactsim import dataset, seals
 from contactsim.analysis.table_comparison import difference_text, is_within
 from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
-from contactsim.error_control.forecast import Forecast, forecast_run
+from contactsim.error_control.forecast import describe_forecasts, forecast_run
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
 from contactsim.evaluation import estimate
@@ -23,7 +22,7 @@ from contactsim.explanation import explain_setup
 from contactsim.observables.dataset_forms import form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.paths.driver import follow_path
-from contactsim.paths.options import Accuracy, Setup
+from contactsim.paths.options import Accuracy
 from contactsim.status import Status, is_solved
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
@@ -195,32 +194,6 @@ def estimate_cost(options: argparse.Namespace) -> None:
         sys.stdout.write(text + note * ("auto" in runs[0].settings))
     except InputError as error:
         raise error.located(study.file) from error
-
-
-def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -> str:
-    """Return forecasts in words: grid and cost of the first run, and the cost of all together."""
-    first, setup = forecasts[0], setups[0]
-    grid = f"{first.points} points, tolerance {setup.options.tolerance:.2g}"
-    if setup.scene.path.increment is not None:
-        increments = type(setup.options.increments).__name__.lower()
-        grid += f", increments of {setup.scene.path.increment:g} {increments}"
-    errors = ", ".join(f"{name} {error:.2g}" for name, error in first.errors.items())
-    before = ", a coarser run before included" * (setup.options.accuracy is not None)
-    lines = [
-        f"grid         {grid}",
-        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
-        f"transforms   {first.transforms:.3g} of that grid{before}",
-        f"seconds      {first.seconds:.2g} of CPU on one thread",
-        f"memory       {first.megabytes:.3g} MB of arrays",
-        f"error        {errors} (relative, as expected of such scenes)",
-    ]
-    if len(setups) > 1:
-        seconds = sum(forecast.seconds for forecast in forecasts)
-        transforms = sum(forecast.transforms for forecast in forecasts)
-        lines.append(f"all {len(setups):4d} runs {seconds:.3g} s, {transforms:.3g} transforms")
-    unsure = dict.fromkeys(name for forecast in forecasts for name in forecast.unsure)
-    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
-    return "\n".join(lines) + "\n"
 
 
 def _label_as_study(data: xr.Dataset, settings: dict) -> xr.Dataset:

@@ -21,6 +21,7 @@ from contactsim.solvers.registry import default_solver, make_solver
 from contactsim.surfaces.pair import add_heights
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
+from contactsim.traits import Trait
 
 
 @check_option_names
@@ -93,9 +94,8 @@ def press(
     InputError
         For an input that cannot be used.
     """
-    repeats = _repeats(heights, thickness) if periodic is None else periodic
-    if not isinstance(repeats, bool | np.bool_):
-        raise InputError("periodic", periodic, "True or False")
+    elasticity = choose_elasticity(heights, contact_modulus, thickness, poisson_ratio, periodic)
+    repeats = Trait.FREE not in elasticity.traits
     topographies = [body for body in (heights, other) if isinstance(body, Topography)]
     if topographies and spacing is not None:
         raise InputError("spacing", spacing, "none: a topography has its own")
@@ -103,20 +103,14 @@ def press(
     surface = _read_heights(heights, steps, "heights")
     step = load_step(approach, mean_pressure, "load")
     if other is not None:
-        surface = add_heights(surface, _read_heights(other, steps, "other"), offset, bool(repeats))
+        surface = add_heights(surface, _read_heights(other, steps, "other"), offset, repeats)
     elif offset is not None:
         raise InputError("offset", offset, "none without the heights of another body")
-    elasticity = _elasticity(contact_modulus, thickness, poisson_ratio, repeats)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
     method: Any = make_solver(solver) if isinstance(solver, str) else solver
     method = default_solver(scene) if method is None else method
     check_solver(method, scene)
     return replace(solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads)), scene=scene)
-
-
-def _repeats(heights: ArrayLike | Topography, thickness: float | None) -> bool:
-    """Return whether heights repeat, unless it is said: all but those of a measurement on a half-space do."""
-    return thickness is not None or not isinstance(heights, Topography) or heights.periodic
 
 
 def _read_heights(
@@ -135,14 +129,26 @@ def _read_heights(
         raise InputError(name, heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
 
 
-def _elasticity(
-    contact_modulus: float, thickness: float | None, poisson_ratio: float | None, periodic: bool
+def choose_elasticity(
+    heights: ArrayLike | Topography,
+    contact_modulus: float,
+    thickness: float | None,
+    poisson_ratio: float | None,
+    periodic: bool | None,
 ) -> Elasticity:
-    """Return a layer, or a half-space where there is no thickness."""
+    """Return a layer or, without a thickness, a half-space; parameters as of `press`.
+
+    Unless it is said, all heights repeat but those of a measurement on a half-space.
+    """
+    repeats = periodic
+    if periodic is None:
+        repeats = thickness is not None or not isinstance(heights, Topography) or heights.periodic
+    if not isinstance(repeats, bool | np.bool_):
+        raise InputError("periodic", periodic, "True or False")
     if thickness is not None:
-        if not periodic:
+        if not repeats:
             raise InputError("periodic", periodic, "True for a layer: its response without images is not known")
         return Layer(contact_modulus, cast(float, poisson_ratio), thickness)  # it refuses None
     if poisson_ratio is not None:
         raise InputError("poisson_ratio", poisson_ratio, "none without a thickness: a half-space has only its E*")
-    return HalfSpace(contact_modulus) if periodic else FreeHalfSpace(contact_modulus)
+    return HalfSpace(contact_modulus) if repeats else FreeHalfSpace(contact_modulus)

@@ -7,6 +7,8 @@ import pytest
 
 import contactsim as cs
 from contactsim.error_control.control import solve_to_error
+from contactsim.error_control.forecast import describe_forecasts, forecast_run
+from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.study.study import Study
 from support.cases import refused
 
@@ -124,3 +126,10 @@ def test_what_has_no_coarser_grid_or_no_relations_is_refused():
         cs.simulate(cs.Scene(cs.HalfSpace(1.0), cs.Topography(heights(128 + 16), 2.0), law, path), accuracy=0.1)
     with refused("surface", "heights that differ"):
         cs.estimate_cost(scene_of(np.zeros(64)), accuracy=0.1)
+
+
+def test_words_of_a_forecast_say_that_the_error_is_known_afterwards():
+    setup = Setup(scene_of(heights(256)), RunOptions(accuracy=Accuracy(0.1)))
+    text = describe_forecasts([setup], [forecast_run(setup)])
+    assert "known after the run" in text
+    assert "nan" not in text

@@ -52,8 +52,8 @@ def test_the_density_of_a_sphere_rises_with_the_pressure_and_ends_at_hertz():
 
 
 def test_a_run_keeps_what_it_is_asked_for_and_computes_nothing_else(monkeypatch):
-    monkeypatch.setattr("contactsim.paths.pressures.contact_stiffness", None)
-    monkeypatch.setattr("contactsim.paths.pressures.find_patches", None)
+    monkeypatch.setattr("contactsim.paths.wall_numbers.contact_stiffness", None)
+    monkeypatch.setattr("contactsim.paths.wall_numbers.find_patches", None)
     data = cs.simulate(scene(), points=64, keep=["distributions"])
     assert {"pressure_density", "gap_density", "nayak_parameter"} <= set(data)
     assert not {"contact_stiffness", "patches", "contact_bits", "contact_pressure"} & set(data)

@@ -150,3 +150,36 @@ def transform_seconds() -> float:
             grid.forward(field)
         times.append((time.process_time() - begin) / BATCH)
     return min(times)
+
+
+def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -> str:
+    """Return forecasts in words: grid and cost of the first run, and the cost of all together."""
+    first, setup = forecasts[0], setups[0]
+    grid = f"{first.points} points, tolerance {setup.options.tolerance:.2g}"
+    if setup.scene.path.increment is not None:
+        increments = type(setup.options.increments).__name__.lower()
+        grid += f", increments of {setup.scene.path.increment:g} {increments}"
+    before = ", a coarser run before included" * (setup.options.accuracy is not None)
+    lines = [
+        f"grid         {grid}",
+        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
+        f"transforms   {first.transforms:.3g} of that grid{before}",
+        f"seconds      {first.seconds:.2g} of CPU on one thread",
+        f"memory       {first.megabytes:.3g} MB of arrays",
+        f"error        {_describe_errors(first)}",
+    ]
+    if len(setups) > 1:
+        seconds = sum(forecast.seconds for forecast in forecasts)
+        transforms = sum(forecast.transforms for forecast in forecasts)
+        lines.append(f"all {len(setups):4d} runs {seconds:.3g} s, {transforms:.3g} transforms")
+    unsure = dict.fromkeys(name for forecast in forecasts for name in forecast.unsure)
+    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
+    return "\n".join(lines) + "\n"
+
+
+def _describe_errors(forecast: Forecast) -> str:
+    """Return the expected errors in words."""
+    if any(map(math.isnan, forecast.errors.values())):
+        return "known after the run: what leaving out every second measured point changes"
+    errors = ", ".join(f"{name} {error:.2g}" for name, error in forecast.errors.items())
+    return f"{errors} (relative, as expected of such scenes)"

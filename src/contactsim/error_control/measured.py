@@ -6,10 +6,9 @@ finer points would add; elsewhere it is the error of the grid. It is a change, n
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 from contactsim.contact.scene import Body, ProblemKind, Scene
 from contactsim.errors import InputError, Words
@@ -106,16 +105,16 @@ def choose_measured(setup: Setup, quantities: Sequence[str]) -> Setup:
 
 def sample_every_second(setup: Setup) -> Setup:
     """Return a setup with every second point of its measured heights, in an even part of them."""
-    return _with_surfaces(even_part(setup), lambda topography: topography.every_second())
+    return _with_surfaces(even_part(setup), Topography.every_second)
 
 
 def even_part(setup: Setup) -> Setup:
     """Return a setup with the last point of its measured heights left out each way that has an odd number of them."""
     shape = setup.scene.upper.surface.shape(setup.points)
-    return _with_surfaces(setup, lambda topography: topography.even_part()) if any(n % 2 for n in shape) else setup
+    return _with_surfaces(setup, Topography.even_part) if any(n % 2 for n in shape) else setup
 
 
-def _with_surfaces(setup: Setup, change: Any) -> Setup:
+def _with_surfaces(setup: Setup, change: Callable[[Topography], Topography]) -> Setup:
     """Return a setup with its measured topographies changed by a function; a flat body faces the changed one."""
     scene = setup.scene
     bodies = [_changed(body, change) for body in (scene.lower, scene.upper)]
@@ -126,7 +125,7 @@ def _with_surfaces(setup: Setup, change: Any) -> Setup:
     return replace(setup, scene=Scene(lower, upper, scene.effects, scene.path, scene.pairing))
 
 
-def _changed(body: Body, change: Any) -> Body:
+def _changed(body: Body, change: Callable[[Topography], Topography]) -> Body:
     """Return a body with its measured topography changed by a function, or as it is."""
     surface = body.surface.topography if isinstance(body.surface, MeasuredLine) else body.surface
     return replace(body, surface=change(surface)) if isinstance(surface, Topography) else body

@@ -117,7 +117,7 @@ def challenge(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     stiffness.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"$K\bar h/(E^*\bar g)$")
     _plot_density(pressures, data.isel(hurst_exponent=0), "pressure_density", _persson_density)
     pressures.set(yscale="log", ylim=(LEAST_DENSITY, None), xlabel=r"pressure $p/(E^*\bar g)$", ylabel="density")
-    _end_where_all_is_zero([pressures], data.pressure_bin.values, data.pressure_density_mean)
+    _end_where_all_is_zero([pressures], data.pressure_density_mean)
     pressures.legend(handles=[*_load_handles(data), *style.line_handles({"Persson": PERSSON})], loc="upper right")
     means, errors = data.patches_by_area_mean.isel(hurst_exponent=0), mean_error(data, "patches_by_area")
     for load, colour in style.shades(data.reduced_pressure.values).items():
@@ -139,7 +139,7 @@ def _exponents(data: xr.Dataset) -> list[float]:
 
 
 def _hurst_handles(data: xr.Dataset, labels: Sequence[str] = ()) -> list[Line2D]:
-    """Return legend handles of the Hurst exponents in their colours, with their own labels where none are given."""
+    """Return legend handles of the Hurst exponents in their colours; labels: in place of the exponents, if any."""
     handles = style.hurst_handles(_exponents(data))
     for handle, value in zip(handles, _exponents(data), strict=True):
         handle.set_color(style.hurst_colour(value))
@@ -169,13 +169,12 @@ def _plot_densities(
     axes: Sequence[Axes], data: xr.Dataset, name: str, label: str, theory: Callable[[Array, float], Array] | None
 ) -> pd.DataFrame:
     """Plot densities, one panel a Hurst exponent and one colour a load; return them as a table."""
-    bins = next(dim for dim in data[f"{name}_mean"].dims if str(dim).endswith("_bin"))
     means, errors = data[f"{name}_mean"], mean_error(data, name)
     for panel, hurst_exponent in zip(axes, _exponents(data), strict=True):
         _plot_density(panel, data.sel(hurst_exponent=hurst_exponent), name, theory)
         panel.set(yscale="log", ylim=(LEAST_DENSITY, None), xlabel=label, ylabel="density")
         panel.set_title(f"$H={hurst_exponent:g}$", fontsize=9)
-    _end_where_all_is_zero(axes, data[bins].values, means)
+    _end_where_all_is_zero(axes, means)
     style.share_vertical_range(list(axes))
     style.add_letters(list(axes))
     table = xr.Dataset({name: means, f"{name}_error": errors}).to_dataframe().reset_index()
@@ -184,8 +183,8 @@ def _plot_densities(
 
 def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Callable[[Array, float], Array] | None) -> None:
     """Plot a density with its error, one colour a load."""
-    bins = next(dim for dim in data[f"{name}_mean"].dims if str(dim).endswith("_bin"))
-    x, means, errors = data[bins].values, data[f"{name}_mean"], mean_error(data, name)
+    means, errors = data[f"{name}_mean"], mean_error(data, name)
+    x = _bins(means)
     for pressure, colour in style.shades(data.reduced_pressure.values).items():
         mean, error = (part.sel(reduced_pressure=pressure, method="nearest").values for part in (means, errors))
         axes.plot(x, np.where(mean > 0, mean, np.nan), color=colour, lw=1.1)
@@ -195,12 +194,17 @@ def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Callable[[Arr
             axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
 
 
-def _end_where_all_is_zero(axes: Sequence[Axes], bins: Array, means: xr.DataArray) -> None:
+def _bins(densities: xr.DataArray) -> Array:
+    """Return the middle of each bin of densities."""
+    return densities[next(dim for dim in densities.dims if str(dim).endswith("_bin"))].values
+
+
+def _end_where_all_is_zero(axes: Sequence[Axes], means: xr.DataArray) -> None:
     """End the horizontal axes at the last bin of which a density is drawn."""
     others = [dim for dim in means.dims if not str(dim).endswith("_bin")]
     seen = np.flatnonzero(means.max(others).values > LEAST_DENSITY)
     for panel in axes:
-        panel.set_xlim(0, bins[seen[-1]] * 1.03 if seen.size else None)
+        panel.set_xlim(0, _bins(means)[seen[-1]] * 1.03 if seen.size else None)
 
 
 def _load_handles(data: xr.Dataset) -> list[Line2D]:

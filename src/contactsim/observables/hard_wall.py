@@ -7,11 +7,7 @@ from collections.abc import Iterable, Sequence
 from contactsim.grid import Array
 from contactsim.observables.contact import contact_edges, relative_contact_area_subgrid, touching
 from contactsim.observables.edge_correction import ContactGradient, corrected_area
-from contactsim.surfaces.open_statistics import rms_gradient_open, rms_gradient_pairs_open
-from contactsim.surfaces.statistics import rms_gradient, rms_gradient_pairs
-
-GRADIENTS = {True: (rms_gradient, rms_gradient_pairs), False: (rms_gradient_open, rms_gradient_pairs_open)}
-"""Gradients over the points in contact, and over pairs, of heights that repeat and of others."""
+from contactsim.surfaces.height_statistics import STATISTICS
 
 
 def wall_observables(
@@ -45,14 +41,14 @@ def wall_observables(
     contact = touching(pressure)
     corrected, subgrid = corrected_area(contact, periodic), relative_contact_area_subgrid(pressure, gap, periodic)
     gradient = ContactGradient.of(squared_gradient, contact, periodic)
-    over_points, over_pairs = GRADIENTS[periodic]
+    statistics = STATISTICS[periodic]
     return {
         "relative_contact_area": float(contact.mean()),
         "relative_contact_area_corrected": corrected,
         "relative_contact_area_subgrid": subgrid,
         "contact_edges": contact_edges(contact, periodic),
-        "rms_gradient_contact": over_points(heights, spacing, contact),
-        "rms_gradient_contact_pairs": over_pairs(heights, spacing, contact),
+        "rms_gradient_contact": statistics.rms_gradient(heights, spacing, contact),
+        "rms_gradient_contact_pairs": statistics.rms_gradient_pairs(heights, spacing, contact),
         "rms_gradient_contact_corrected": gradient.within(corrected),
         "rms_gradient_contact_subgrid": gradient.within(subgrid),
         "mean_gap": float(gap.mean()),

@@ -54,4 +54,5 @@ def _check_increments(setup: Setup) -> None:
     """Raise InputError for nested grids on a surface."""
     increments = setup.options.increments or Requested()
     if Trait.SURFACE in setup.scene.traits and not increments.follows_surfaces:
-        raise InputError("increments", "nested", "requested or adaptive: grids are not nested on surfaces")
+        kind = type(increments).__name__.lower()
+        raise InputError("increments", kind, "requested or adaptive: grids are not nested on surfaces")

@@ -11,11 +11,10 @@ from __future__ import annotations
 
 import json
 import logging
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -27,24 +26,13 @@ from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.errors import InputError
 from contactsim.grid import Array, Grid
-from contactsim.interface.hard_wall import HardWall
-from contactsim.observables.contact import DEFAULT_KEPT, KEPT, yielding_share
-from contactsim.observables.distributions import GAP_BINS, PRESSURE_BINS, distributions
-from contactsim.observables.hard_wall import wall_observables
-from contactsim.observables.patches import AREA_BINS, find_patches
-from contactsim.paths.contact_stiffness import contact_stiffness
+from contactsim.observables.contact import DEFAULT_KEPT, KEPT
 from contactsim.paths.reuse import Point
-from contactsim.solvers.base import HardWallSolver, Result, solve
-from contactsim.status import describe_excess, status_sentence, validity_flags
-from contactsim.surfaces.open_statistics import rms_curvature_open, rms_gradient_open, squared_gradient_open
-from contactsim.surfaces.spectral_moments import nayak_parameter
-from contactsim.surfaces.squared_gradient import squared_gradient_blocks
-from contactsim.surfaces.statistics import rms_curvature, rms_gradient, rms_height
+from contactsim.paths.wall_numbers import ARRAY_DIMENSIONS, BIN_CENTRES, height_numbers, read_point
+from contactsim.solvers.base import HardWallSolver, solve
+from contactsim.status import describe_excess, status_sentence
 
 logger = logging.getLogger(__name__)
-
-STIFFNESS_TOLERANCE = 1e-5
-"""Error of the displacement of a contact, over the displacement, from which its stiffness follows."""
 
 
 def simulate_loads(
@@ -88,7 +76,7 @@ def simulate_loads(
         if name not in KEPT:
             raise InputError("keep", name, f"some of {', '.join(KEPT)}")
     heights = scene.heights(points)
-    roughness = _roughness(scene, heights, keep)
+    roughness = height_numbers(scene, heights, keep)
 
     def solve_step(step: LoadStep) -> Point:
         """Return one load on its own."""
@@ -98,7 +86,7 @@ def simulate_loads(
             problem.warm_start = WarmStart(start.pressure.values / scale.pressure, start.gap.values / scale.step)
         result = solve(method, problem, scale)
         del problem  # its fields are not needed while the result is read
-        return _read_point(replace(result, scene=scene), heights, roughness, keep)
+        return read_point(replace(result, scene=scene), heights, roughness, keep)
 
     solved = _solve_steps(scene.path.steps, solved_points or {}, solve_step)
     data = _join_points(scene, heights, roughness, solved, keep)
@@ -127,101 +115,6 @@ def _solve_steps(
             *(point.numbers["transforms"], point.seconds, remaining, status_sentence(int(point.numbers["status"]))),
         )
     return points
-
-
-STATISTICS: Mapping[bool, tuple[Callable[..., float], Callable[..., float]]] = {
-    True: (rms_gradient, rms_curvature),
-    False: (rms_gradient_open, rms_curvature_open),
-}
-"""Rms gradient and curvature of heights that repeat, and of others."""
-
-
-def _roughness(scene: Scene, heights: Array, keep: Sequence[str]) -> dict[str, float]:
-    """Return the statistics of heights, (n,) or (ny, nx)."""
-    spacing = Grid(heights.shape, scene.lengths).spacing
-    gradient, curvature = (read(heights, spacing) for read in STATISTICS[scene.repeats])
-    numbers = {"rms_height": rms_height(heights), "rms_gradient": gradient, "rms_curvature": curvature}
-    if "distributions" in keep:
-        numbers["nayak_parameter"] = nayak_parameter(heights, spacing, scene.repeats)
-    return numbers
-
-
-def _squared_gradient(scene: Scene, heights: Array) -> Iterable[tuple[slice, Array]]:
-    """Return the squared gradient of heights, by blocks of rows."""
-    if scene.repeats or scene.modes is not None:
-        return squared_gradient_blocks(heights, scene.lengths, scene.modes)
-    squares = squared_gradient_open(heights, Grid(heights.shape, scene.lengths).spacing)
-    return [(slice(None), squares.reshape(-1, heights.shape[-1]))]
-
-
-def _read_point(result: Result, heights: Array, roughness: Mapping[str, float], keep: Sequence[str]) -> Point:
-    """Return the numbers of a solution and the arrays that are kept of it."""
-    scene = cast(Scene, result.scene)
-    certificate = result.record.certificate
-    contact = result.contact
-    spacing = Grid(heights.shape, scene.lengths).spacing
-    slopes = _squared_gradient(scene, heights)
-    numbers = wall_observables(heights, slopes, spacing, result.pressure, result.gap, scene.repeats) | {
-        "approach": result.approach,
-        "iterations": result.record.iterations,
-        "transforms": result.record.transforms,
-        "max_contact_gap": certificate.max_contact_gap,
-        "penetration": certificate.penetration,
-        "min_pressure": float(result.pressure.min()),
-        "load_error": certificate.load_error,
-        "status": result.status.value[0],
-        "contact_points": int(contact.sum()),
-    }
-    numbers |= _validity(scene, result.pressure, heights.shape, roughness)
-    seconds = result.seconds
-    if "stiffness" in keep:
-        begin = time.process_time()
-        known = result.status.solved
-        numbers["contact_stiffness"] = contact_stiffness(result, tolerance=STIFFNESS_TOLERANCE) if known else np.nan
-        seconds += time.process_time() - begin
-    arrays = {}
-    if "patches" in keep:
-        patches = find_patches(contact, scene.repeats)
-        numbers |= patches.numbers
-        arrays["patches_by_area"] = patches.counts_by_area
-    if "contact" in keep:
-        arrays["contact_bits"] = np.packbits(contact)
-    if "pressure" in keep:
-        arrays["contact_pressure"] = result.pressure[contact]
-    if "fields" in keep:
-        arrays |= {"pressure": result.pressure, "gap": result.gap}
-    if "distributions" in keep:
-        unit = scene.contact_modulus * roughness["rms_gradient"]
-        arrays |= distributions(result.pressure, result.gap, unit, roughness["rms_height"])
-    return Point(numbers, arrays, seconds)
-
-
-def _validity(
-    scene: Scene, pressure: Array, shape: tuple[int, ...], roughness: Mapping[str, float]
-) -> dict[str, float]:
-    """Return what of a state may lie beyond the model, and the bits of what does."""
-    numbers = {}
-    if scene.modes:
-        numbers["wave_step"] = scene.modes / shape[-1]
-    hardness = next((effect.hardness for effect in scene.effects if isinstance(effect, HardWall)), None)
-    if hardness is not None:
-        numbers["yielding_share"] = yielding_share(pressure, hardness)
-    return numbers | {"validity_flags": validity_flags(numbers | {"rms_gradient": roughness["rms_gradient"]})}
-
-
-ARRAY_DIMENSIONS = {
-    "contact_bits": ("step", "byte"),
-    "contact_pressure": ("contact_point",),
-    "pressure_density": ("step", "pressure_bin"),
-    "gap_density": ("step", "gap_bin"),
-    "patches_by_area": ("step", "area_bin"),
-}
-"""Dimensions of arrays that are no fields."""
-BIN_CENTRES = {
-    "distributions": {"pressure_bin": PRESSURE_BINS.centres, "gap_bin": GAP_BINS.centres},
-    "patches": {"area_bin": AREA_BINS},
-}
-"""Coordinates of distributions, by what is kept."""
 
 
 def _join_points(

@@ -26,11 +26,10 @@ from contactsim.solvers.registry import configure_solver
 from contactsim.study.keys import BODIES, RIGID
 from contactsim.study.kinds import study_kind
 from contactsim.surfaces.base import Surface
-from contactsim.surfaces.open_statistics import rms_gradient_open
+from contactsim.surfaces.height_statistics import STATISTICS
 from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.self_affine import SelfAffine, realisation_seed
 from contactsim.surfaces.shapes import Flat
-from contactsim.surfaces.statistics import rms_gradient
 from contactsim.traits import Trait
 
 
@@ -161,7 +160,7 @@ def _rms_gradient(surface: Surface, points: int | None, repeats: bool) -> float:
     if points is None:
         raise InputError("points", None, "a whole number: only a measured surface comes with its own")
     heights = surface.heights(points)
-    return (rms_gradient if repeats else rms_gradient_open)(heights, Grid(heights.shape, surface.lengths).spacing)
+    return STATISTICS[repeats].rms_gradient(heights, Grid(heights.shape, surface.lengths).spacing)
 
 
 @lru_cache(maxsize=8)

@@ -19,7 +19,7 @@ from contactsim.study.keys import (
 )
 from contactsim.study.kind_quantities import KIND_QUANTITIES
 from contactsim.study.kinds import STUDY_KINDS, problem_kind, study_kind
-from contactsim.study.reading import Key, listed, number, read
+from contactsim.study.reading import Key, keys_of, listed, number, read
 from contactsim.surfaces.registry import SURFACES
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
@@ -193,3 +193,12 @@ def refuse_unused(section: dict, settings: dict, file: object, prefix: str) -> N
         what = "section" if key in EFFECTS else "key"
         allowed = f"no such {what}, as effects are {', '.join(settings['effects'])}"
         raise InputError(f"{prefix}.{key}", settings[key], allowed, file)
+
+
+def effect_sections(settings: dict) -> list[str]:
+    """Return the names of the effects on whose keys runs depend: those that are given, required or have a default."""
+    return [
+        name
+        for name in settings["effects"]
+        if settings.get(name) or any(key.default is not None for key in keys_of(EFFECTS[name]).values())
+    ]

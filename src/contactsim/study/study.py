@@ -33,6 +33,7 @@ from contactsim.study.run import Run
 from contactsim.study.scenes import build_scene, build_setup, updated_settings
 from contactsim.study.sections import (
     default_solver_kind,
+    effect_sections,
     read_accuracy,
     read_effects,
     read_error_run,
@@ -224,8 +225,7 @@ class Study:
         """Return the names of the sections that this study's runs depend on."""
         path = study_kind(self.settings).sections
         others = [name for name in ("counter_body", "pairing", "slide") if self.settings[name] is not None]
-        effects = [name for name in self.settings["effects"] if self.settings.get(name) or _has_own_values(name)]
-        return ["surface", "body", *others, "solver", *path, *effects]
+        return ["surface", "body", *others, "solver", *path, *effect_sections(self.settings)]
 
     def _part(self, name: str, section: dict) -> dict:
         """Return a section with its defaults; most runs of a study share all sections but one."""
@@ -281,8 +281,3 @@ class Study:
         except InputError as error:
             section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
             raise error.located(self.file, f"studies.{self.name}{section}") from error
-
-
-def _has_own_values(effect: str) -> bool:
-    """Return True for an effect with keys that are required or have a default, which its runs depend on."""
-    return any(key.default is not None for key in keys_of(EFFECTS[effect]).values())

@@ -36,8 +36,7 @@ def rms_gradient_open(heights: Array, spacing: Sequence[float], where: Array | N
 
 def _at_points(values: Array, axis: int) -> Array:
     """Return the mean of the values between a point and its neighbours along an axis, at an end the one there is."""
-    ends = (values.take([place], axis) for place in (0, -1))
-    padded = np.concatenate([next(ends), values, next(ends)], axis)
+    padded = np.concatenate([values.take([0], axis), values, values.take([-1], axis)], axis)
     size = padded.shape[axis]
     return 0.5 * (padded.take(range(size - 1), axis) + padded.take(range(1, size), axis))
 
