@@ -53,8 +53,9 @@ LIMITS = {
 
 Beyond that overlap the laws' repulsion grows too slowly; beyond that slip shear removes the repulsion of a coupled law.
 With steps of a fifth of the process zone e²E*δn²/φn the pull-off is off by 0.02 %; with longer ones it jumps from point
-to point. Small slopes leave out half of their square, a tenth at this limit. With fewer than four points to the
-shortest wavelength the corrected area of rough surfaces changes by several per cent when the grid is halved.
+to point. Small slopes leave out half of their square, a tenth at this limit. With four points to the shortest
+wavelength the corrected contact area of rough surfaces changes by 0.5 to 14 % when the grid is halved (H from 0.8 to
+0.2, p* from 0.4 to 0.001).
 """
 FLAGS = {name: 1 << place for place, name in enumerate(LIMITS)}
 """Bits of `validity_flags`, one for each limit."""
