@@ -152,6 +152,20 @@ def test_a_jump_has_an_error_of_half_its_step_and_a_smooth_cycle_has_none():
     assert float(found.dissipated_energy_increment_error) == pytest.approx(2.0)
 
 
+def test_errors_of_several_jumps_are_added_in_squares():
+    load = [0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0]
+    found = summarise_cycles(path(load, [0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5]))
+    assert float(found.dissipated_energy_increment_error) == pytest.approx(np.hypot(1.0, 2.0))
+
+
+def test_a_cycle_of_a_surface_has_an_energy_over_its_area():
+    line = path([0.0, 1.0, 2.0, 3.0, 1.0, -1.0, 0.0])
+    surface = line.rename(line_load="normal_force").drop_dims("fold").merge(join_folds([], 2)).assign(length_y=50.0)
+    found = summarise_cycles(surface)
+    assert float(found.dissipated_work) == pytest.approx(6.0 / (100.0 * 50.0))
+    assert "dissipated_energy" not in found
+
+
 def test_a_jump_that_is_located_leaves_half_its_width_and_its_place_open():
     data = path([0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0], [0.0] * 6 + [0.5])
     fold = dict(zip(FOLD, (6.0, -0.5, -0.6, -2.5, -0.1), strict=True))

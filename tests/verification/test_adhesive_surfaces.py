@@ -6,11 +6,18 @@ import numpy as np
 import pytest
 
 import contactsim as cs
+from contactsim.analysis.aggregate import aggregate
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.grid import Grid
+from contactsim.observables.derived import combine_runs, summarise_paths
 from contactsim.observables.surface_adhesion import negative_area
+from contactsim.paths.jumps import PATCH_COUNTERS
 from contactsim.reference import adhesive_sphere
 from contactsim.solvers.cohesive.long_waves import SurfaceWaves, node_averages
+from contactsim.study import execute
+from contactsim.study.execute import RunFiles
+from contactsim.study.quantity_names import quantities
+from contactsim.study.study import Study
 from support.cases import orders, refused
 
 MODULUS, WORK, RADIUS = 1.0, 1.0, 1000.0
@@ -47,6 +54,83 @@ def test_a_line_stretched_to_a_surface_is_the_line():
         assert surface[name].values == pytest.approx(line[name].values, rel=1e-6, abs=1e-8), name
     assert surface.normal_force.values == pytest.approx(16.0 * line.line_load.values, rel=1e-6, abs=1e-7)
     assert surface.contact_area.values == pytest.approx(16.0 * line.contact_length.values, rel=1e-5, abs=16.0 * 4.0)
+
+
+def test_paths_of_a_stretched_line_are_summarised_alike():
+    profile = cs.SelfAffine(256.0, 0.8, 128.0, 16.0, 0.2, seed=3).heights(64)
+    law = cs.NormalCohesiveZone(work_of_separation=2.0, normal_length=1.0)
+    path = cs.approaches([-12.0, 6.0, -20.0], 0.5, from_touch=True)
+    line, surface = (
+        summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})])).isel(member=0)
+        for data in (
+            cs.simulate(cs.Scene(cs.HalfSpace(20.0), cs.Topography(values, 4.0), law, path), tolerance=1e-7)
+            for values in (profile, np.tile(profile, (4, 1)))
+        )
+    )
+    for leg in ("loading", "unloading"):
+        assert float(line[f"pull_off_load_{leg}"]) > 0
+        assert float(surface[f"pull_off_force_{leg}"]) == pytest.approx(
+            16.0 * float(line[f"pull_off_load_{leg}"]), rel=1e-5
+        )
+        assert float(surface[f"pull_off_approach_{leg}"]) == pytest.approx(
+            float(line[f"pull_off_approach_{leg}"]), abs=1e-5
+        )
+    assert float(surface.dissipated_work) == pytest.approx(float(line.dissipated_work), rel=1e-3, abs=1e-6)
+    for name in ("area_at_12nm", "pressure_at_area_0_1", "curvature", "gradient_ratio_at_area_0_02"):
+        assert float(surface[name]) == pytest.approx(float(line[name]), rel=1e-5, nan_ok=True), name
+    assert not {"dissipated_energy", "pull_off_load_loading", "peak_displacement"} & set(surface)
+
+
+STUDY = {
+    "title": "Rough surface",
+    "surface": {
+        **{"kind": "self_affine", "dimensions": 2, "hurst_exponent": 0.8, "length": 64.0, "rms_height": 1.0},
+        **{"long_cutoff": 32.0, "short_cutoff": 8.0},
+    },
+    "body": {"kind": "half_space", "youngs_modulus": 1.0, "poisson_ratio": 0.3},
+    "effects": ["normal_cohesive_zone"],
+    "normal_cohesive_zone": {"work_of_separation": 0.1, "normal_length": 0.5},
+    "path": {"approach": [-9.0, 0.0, -12.0], "increment": 0.5},
+    "points": 32,
+    "members": 2,
+    "coarse_grid": {"points": 16, "members": 2},
+    "tolerance": 1e-5,
+}
+
+
+def test_a_study_of_surfaces_has_means_errors_and_summaries(tmp_path):
+    study = Study.read("rough", STUDY, "ch9.yaml", 1)
+    runs = []
+    for run in study.runs():
+        files = RunFiles(tmp_path / f"{run.variant}{run.member}.nc", tmp_path / f"{run.variant}{run.member}.json")
+        execute.run(run.settings, "source", files)
+        own = {"path": files.data, "coordinates": run.coordinates, "member": run.member, "error": "grid"}
+        runs.append(own | {"measures_error": bool(run.error)})
+    data = aggregate(runs, study.settings, "source")
+    assert set(quantities(study)) - {"step"} <= set(data) | {"area_at_12nm_error_bar", "area_at_20nm_error_bar"} | {
+        f"{name}_error_bar_grid_error" for name in ("area_at_12nm", "area_at_20nm")
+    }
+    for name in ("pull_off_force_unloading", "dissipated_work", "final_contact_area"):
+        assert np.isfinite(data[name]).all(), name
+        assert np.isfinite(data[f"{name}_grid_error"]).all(), name
+    assert np.isfinite(data.dissipated_work_increment_error).all()
+    assert (data.relative_repulsive_area_standard_error.max() > 0).all()
+
+
+def test_a_study_of_shear_on_surfaces_is_refused_before_it_runs():
+    law = {"work_of_separation": 0.1, "work_ratio": 1.0, "normal_length": 0.5, "tangential_length": 0.5}
+    section = {key: value for key, value in STUDY.items() if key != "normal_cohesive_zone"}
+    with refused("studies.rough.effects", "surfaces are not modelled"):
+        Study.read("rough", section | {"effects": ["cohesive_zone"], "cohesive_zone": law}, "ch9.yaml", 1)
+
+
+def test_patches_of_a_surface_are_areas():
+    rows, columns = np.indices((32, 32)) - 16
+    distance = np.hypot(rows, columns)
+    ring = (distance > 9) & (distance < 11)
+    assert PATCH_COUNTERS[2](ring) == 1
+    assert PATCH_COUNTERS[2](ring | (distance < 4)) == 2
+    assert PATCH_COUNTERS[1](ring[16]) == 2
 
 
 def test_a_stiff_sphere_pulls_as_a_rigid_one():
@@ -148,7 +232,7 @@ def test_what_surfaces_do_not_have_is_refused():
         cs.simulate(scene, accuracy=0.1)
     sheared = cs.CohesiveZone(work_of_separation=WORK, work_ratio=1.0, normal_length=5.0, tangential_length=5.0)
     body = cs.HalfSpace(MODULUS, 0.3)
-    with refused("components", "surfaces are not modelled"):
+    with refused("effects", "surfaces are not modelled"):
         path = cs.approaches([-4.0, 4.0], 1.0)
         cs.simulate(cs.Scene(body, cs.Sphere(radius=RADIUS, length=850.0), sheared, path), points=64)
 

@@ -17,6 +17,8 @@ SUMMARY_NAMES = {name: variables.RESULTS[name].phrase for name in FACTORS} | {
     "final_contact_length": "contact",
     "pull_off_load_loading": "pull-off on loading",
     "pull_off_load_unloading": "on unloading",
+    "pull_off_force_loading": "pull-off on loading",
+    "pull_off_force_unloading": "on unloading",
 }
 """Quantities whose largest errors a summary gives, with their names in it."""
 SLIDE_SUMMARY_NAMES = {

@@ -10,7 +10,7 @@ from contactsim.reference.hard_wall import uniaxial_modulus
 
 
 def rough_path_of(settings: Mapping[str, Any], slips: bool) -> RoughPath | None:
-    """Return what decides the numbers of a study's paths; None unless it follows paths through rough contacts.
+    """Return what decides the numbers of a study's paths; None unless it follows paths through contacts of rough lines.
 
     Parameters
     ----------
@@ -19,7 +19,8 @@ def rough_path_of(settings: Mapping[str, Any], slips: bool) -> RoughPath | None:
     slips
         True where one of its laws reads the tangential gap.
     """
-    if settings["surface"]["kind"] != "self_affine" or settings["path"] is None:
+    surface = settings["surface"]
+    if surface["kind"] != "self_affine" or surface.get("dimensions", 1) != 1 or settings["path"] is None:
         return None
     body, varies_body = settings["body"], any(key.startswith("body.") for key in settings["vary"] or {})
     modulus = None

@@ -128,7 +128,10 @@ class Scene:
                 raise InputError("mean_pressure", pressure, "0 or more, in GPa: without adhesion nothing can pull")
 
     def _check_sliding(self) -> None:
-        """Raise InputError for tangential displacements that nothing determines."""
+        """Raise InputError for tangential displacements that nothing determines, and for those of surfaces."""
+        if "t" in self.components and len(self.lengths) > 1:
+            allowed = "those of the normal gap alone: tangential displacements of surfaces are not modelled"
+            raise InputError("effects", self.effects, allowed)
         for side, body in (("lower", self.lower), ("upper", self.upper)):
             elasticity = body.elasticity
             if "t" in self.components and elasticity is not None and elasticity.poisson_ratio is None:

@@ -25,6 +25,8 @@ SHADE = 0.25
 """Opacity of the error of a density."""
 LEAST_DENSITY = 1e-4
 """Least density that is drawn."""
+LEGEND_ROOM = 1.35
+"""End of the axis of densities over the last place that is drawn: beyond it the legend stands."""
 
 
 def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -204,7 +206,7 @@ def _end_where_all_is_zero(axes: Sequence[Axes], means: xr.DataArray) -> None:
     others = [dim for dim in means.dims if not str(dim).endswith("_bin")]
     seen = np.flatnonzero(means.max(others).values > LEAST_DENSITY)
     for panel in axes:
-        panel.set_xlim(0, _bins(means)[seen[-1]] * 1.03 if seen.size else None)
+        panel.set_xlim(0, _bins(means)[seen[-1]] * LEGEND_ROOM if seen.size else None)
 
 
 def _load_handles(data: xr.Dataset) -> list[Line2D]:

@@ -1,8 +1,8 @@
 """Numbers of a state of cohesive laws, and of a path through such states.
 
-Loads are forces per unit thickness (N/m), compression positive (Eq. 4.2). Contact is `repulsive` where the normal gap
-is negative, to a fraction of a node, or `interacting` where the traction exceeds a part of the laws' strength. A path
-is cut into loading and unloading where the approach turns first, and second.
+Loads on lines are forces per unit thickness (N/m), compression positive (Eq. 4.2). Contact is `repulsive` where the
+normal gap is negative, to a fraction of a node, or `interacting` where the traction exceeds a part of the laws'
+strength. A path is cut into loading and unloading where the approach turns first, and second.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.observables.load_curve import LoadCurve, curve_inputs
+from contactsim.observables.load_curve import CURVES, LoadCurve, curve_inputs, dimensions_of
 from contactsim.status import is_solved
 
 if TYPE_CHECKING:
@@ -49,22 +49,39 @@ FINAL = {
     "final_max_tensile_traction": "max_tensile_traction",
     "final_slip": "slip",
 }
-"""Numbers at the largest approach, by the number of a state that they are."""
+"""Numbers at the largest approach on a line, by the number of a state that they are."""
+SURFACE_FINAL = {
+    "final_contact_area": "contact_area",
+    "final_interacting_area": "interacting_area_0_01",
+    "final_force": "normal_force",
+    "final_repulsive_force": "repulsive_force",
+    "final_adhesive_force": "adhesive_force",
+    "final_max_pressure": "max_pressure",
+    "final_max_tensile_traction": "max_tensile_traction",
+}
+"""The same on a surface."""
+FINALS = {1: FINAL, 2: SURFACE_FINAL}
+"""By the number of dimensions."""
 SLIPPED = 0.3
 """Slip over the laws' length from which a node counts as slipped: the tangential factor of Eq. 5.2 is 0.91 there."""
 TURN_TOLERANCE = 1e-6
 """Changes of approach (nm) that do not turn a path."""
 LEGS = ("loading", "unloading")
-SUMMARY = (
-    "pull_off_load_loading",
-    "pull_off_load_unloading",
-    "pull_off_approach_loading",
-    "pull_off_approach_unloading",
-    "max_jump_loading",
-    "max_jump_unloading",
-    *FINAL,
-)
-"""Summary of a path; the slip only where a law reads the tangential gap."""
+JUMPS = ("max_jump_loading", "max_jump_unloading")
+"""Largest jumps of a path."""
+
+
+def pull_off_names(word: str) -> tuple[str, ...]:
+    """Return the names of the largest pulls and of their approaches; word: what the load is called there."""
+    return tuple(f"pull_off_{quantity}_{leg}" for quantity in (word, "approach") for leg in LEGS)
+
+
+SUMMARIES = {
+    dimensions: (*pull_off_names(names.word), *JUMPS, *FINALS[dimensions]) for dimensions, names in CURVES.items()
+}
+"""Summary of a path by the number of dimensions; the slip only where a law reads the tangential gap."""
+SUMMARY, SURFACE_SUMMARY = SUMMARIES.values()
+"""On a line, and on a surface."""
 
 
 def contact_length(gap: Array, spacing: float) -> float:
@@ -168,7 +185,7 @@ def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Arr
     Parameters
     ----------
     square : array, shape (n,)
-        Local mean squares of the slopes, of `contactsim.surfaces.statistics.local_squares`.
+        Local mean squares of the slopes at all points, of `contactsim.surfaces.statistics.local_squares`.
     problem, gap, traction
         As in `state_observables`.
 
@@ -196,12 +213,19 @@ def histograms(problem: CohesiveProblem, gap: Array, traction: Array) -> dict[st
     }
 
 
-def pull_off(curve: LoadCurve) -> dict[str, float]:
-    """Return the largest pull (N/m) and its approach (nm) on loading and on unloading, with their errors.
+def pull_off(curve: LoadCurve, word: str = "load") -> dict[str, float]:
+    """Return the largest pull and its approach (nm) on loading and on unloading, with their errors.
 
     Both sides of a jump count as states. A leg that begins or ends with its largest pull does not pass it. A leg that
     ends without a solution passes it, as under a load that pulls the bodies apart. The increments leave an
     `_increment_error`, of `LoadCurve.extreme_errors`.
+
+    Parameters
+    ----------
+    curve
+        Load against approach.
+    word
+        What the load is called in the names of the numbers.
 
     Returns
     -------
@@ -216,7 +240,7 @@ def pull_off(curve: LoadCurve) -> dict[str, float]:
         is_passed = 0 < best < pull.size - 1 and pull[best] > 0
         values = float(pull[best]), float(part.approach[best])
         errors = part.extreme_errors(best) if is_passed else (np.nan, np.nan)
-        for quantity, value, error in zip(("load", "approach"), values, errors, strict=True):
+        for quantity, value, error in zip((word, "approach"), values, errors, strict=True):
             numbers[f"pull_off_{quantity}_{name}"] = value if is_passed else np.nan
             numbers[f"pull_off_{quantity}_{name}_increment_error"] = error
     return numbers
@@ -238,24 +262,27 @@ def largest_jumps(approach: Array, jump: Array) -> dict[str, float]:
 
 
 def summarise_load_curves(data: xr.Dataset) -> xr.Dataset:
-    """Return a study of paths with their summaries (`SUMMARY`); states that did not converge do not count."""
-    names = (*SUMMARY[: -len(FINAL)], *(f"{name}_increment_error" for name in SUMMARY[: 2 * len(LEGS)]))
+    """Return a study of paths with their summaries (`SUMMARIES`); states that did not converge do not count."""
+    dimensions = dimensions_of(data)
+    word = CURVES[dimensions].word
+    pulls = pull_off_names(word)
+    names = (*pulls, *JUMPS, *(f"{name}_increment_error" for name in pulls))
 
     def per_path(approach: Array, load: Array, jump: Array, *folds: Array) -> tuple[float, ...]:
         """Return the summary of one path, in the order of `names`."""
         curve = LoadCurve.from_states(approach, load, jump, folds)
-        numbers = pull_off(curve) | largest_jumps(approach, np.where(np.isnan(load), np.nan, jump))
+        numbers = pull_off(curve, word) | largest_jumps(approach, np.where(np.isnan(load), np.nan, jump))
         return tuple(numbers[name] for name in names)
 
-    inputs, dimensions = curve_inputs(data)
+    inputs, core = curve_inputs(data)
     converged = is_solved(data.status)
     columns = xr.apply_ufunc(
         per_path,
         *inputs,
-        input_core_dims=dimensions,
+        input_core_dims=core,
         output_core_dims=[[]] * len(names),
         vectorize=True,
     )
     last = data.approach.argmax("step")
-    final = {name: data[of].where(converged).isel(step=last) for name, of in FINAL.items() if of in data}
+    final = {name: data[of].where(converged).isel(step=last) for name, of in FINALS[dimensions].items() if of in data}
     return data.assign(dict(zip(names, columns, strict=True)) | final)

@@ -13,7 +13,7 @@ from typing import Protocol
 import xarray as xr
 
 from contactsim.contact.scene import ProblemKind
-from contactsim.observables.adhesion import FINAL, SUMMARY
+from contactsim.observables.adhesion import FINAL, SUMMARY, SURFACE_FINAL, SURFACE_SUMMARY
 from contactsim.observables.contact_readings import READINGS
 from contactsim.observables.deformation import AT_ONE_STATE, DEFORMATION
 from contactsim.observables.derived import summarise_approaches, summarise_paths
@@ -71,9 +71,9 @@ AVERAGED_STATES = (
     "mean_gap",
 )
 """Numbers of a state of a cohesive path that are averaged over members."""
-PATH_SUMMARIES = (*SUMMARY, *CYCLE, *DEFORMATION, *AREA_LOAD, *READINGS, *ONSET, *THRESHOLD)
+PATH_SUMMARIES = (*SUMMARY, *SURFACE_SUMMARY, *CYCLE, *DEFORMATION, *AREA_LOAD, *READINGS, *ONSET, *THRESHOLD)
 """Numbers that summarise a path."""
-EXACT_SUMMARIES = (*FINAL, *AT_ONE_STATE, "max_jump_loading", "max_jump_unloading")
+EXACT_SUMMARIES = (*FINAL, *SURFACE_FINAL, *AT_ONE_STATE, "max_jump_loading", "max_jump_unloading")
 """Those of a single state, or of a jump that is known by both its sides: the increments leave no error in them."""
 
 

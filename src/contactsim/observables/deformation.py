@@ -25,6 +25,8 @@ DEFORMATION = (
     "final_contact_share",
 )
 """Numbers of the deformation along a path."""
+DEFORMATIONS: dict[int, tuple[str, ...]] = {1: DEFORMATION, 2: ()}
+"""By the number of dimensions."""
 AT_ONE_STATE = DEFORMATION[3:]
 """Those of them that are read at a snapshot, or at the largest approach."""
 

@@ -8,11 +8,12 @@ from typing import cast
 import numpy as np
 import xarray as xr
 
-from contactsim.observables.adhesion import AREAS, SUMMARY, summarise_load_curves
-from contactsim.observables.deformation import DEFORMATION, summarise_deformation
+from contactsim.observables.adhesion import AREAS, SUMMARY, SURFACE_SUMMARY, summarise_load_curves
+from contactsim.observables.deformation import DEFORMATION, DEFORMATIONS, summarise_deformation
 from contactsim.observables.friction import ONSET, SLIDE_INPUTS, summarise_slides
 from contactsim.observables.hysteresis import CYCLE, summarise_cycles
 from contactsim.observables.linearity import AREA_LOAD, summarise_area_load
+from contactsim.observables.load_curve import dimensions_of
 from contactsim.observables.threshold import THRESHOLD
 
 GRADIENT_RATIOS = {
@@ -25,7 +26,9 @@ GRADIENT_RATIOS = {
 """Rms gradients over parts of a surface, whose ratios to that over all of it are derived."""
 RUN_ONLY_VARIABLES = ("contact_bits", "contact_pressure", "profile_real", "profile_imag", "point_digest")
 """Variables that stay with the single runs."""
-EVERYTHING: frozenset[str] = frozenset((*SUMMARY, *CYCLE, *DEFORMATION, *ONSET, *THRESHOLD, *AREA_LOAD))
+EVERYTHING: frozenset[str] = frozenset(
+    (*SUMMARY, *SURFACE_SUMMARY, *CYCLE, *DEFORMATION, *ONSET, *THRESHOLD, *AREA_LOAD)
+)
 """All summaries of a path."""
 SHARED_SCALARS = ("points", "length", "contact_modulus", "seed", "points_y", "length_y")
 """Variables that become scalars where all runs have the same value."""
@@ -79,7 +82,7 @@ def summarise_paths(data: xr.Dataset, names: Container[str] = EVERYTHING) -> xr.
     names
         Summaries that are asked for; what none of them needs is not computed.
     """
-    ratios = {name: data[length] / data.length for name, length in AREAS.items()}
+    ratios = {name: data[length] / data.length for name, length in AREAS.items() if length in data}
     ratios |= {ratio: data[name] / data.rms_gradient for ratio, name in GRADIENT_RATIOS.items()}
     data = data.assign(ratios | {"normalised_pressure": data.mean_pressure / data.contact_modulus})
     for numbers, summarise in SUMMARIES:
@@ -93,15 +96,20 @@ def _summarise_slides(data: xr.Dataset) -> xr.Dataset:
     return summarise_slides(data) if set(SLIDE_INPUTS) <= set(data) else data
 
 
+def _summarise_deformation(data: xr.Dataset) -> xr.Dataset:
+    """Return paths of lines with the numbers of their deformation, and paths of surfaces as they are."""
+    return summarise_deformation(data) if DEFORMATIONS[dimensions_of(data)] else data
+
+
 def _summarise_interaction(data: xr.Dataset) -> xr.Dataset:
     """Return paths with the summaries of interacting area against load."""
     return summarise_area_load(data, "relative_interacting_area", "rms_gradient_interacting")
 
 
 SUMMARIES: tuple[tuple[tuple[str, ...], Callable[[xr.Dataset], xr.Dataset]], ...] = (
-    ((*SUMMARY, *DEFORMATION), summarise_load_curves),
+    ((*SUMMARY, *SURFACE_SUMMARY, *DEFORMATION), summarise_load_curves),
     (CYCLE, summarise_cycles),
-    (DEFORMATION, summarise_deformation),
+    (DEFORMATION, _summarise_deformation),
     ((*ONSET, *THRESHOLD), _summarise_slides),
     (AREA_LOAD, _summarise_interaction),
 )

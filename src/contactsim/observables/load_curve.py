@@ -17,8 +17,32 @@ from contactsim.status import is_solved
 
 FOLD = ("fold_step", "fold_approach_before", "fold_approach_after", "fold_load_before", "fold_load_after")
 """Numbers of each jump on a path of approach or load, on a line."""
-FOLDS = {1: FOLD, 2: (*FOLD[:3], "fold_force_before", "fold_force_after")}
-"""The same by the number of dimensions: a load is that of a unit of thickness, N/m, a force that of a surface, nN."""
+
+
+@dataclass(frozen=True)
+class CurveNames:
+    """Names of the numbers of which a curve consists, and of those that are read off it.
+
+    Attributes
+    ----------
+    load
+        The load of a state.
+    folds
+        Numbers of each jump.
+    word
+        What the load is called in the names of the numbers that are read off.
+    """
+
+    load: str
+    folds: tuple[str, ...]
+    word: str
+
+
+CURVES = {
+    1: CurveNames("line_load", FOLD, "load"),
+    2: CurveNames("normal_force", (*FOLD[:3], "fold_force_before", "fold_force_after"), "force"),
+}
+"""By the number of dimensions: a load is that of a unit of thickness, N/m, a force that of a surface, nN."""
 ROUNDING = 1e-9
 """Difference of approach (nm) up to which a side of a jump is the state beside it."""
 
@@ -30,7 +54,7 @@ class LoadCurve:
     Attributes
     ----------
     approach, load
-        Approach (nm) and load (N/m; NaN where there is no solution), (place,).
+        Approach (nm) and load (N/m, on a surface nN; NaN where there is no solution), (place,).
     width
         Change of approach over the jump that ends at a place, nm; zero where none does, (place,).
     is_state
@@ -49,7 +73,7 @@ class LoadCurve:
         Parameters
         ----------
         approach, load, jump
-            Approach, nm, load, N/m, and distance that the surface jumped since the step before, nm, (step,).
+            Approach, nm, load, and distance that the surface jumped since the step before, nm, (step,).
         folds
             Numbers of the jumps in the order of `FOLD`, each (fold,); NaN where there is none. A jump without them lies
             anywhere in its step.
@@ -78,7 +102,7 @@ class LoadCurve:
         return LoadCurve(self.approach[places], self.load[places], self.width[places], self.is_state[places])
 
     def extreme_errors(self, place: int) -> tuple[float, float]:
-        """Return what the increments leave open of an extreme load (N/m) and of its approach (nm).
+        """Return what the increments leave open of an extreme load and of its approach (nm).
 
         The place has others on both sides. Beside a jump the extreme may lie anywhere within its width. After a jump
         the branch is smooth, and the error of the load is its slope over the width. Before a jump the branch ends at a
@@ -117,18 +141,24 @@ class LoadCurve:
         return abs(self.approach[second] - self.approach[first]), abs(self.load[second] - self.load[first])
 
 
+def dimensions_of(data: xr.Dataset) -> int:
+    """Return the number of dimensions of the lines or surfaces of a dataset of paths."""
+    return next(dimensions for dimensions, names in CURVES.items() if names.load in data)
+
+
 def curve_inputs(data: xr.Dataset) -> tuple[tuple[xr.DataArray, ...], list[list[str]]]:
     """Return what `LoadCurve.from_states` needs of each path of a study, and the dimension of each along a path.
 
     Loads of states that did not converge are NaN.
     """
-    states = data.approach, data.line_load.where(is_solved(data.status)), data.jump
-    return (*states, *(data[name] for name in FOLD)), [["step"]] * len(states) + [["fold"]] * len(FOLD)
+    names = CURVES[dimensions_of(data)]
+    states = data.approach, data[names.load].where(is_solved(data.status)), data.jump
+    return (*states, *(data[name] for name in names.folds)), [["step"]] * len(states) + [["fold"]] * len(names.folds)
 
 
 def join_folds(folds: Sequence[Mapping[str, float]], dimensions: int = 1) -> xr.Dataset:
     """Return jumps of a line or a surface along dimension `fold`; one of NaN where there is none."""
-    names = FOLDS[dimensions]
+    names = CURVES[dimensions].folds
     rows = folds or [dict.fromkeys(names, np.nan)]
     columns = {name: ("fold", np.array([row[name] for row in rows], float)) for name in names}
     return xr.Dataset(columns, {"fold": np.arange(len(rows))})

@@ -14,7 +14,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.observables.adhesion import contact_length
-from contactsim.observables.load_curve import FOLDS
+from contactsim.observables.load_curve import CURVES
 from contactsim.observables.sliding import TOUCHING, slide_observables
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.traits import Trait
@@ -22,9 +22,10 @@ from contactsim.traits import Trait
 JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
 """A flow is a jump if it moves the surface by more than this part of the laws' length and by more than this many steps.
 A step under load counts as the length that a step of that size moved the surface before."""
-MANY_PATCHES, LOADED = 20, 0.5
-"""Loaded patches above which the jump of one contact is not located. A contact has up to three: middle and edges.
-Least traction of a loaded patch, over the laws' strength."""
+MANY_PATCHES, LOADED = {1: 20, 2: 3}, 0.5
+"""Loaded patches above which the jump of one contact is not located, by the number of dimensions. A contact has up to
+three on a line, middle and edges, and two on a surface, where to locate every jump of a rough contact takes ten times
+the work of its path. Least traction of a loaded patch, over the laws' strength."""
 CALM_RATIO = 0.25
 """Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate."""
 SLIP_RATIO = 250.0
@@ -33,6 +34,22 @@ ROUNDING = 1e-9
 """Relative rounding of a step's length."""
 FOLD_WIDTH = 0.002
 """Largest width of a jump by default, nm."""
+
+
+def _count_runs(loaded: Array) -> int:
+    """Return the number of patches of a line, bool (n,)."""
+    return int(np.count_nonzero(loaded & ~np.roll(loaded, 1)))
+
+
+def _count_areas(loaded: Array) -> int:
+    """Return the number of patches of a surface, bool (ny, nx); points that touch at a corner are connected."""
+    from scipy.ndimage import label  # takes longer to import than a line needs
+
+    return int(label(loaded, np.ones((3, 3)))[1])
+
+
+PATCH_COUNTERS = {1: _count_runs, 2: _count_areas}
+"""Functions that count the patches of loaded points, by the number of dimensions."""
 
 
 @dataclass(frozen=True)
@@ -124,12 +141,14 @@ class JumpCriterion:
         if step.control is not Trait.APPROACH or increment > self.problem.interaction_range * (1 + ROUNDING):
             return False
         is_calm = after.largest_change <= CALM_RATIO * increment
-        return is_calm or max(self._count_patches(before), self._count_patches(after)) > MANY_PATCHES
+        patches = max(self._count_patches(before), self._count_patches(after))
+        return is_calm or patches > MANY_PATCHES[len(self.problem.grid.shape)]
 
     def _count_patches(self, state: Equilibrium) -> int:
         """Return the number of loaded patches of a state."""
         loaded = np.abs(state.traction[0]) > LOADED * self.problem.strength
-        return int(np.count_nonzero(loaded & ~np.roll(loaded, 1)))
+        shape = self.problem.grid.shape
+        return PATCH_COUNTERS[len(shape)](loaded.reshape(shape))
 
     def may_hide_in(self, step: LoadStep, increment: float) -> bool:
         """Return True if a step is divided: it might take smooth motion for a jump, or is wider than a jump may be."""
@@ -145,7 +164,7 @@ class JumpCriterion:
 
 
 def fold_numbers(problem: CohesiveProblem, jump: Jump, step: int) -> dict[str, float]:
-    """Return the numbers of one jump on a path of approach or load (`FOLDS`).
+    """Return the numbers of one jump on a path of approach or load (the folds of `CURVES`).
 
     Parameters
     ----------
@@ -160,7 +179,7 @@ def fold_numbers(problem: CohesiveProblem, jump: Jump, step: int) -> dict[str, f
     sides = (jump.step_before, jump.before), (jump.step, jump.after)
     values += [approach_of(problem.at(at), state.displacement) for at, state in sides]
     values += [-float(state.traction[0].mean() * math.prod(problem.grid.lengths)) for _, state in sides]
-    return dict(zip(FOLDS[len(problem.grid.lengths)], values, strict=True))
+    return dict(zip(CURVES[len(problem.grid.lengths)].folds, values, strict=True))
 
 
 def approach_of(problem: CohesiveProblem, displacement: Array) -> float:

@@ -24,6 +24,7 @@ from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.paths.state_numbers import STATE_READERS, StateReader
 from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.surfaces.statistics import rms_curvature
 
 logger = logging.getLogger(__name__)
 
@@ -184,6 +185,7 @@ def _join_states(
     }
     if len(grid.shape) == 2:
         variables |= {"points_y": grid.shape[0], "length_y": scene.lengths[0]}
+        variables["rms_curvature"] = rms_curvature(heights, grid.spacing)
     if scene.sliding:
         lattice = problem.lattice_constant
         variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan

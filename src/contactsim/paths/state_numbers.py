@@ -82,11 +82,14 @@ class SurfaceReader:
     """Numbers of states on a surface; problem: on the full grid."""
 
     def __init__(self, problem: CohesiveProblem) -> None:
-        self._area = float(np.prod(problem.grid.lengths))
+        grid = problem.grid
+        self._area = float(np.prod(grid.lengths))
+        self._squares = local_squares(problem.shape[0].reshape(grid.shape), grid.spacing).ravel()
 
     def numbers(self, problem: CohesiveProblem, displacement: Array, gap: Array, traction: Array) -> dict[str, float]:
         """Return the numbers of a state; see `StateReader`."""
-        return surface_observables(problem, gap, traction)
+        numbers = surface_observables(problem, gap, traction)
+        return numbers | gradients(self._squares, problem, gap, traction)
 
     def is_complete(self, numbers: dict[str, float]) -> bool:
         """Return True for the numbers of a state in which every gap is closed."""

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from contactsim.contact.scene import ProblemKind, Scene
-from contactsim.observables.adhesion import FINAL, SUMMARY
-from contactsim.observables.deformation import DEFORMATION
+from contactsim.observables.adhesion import FINAL, SUMMARIES, SUMMARY
+from contactsim.observables.deformation import DEFORMATIONS
 from contactsim.observables.friction import ONSET
-from contactsim.observables.hysteresis import CYCLE
+from contactsim.observables.hysteresis import CYCLE, CYCLES
 from contactsim.observables.linearity import AREA_LOAD
 from contactsim.observables.threshold import ALONG, THRESHOLD
 
@@ -47,8 +47,9 @@ class CohesiveQuantities:
 
     def path_quantities(self, scene: Scene, dimensions: Sequence[str]) -> set[str]:
         """Return what load curves, cycles and slides amount to, as far as the scene has them."""
-        slips = "t" in scene.components
-        names = {name for name in (*SUMMARY, *CYCLE, *DEFORMATION) if slips or FINAL.get(name) != "slip"}
+        dimensions_of_scene, slips = len(scene.lengths), "t" in scene.components
+        own = (*SUMMARIES[dimensions_of_scene], *CYCLES[dimensions_of_scene], *DEFORMATIONS[dimensions_of_scene])
+        names = {name for name in own if slips or FINAL.get(name) != "slip"}
         if scene.sliding:
             names |= {*ONSET, *(f"{name}_increment_error" for name in ONSET)}
             names |= {*(THRESHOLD if set(ALONG) & set(dimensions) else ())}

@@ -16,7 +16,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
-from contactsim.contact.scene import ProblemKind
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
@@ -42,7 +41,6 @@ from contactsim.study.sections import (
     read_slide_section,
     refuse_unused,
 )
-from contactsim.traits import Trait
 from contactsim.variables import dimension_name
 
 MAX_RUNS = 10_000
@@ -271,9 +269,6 @@ class Study:
         """Build the run's scene, so that nothing impossible is found out by a job."""
         try:
             scene = run.setup.scene
-            if scene.kind is ProblemKind.COHESIVE and Trait.SURFACE in scene.traits:
-                allowed = "hard_wall on surfaces: paths of laws over them are simulated from Python alone"
-                raise InputError("effects", run.settings["effects"], allowed)
             check_installed(run.settings["solver"]["kind"])
             check_solver(cast(Solver, run.setup.options.solver), scene)
             scene.upper.surface.check(run.setup.points)

@@ -63,10 +63,14 @@ def rms_gradient(heights: Array, spacing: float | Sequence[float], where: Array 
     return float(np.sqrt(np.sum(total / count))) if count else float("nan")
 
 
-def local_squares(heights: Array, spacing: float) -> Array:
-    """Mean of the two squared slopes at each point of a line (Eq. 3.8), (n,); heights and spacing in one unit."""
-    ((strip,),) = _strips([heights])
-    return _squares(strip, 1, spacing)[0]
+def local_squares(heights: Array, spacing: float | Sequence[float]) -> Array:
+    """Mean of the two squared slopes at each point (Eq. 3.8), over a surface their sum along both axes.
+
+    heights: (n,) or (ny, nx), the shape of what is returned, and spacing (one, or one each direction) in one unit.
+    """
+    steps = _steps(spacing, heights.ndim)
+    blocks_of_rows = [sum(_squares(strip, axis, step) for axis, step in steps) for (strip,) in _strips([heights])]
+    return np.concatenate(blocks_of_rows).reshape(heights.shape)
 
 
 def rms_gradient_pairs(heights: Array, spacing: float | Sequence[float], where: Array) -> float:
