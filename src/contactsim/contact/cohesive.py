@@ -84,6 +84,9 @@ class CohesiveProblem:
         Approach at which that of load steps is zero, nm.
     sliding_distance
         Displacement of the upper body along x, nm.
+    heights_grid
+        Grid of the heights, the first points of `grid` in each direction: all of it where heights repeat. Beyond them
+        the gap is too wide for any traction.
     """
 
     grid: Grid
@@ -98,6 +101,20 @@ class CohesiveProblem:
     load: float | None = None
     origin: float = 0.0
     sliding_distance: float = 0.0
+    heights_grid: Grid | None = None
+
+    @property
+    def heights(self) -> Grid:
+        """Grid of the heights."""
+        return self.heights_grid or self.grid
+
+    def on_heights(self, rows: Array) -> Array:
+        """Return rows (…, n) of all points at those of the heights alone, (…, points of the heights)."""
+        if self.heights_grid is None:
+            return rows
+        ny, nx = self.heights_grid.shape
+        fields = rows.reshape(*rows.shape[:-1], *self.grid.shape)
+        return fields[..., :ny, :nx].reshape(*rows.shape[:-1], ny * nx)
 
     @property
     def unknowns(self) -> tuple[int, int]:

@@ -7,7 +7,8 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.base import relative_compliance, relative_coupled_compliance
-from contactsim.elasticity.symbol import Symbol
+from contactsim.elasticity.free_operator import padded_compliance
+from contactsim.elasticity.symbol import NormalSymbol, Symbol
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.superposition import superpose
@@ -15,6 +16,10 @@ from contactsim.interface.superposition import superpose
 MIN_TOLERANCE, MAX_TOLERANCE = 1e-13, 0.1
 """Smallest tolerance, which rounding hides, and the largest: with a larger one, the undeformed state would soon be a
 solution."""
+
+
+FAR = 1e6
+"""Gap beyond the ends of heights that do not repeat, in the laws' length: no law reaches so far."""
 
 
 def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
@@ -44,12 +49,14 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
         If the tolerance or the grid is not allowed.
     """
     check_tolerance(tolerance)
-    grid = Grid(heights.shape, scene.lengths, threads)
-    stiffness, slip_factor = _stiffness(scene, grid)
-    shape = np.zeros((len(scene.components), grid.size))
-    shape[0] = -heights.ravel()
-    lower = scene.lower.surface.heights(grid.shape[-1])
+    lower = scene.lower.surface.heights(heights.shape[-1])
     law = scene.pairing.join(superpose(scene.acting_laws), lower, scene.length)
+    own = Grid(heights.shape, scene.lengths, threads)
+    grid, stiffness, slip_factor = _stiffness(scene, own)
+    undeformed = np.full(grid.shape, FAR * law.interaction_range - heights.min())
+    undeformed[tuple(slice(0, size) for size in own.shape)] = -heights
+    shape = np.zeros((len(scene.components), grid.size))
+    shape[0] = undeformed.ravel()
     return CohesiveProblem(
         grid=grid,
         shape=shape,
@@ -60,13 +67,20 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
         tolerance=tolerance,
         counter=TransformCounter(grid.size),
         origin=scene.path.origin(heights),
+        heights_grid=None if scene.repeats else own,
     )
 
 
-def _stiffness(scene: Scene, grid: Grid) -> tuple[Symbol, Array | None]:
-    """Return K of the exerted components, and the slip factor where the tangential gap is only read."""
+def _stiffness(scene: Scene, grid: Grid) -> tuple[Grid, Symbol, Array | None]:
+    """Return the grid, K of the exerted components, and the slip factor where the tangential gap is only read.
+
+    grid: of the heights, which is the grid where they repeat
+    """
     lower, upper = scene.lower.elasticity, scene.upper.elasticity
+    if not scene.repeats:
+        padded, compliance_of_unit = padded_compliance(grid)
+        return padded, NormalSymbol(compliance_of_unit[None] / scene.contact_modulus).flattened().inverse(), None
     if len(scene.exerted) == len(scene.components):
-        return relative_compliance(lower, upper, grid, scene.components).flattened().inverse(), None
+        return grid, relative_compliance(lower, upper, grid, scene.components).flattened().inverse(), None
     compliance = relative_coupled_compliance(lower, upper, grid)
-    return compliance.without_shear().inverse(), compliance.slip()
+    return grid, compliance.without_shear().inverse(), compliance.slip()

@@ -123,9 +123,19 @@ class Scene:
             raise InputError("elasticity", "FreeHalfSpace", "two free half-spaces, or two bodies that repeat")
         if not self.effects:
             raise InputError("effects", self.effects, "at least one, which resists overlap")
+        if self.kind is ProblemKind.COHESIVE and not self.repeats:
+            self._check_free_laws()
         for pressure in self.path.mean_pressures if self.kind is ProblemKind.HARD_WALL else ():
             if pressure < 0:
                 raise InputError("mean_pressure", pressure, "0 or more, in GPa: without adhesion nothing can pull")
+
+    def _check_free_laws(self) -> None:
+        """Raise InputError for smooth laws on a free half-space that are not solved there."""
+        if len(self.lengths) == 1:
+            raise InputError("elasticity", "FreeHalfSpace", "HalfSpace or Layer under smooth laws on a line")
+        if self.path.mean_pressures:
+            allowed = "left out for approaches: smooth laws on a free half-space follow approaches alone"
+            raise InputError("mean_pressure", self.path.mean_pressures[0], allowed)
 
     def _check_sliding(self) -> None:
         """Raise InputError for tangential displacements that nothing determines, and for those of surfaces."""

@@ -160,6 +160,24 @@ class FreeSurfaceOperator:
         self.counter.add(6, self.grid.size)
 
 
+def padded_compliance(grid: Grid) -> tuple[Grid, Array]:
+    """Return the grid of a surface with the zeros, and the compliance on it of bodies with an E* of 1 GPa, nm/GPa.
+
+    Pressures on the heights, the first points in each direction, lead to displacements of these as without images.
+    Elsewhere the displacements mean nothing.
+
+    Parameters
+    ----------
+    grid
+        Grid of the heights.
+    """
+    response = FreeSurfaceOperator(grid, None, TransformCounter(grid.size))._response
+    my, mx = map(padded_size, grid.shape)
+    lengths = tuple(size * step for size, step in zip((my, mx), grid.spacing, strict=True))
+    whole = np.concatenate((response, response[my // 2 - 1 : 0 : -1])) * (my * mx * grid.spacing[-1])
+    return Grid((my, mx), lengths, grid.threads), whole
+
+
 def padded_size(size: int) -> int:
     """Return an even number of points, at least twice as many, on which transforms are fast."""
     padded = 2 * size

@@ -42,7 +42,7 @@ def surface_observables(problem: CohesiveProblem, gap: Array, traction: Array) -
     problem : CohesiveProblem
         The problem that it solves.
     gap, traction : array, shape (1, n)
-        Normal gap, nm, and traction, GPa, rows of all points.
+        Normal gap, nm, and traction, GPa, rows of all points of the heights.
 
     Returns
     -------
@@ -51,7 +51,7 @@ def surface_observables(problem: CohesiveProblem, gap: Array, traction: Array) -
         max_tensile_traction, GPa; contact_area, where the gap is negative, and `INTERACTING_AREA`, nm², also over the
         area of the surface; mean_gap and min_gap, nm; max_interpenetration, the deepest overlap over the laws' length.
     """
-    grid, pull = problem.grid, traction[0]
+    grid, pull = problem.heights, traction[0]
     area = float(np.prod(grid.lengths))
     mean, pulled = -float(pull.mean()), float(np.maximum(pull, 0.0).mean())
     smallest = float(gap[0].min())

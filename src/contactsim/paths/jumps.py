@@ -146,8 +146,8 @@ class JumpCriterion:
 
     def _count_patches(self, state: Equilibrium) -> int:
         """Return the number of loaded patches of a state."""
-        loaded = np.abs(state.traction[0]) > LOADED * self.problem.strength
-        shape = self.problem.grid.shape
+        loaded = np.abs(self.problem.on_heights(state.traction[0])) > LOADED * self.problem.strength
+        shape = self.problem.heights.shape
         return PATCH_COUNTERS[len(shape)](loaded.reshape(shape))
 
     def may_hide_in(self, step: LoadStep, increment: float) -> bool:

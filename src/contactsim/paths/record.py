@@ -24,7 +24,7 @@ from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.paths.state_numbers import STATE_READERS, StateReader
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.surfaces.statistics import rms_curvature
+from contactsim.surfaces.height_statistics import STATISTICS
 
 logger = logging.getLogger(__name__)
 
@@ -105,7 +105,8 @@ def simulate_path(
 
 def _state_numbers(scene: Scene, state: PathState, reader: StateReader) -> dict[str, float]:
     """Return the numbers of a state."""
-    problem, (gap, traction) = state.problem, state.fields()
+    problem = state.problem
+    gap, traction = map(problem.on_heights, state.fields())
     zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
     numbers: dict[str, float] = {
         "approach": approach_of(problem, state.displacement),
@@ -130,10 +131,10 @@ def _state_fields(problem: CohesiveProblem, state: PathState, keep_fields: bool)
     """Return histograms and, if kept, gap, traction and displacement by component, each (n,), on the whole grid."""
     if state.points < problem.grid.size:
         state = replace(state, problem=problem, displacement=problem.prolong(state.displacement), solution=None)
-    gap, traction = state.fields()
+    gap, traction = map(problem.on_heights, state.fields())
     fields = histograms(problem, gap, traction)
     if keep_fields:
-        displacement = problem.field(state.displacement)
+        displacement = problem.on_heights(problem.field(state.displacement))
         if problem.load is not None:  # its uniform mode is the gap's, approach included
             displacement[0] += problem.mean_displacement - state.displacement[0, 0].real
         parts = ((GAPS, gap), (DISPLACEMENTS, -displacement), (TRACTIONS, traction))
@@ -156,8 +157,8 @@ def _join_states(
     scene: Scene, problem: CohesiveProblem, rows: list[dict[str, float]], fields: dict[int, dict[str, Array]]
 ) -> xr.Dataset:
     """Return the dataset of a path; fields: at snapshots, by step."""
-    grid = problem.grid
-    heights, plane = -problem.shape[0].reshape(grid.shape), ("y", "x")[-len(grid.shape) :]
+    grid = problem.heights
+    heights, plane = -problem.on_heights(problem.shape[0]).reshape(grid.shape), ("y", "x")[-len(grid.shape) :]
     kinds = {"status": np.int8, "validity_flags": np.int8, "iterations": np.int32, "solved_points": np.int32}
     variables: dict[str, Any] = {
         name: ("step", np.array([row[name] for row in rows], kinds.get(name, float))) for name in rows[0]
@@ -185,7 +186,7 @@ def _join_states(
     }
     if len(grid.shape) == 2:
         variables |= {"points_y": grid.shape[0], "length_y": scene.lengths[0]}
-        variables["rms_curvature"] = rms_curvature(heights, grid.spacing)
+        variables["rms_curvature"] = STATISTICS[scene.repeats].rms_curvature(heights, grid.spacing)
     if scene.sliding:
         lattice = problem.lattice_constant
         variables["lattice_constant"] = lattice if np.isfinite(lattice) else np.nan

@@ -11,6 +11,7 @@ from contactsim.grid import Array
 from contactsim.observables.adhesion import find_peaks, gradients, state_observables, touching_peaks
 from contactsim.observables.conformity import conformities, first_short_mode
 from contactsim.observables.surface_adhesion import surface_observables
+from contactsim.surfaces.height_statistics import STATISTICS
 from contactsim.surfaces.statistics import local_squares
 
 
@@ -18,7 +19,10 @@ class StateReader(Protocol):
     """What reads the numbers of states of one path."""
 
     def numbers(self, problem: CohesiveProblem, displacement: Array, gap: Array, traction: Array) -> dict[str, float]:
-        """Return the numbers of a state with a displacement (exerted, m), gap (read, n), traction (exerted, n)."""
+        """Return the numbers of a state with a displacement (exerted, m), gap (read, n), traction (exerted, n).
+
+        Gap and traction are those at the points of the heights.
+        """
         ...
 
     def is_complete(self, numbers: dict[str, float]) -> bool:
@@ -82,9 +86,13 @@ class SurfaceReader:
     """Numbers of states on a surface; problem: on the full grid."""
 
     def __init__(self, problem: CohesiveProblem) -> None:
-        grid = problem.grid
+        grid = problem.heights
         self._area = float(np.prod(grid.lengths))
-        self._squares = local_squares(problem.shape[0].reshape(grid.shape), grid.spacing).ravel()
+        self._squares = (
+            STATISTICS[problem.heights_grid is None]
+            .local_squares(problem.on_heights(problem.shape[0]).reshape(grid.shape), grid.spacing)
+            .ravel()
+        )
 
     def numbers(self, problem: CohesiveProblem, displacement: Array, gap: Array, traction: Array) -> dict[str, float]:
         """Return the numbers of a state; see `StateReader`."""

@@ -26,12 +26,22 @@ def rms_gradient_open(heights: Array, spacing: Sequence[float], where: Array | N
     where : array of bool, optional
         Points, of the same shape.
     """
-    squares = [(np.diff(heights, axis=axis) / step) ** 2 for axis, step in enumerate(spacing)]
     if where is None:
-        return float(np.sqrt(sum(np.mean(square) for square in squares)))
+        return float(np.sqrt(sum(np.mean(square) for square in _squares(heights, spacing))))
     if not where.any():
         return float("nan")
-    return float(np.sqrt(sum(np.mean(_at_points(square, axis)[where]) for axis, square in enumerate(squares))))
+    return float(np.sqrt(np.mean(local_squares_open(heights, spacing)[where])))
+
+
+def _squares(heights: Array, spacing: Sequence[float]) -> list[Array]:
+    """Return the squared slopes between neighbours along each axis."""
+    return [(np.diff(heights, axis=axis) / step) ** 2 for axis, step in enumerate(spacing)]
+
+
+def local_squares_open(heights: Array, spacing: Sequence[float]) -> Array:
+    """Return the mean of the two squared slopes at each point, over a surface their sum along both axes."""
+    squares = (_at_points(square, axis) for axis, square in enumerate(_squares(heights, spacing)))
+    return np.asarray(sum(squares))
 
 
 def _at_points(values: Array, axis: int) -> Array:
