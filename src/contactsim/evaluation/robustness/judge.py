@@ -17,9 +17,9 @@ from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case, displacement, mirror_field
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import PathCase
+from contactsim.evaluation.robustness.surface_path_cases import SurfacePathCase
 from contactsim.grid import Array
 from contactsim.interface.exponentials import MAX_OVERLAP
-from contactsim.observables.adhesion import state_observables
 from contactsim.paths.state import PathState
 from contactsim.single_load import press
 from contactsim.solvers.base import HardWallSolver, Result, check_solver
@@ -243,9 +243,13 @@ def max_interpenetration(problem: CohesiveProblem, states: Sequence[PathState]) 
     for state in states:
         here = problem.at(state.step)
         gap = here.gap(state.displacement)
-        deepest = max(deepest, state_observables(here, gap, here.traction(gap))["max_interpenetration"])
+        deepest = max(deepest, -float(gap[0].min()) / here.interaction_range)
     return deepest
 
 
-JUDGES: dict[type, Callable[..., Verdict]] = {Case: _judge_hard_wall, PathCase: _judge_path}
+JUDGES: dict[type, Callable[..., Verdict]] = {
+    Case: _judge_hard_wall,
+    PathCase: _judge_path,
+    SurfacePathCase: _judge_path,
+}
 """The judge of each kind of case."""

@@ -72,6 +72,11 @@ class PathCase:
         return cast(tuple[Law, ...], self.scene.effects)
 
     @property
+    def heights(self) -> Array:
+        """Sum of both surfaces' heights (n,) or (ny, nx), nm."""
+        return self.scene.heights(self.points)
+
+    @property
     def steps(self) -> tuple[LoadStep, ...]:
         """The states asked for."""
         return self.scene.path.steps
@@ -84,12 +89,12 @@ class PathCase:
     @cached_property
     def strength(self) -> float:
         """Sum of the laws' strengths (GPa), of springs as many as pull as one."""
-        return pose_cohesive(self.scene, -self.shape[0], MAX_TOLERANCE).strength
+        return pose_cohesive(self.scene, self.heights, MAX_TOLERANCE).strength
 
     @cached_property
     def shape(self) -> Array:
         """The gap of the undeformed bodies at zero approach, normal and along x, (2, n), nm."""
-        return np.stack([-self.scene.heights(self.points), np.zeros(self.points)])
+        return np.stack([-self.heights, np.zeros(self.points)])
 
     @cached_property
     def compliance(self) -> Array:
@@ -155,14 +160,14 @@ class PathCase:
 
     def follow(self, method: CohesiveSolver) -> tuple[CohesiveProblem, list[PathState]]:
         """The problem, which has counted the work, and the states that a solver finds."""
-        problem = pose_cohesive(self.scene, -self.shape[0], self.tolerance)
+        problem = pose_cohesive(self.scene, self.heights, self.tolerance)
         with limit_threads(1):
             return problem, list(Requested().follow(problem, method, self.steps))
 
     @cached_property
     def exact(self) -> Array | None:
         """Forces (step, 1 or 2), N/m, of the fixed point at each step; None where it does not contract."""
-        displacement: Array = np.zeros((2, self.points // 2 + 1), complex)
+        displacement: Array = np.zeros((2, *self.compliance.shape[:1]), complex)
         loads = []
         for step in self.steps:
             solution = self._fixed_point(step, displacement)

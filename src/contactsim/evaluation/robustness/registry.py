@@ -10,6 +10,7 @@ import inspect
 from collections.abc import Callable
 
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
+from contactsim.evaluation.robustness.adhesive_surfaces import ADHESIVE_SURFACES
 from contactsim.evaluation.robustness.cases import Case
 from contactsim.evaluation.robustness.lines import LINES
 from contactsim.evaluation.robustness.path_cases import PathCase
@@ -18,7 +19,7 @@ from contactsim.evaluation.robustness.sliding import SLIDING
 from contactsim.evaluation.robustness.surfaces import SURFACES
 
 HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
-    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ROUGH, *SLIDING)
+    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ADHESIVE_SURFACES, *ROUGH, *SLIDING)
 }
 
 

@@ -14,7 +14,9 @@ from contactsim.status import Status
 from contactsim.traits import Trait
 
 CONTROLS = {Trait.APPROACH, Trait.MEAN_PRESSURE, Trait.SLIDE}
-SMOOTH_PATHS = frozenset({Trait.LINE, Trait.SMOOTH, Trait.HALF_SPACE, Trait.LAYER, *CONTROLS})
+SMOOTH_PATHS = frozenset(
+    {Trait.LINE, Trait.SURFACE, Trait.SMOOTH, Trait.HALF_SPACE, Trait.FREE, Trait.LAYER, *CONTROLS}
+)
 """Traits that each of these solvers accepts. One that minimises no energy also accepts laws without a potential."""
 SEPARATION = 40.0
 """Smallest gap, over the interaction range of the laws, beyond which a load has pulled the bodies apart."""
