@@ -63,7 +63,7 @@ def test_the_equations_of_the_judge_are_those_of_the_problem():
 
 
 def test_three_solvers_agree_along_a_loop_with_jumps():
-    surface = cs.SelfAffine(256.0, 0.8, 128.0, 32.0, 3.0, seed=1, dimensions=2)
+    surface = cs.SelfAffine(256.0, 0.8, 128.0, 32.0, rms_height=3.0, seed=1, dimensions=2)
     law, path = cs.NormalCohesiveZone(0.3, 1.0), cs.approaches([-12.0, -6.0, -18.0], 0.5)
     scene = cs.Scene(cs.HalfSpace(1.0), surface, law, path)
     options = SOLVERS | {"mass_weighted_verlet": {"budget": 2000}}

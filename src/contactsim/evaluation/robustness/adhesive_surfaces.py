@@ -30,7 +30,7 @@ def _pressed(law: NormalCohesiveZone, path: LoadPath, surface: Surface, body: El
 
 def _rough(height: float) -> SelfAffine:
     """A rough surface of some rms height (nm), with four points to the shortest wavelength."""
-    return SelfAffine(SIDE, 0.8, SIDE / 2, SIDE / 8, height, dimensions=2, seed=3)
+    return SelfAffine(SIDE, 0.8, SIDE / 2, SIDE / 8, rms_height=height, dimensions=2, seed=3)
 
 
 def soft_sphere(severity: float) -> SurfacePathCase:
@@ -80,9 +80,9 @@ def oblong_cell(severity: float) -> SurfacePathCase:
 
 
 def adhesive_fill(severity: float) -> SurfacePathCase:
-    """A rough surface on a thin layer is pressed until its gaps close, from a tenth of its height to all of it."""
+    """A rough surface is pressed deeper into a thin layer, until half of its area is closed, then nearly all."""
     law, body = NormalCohesiveZone(0.5), Layer(MODULUS, RATIO, SIDE / 8)
-    path = approaches([-4.0, 1.5 * severity / 100])
+    path = approaches([-4.0, 5.0 * severity / 100])
     return SurfacePathCase(_pressed(law, path, _rough(2.0), body), ROUGH_POINTS, parts=8)
 
 
