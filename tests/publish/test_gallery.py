@@ -87,11 +87,13 @@ def test_pictures_are_small_and_verdicts_whole(shown, made, plan):
             assert picture.width == gallery.WIDTH
 
 
-NOT_YET_SHOWN = {
-    *("surface_theories", "surface_stiffness", "pressure_distribution", "gap_distribution"),
-    *("contact_patches", "challenge"),
-}
+NOT_YET_SHOWN = {"rough_adhesive_surfaces"}
 """Figures that no standard tier has made yet; the gallery gets them when the documentation is renewed."""
+NOT_YET_JUDGED = {
+    *("surface_load_lower", "surface_nonlinear", "surface_gradient_whole", "surface_pull_off_growth"),
+    *("profile_pull_off_growth", "surface_dissipation"),
+}
+"""Findings of the same kind."""
 
 
 def test_a_cell_tells_verdicts_errors_and_time():
@@ -122,7 +124,8 @@ def test_the_gallery_shows_every_figure_as_the_standard_tier_made_it():
 def test_the_verdicts_of_the_standard_tier_are_those_of_the_statements_in_the_config():
     every = pd.read_csv(DOCS / "verdicts.csv")
     plan = Plan.read(ROOT / "config", "standard")
-    assert list(every.claim) == [name for claims in plan.claims.values() for name in claims]
+    names = [name for claims in plan.claims.values() for name in claims]
+    assert list(every.claim) == [name for name in names if name not in NOT_YET_JUDGED]
     assert gallery.counts_markdown(every) in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
