@@ -8,30 +8,18 @@ DMT nor JKR holds. The contact ends where the traction is largest.
 
 from __future__ import annotations
 
-import argparse
 import itertools
-import logging
-import tempfile
 import time
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
-import pandas as pd
-from records import Table, on_one_thread
-from report import insert, markdown
+from tabulated import Benchmark
 
 import contactsim as cs
 from contactsim.observables.surface_adhesion import negative_area
 from contactsim.reference import adhesive_sphere as exact
 
-HERE = Path(__file__).resolve().parent
 MODULUS, WORK, RADIUS = 1.0, 1.0, 1000.0
-CASE = ("maugis_parameter", "points")
-FOUND = (
-    *("zone_steps", "pull_off", "maugis_pull_off", "radius_over_jkr", "states", "failed"),
-    *("jumps", "transforms", "seconds"),
-)
 SIZES, POINTS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0), (64, 128, 256, 512)
 LEAST_ZONE_STEPS = 1.9
 """Grid steps in the process zone below which a grid is left out."""
@@ -43,8 +31,6 @@ PLACES = (1.0, 0.5, 0.3, 0.2, 0.1, 0.05, 0.0, -0.05, -0.1, -0.15, -0.2, -0.3, -0
 """Approaches beside that of the pull-off by Maugis, over `UNIT`."""
 READ_AT = 3
 """Place among these at which the contact radius is read."""
-BEGIN, END = "<!-- adhesive sphere: written by adhesive_sphere.py -->", "<!-- end of adhesive sphere -->"
-"""Marks of the table in the README."""
 
 
 def law_of(size: float) -> cs.NormalCohesiveZone:
@@ -59,8 +45,9 @@ def length_of(size: float) -> float:
     return float(2 * np.sqrt(contact**2 + 2 * RADIUS * TAIL * law_of(size).normal_length))
 
 
-def pull(case: dict) -> dict:
+def pull(case: dict, quick: bool) -> dict:
     """Pull the sphere off, and read the largest pull off a parabola through the three largest."""
+    del quick
     size, points = case["maugis_parameter"], case["points"]
     law, length = law_of(size), length_of(size)
     _, forces, approaches = exact.maugis_states(WORK, RADIUS, MODULUS, law.strength)
@@ -93,50 +80,34 @@ def pull(case: dict) -> dict:
     }
 
 
-def cases(points: tuple[int, ...]) -> Iterator[dict]:
+def cases(quick: bool) -> Iterator[dict]:
     """Grids that resolve the process zone, coarse ones first."""
-    for count, size in itertools.product(points, SIZES):
+    for points, size in itertools.product(POINTS[:1] if quick else POINTS, SIZES):
         law = law_of(size)
         zone = np.e**2 * MODULUS * law.normal_length**2 / WORK
-        if zone * count / length_of(size) >= LEAST_ZONE_STEPS:
-            yield {"maugis_parameter": size, "points": count}
+        if zone * points / length_of(size) >= LEAST_ZONE_STEPS:
+            yield {"maugis_parameter": size, "points": points}
 
 
-TABLE = {
-    "maugis_parameter": ("Maugis's parameter", "{:g}"),
-    "points": ("points along a side", "{:.0f}"),
-    "zone_steps": ("steps in the process zone", "{:.2g}"),
-    "pull_off": ("pull-off / πwR", "{:.4f}"),
-    "maugis_pull_off": ("by Maugis", "{:.4f}"),
-    "radius_over_jkr": ("radius over that of JKR", "{:.4f}"),
-    "failed": ("failed states", "{:.0f}"),
-    "transforms": ("transforms", "{:.0f}"),
-    "seconds": ("CPU s", "{:.3g}"),
-}
-"""Columns of the table in the README: their heads and forms."""
-
-
-def write_table() -> None:
-    """Put what has been measured into the README."""
-    rows = pd.read_csv(HERE / "adhesive_sphere.csv").sort_values(list(CASE)).to_dict("records")
-    lines = [[form.format(row[name]) for name, (_, form) in TABLE.items()] for row in rows]
-    insert(HERE / "README.md", BEGIN, markdown([head for head, _ in TABLE.values()], lines), END)
-
-
-def main() -> None:
-    """Measure what is missing."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--quick", action="store_true", help="a coarse grid, in a temporary folder")
-    options = parser.parse_args()
-    on_one_thread()
-    logging.getLogger("contactsim").setLevel(logging.ERROR)
-    folder = Path(tempfile.mkdtemp()) if options.quick else HERE
-    table = Table(folder / "adhesive_sphere.csv", CASE, FOUND)
-    for case in cases(POINTS[:1] if options.quick else POINTS):
-        table.row(case, pull)
-        if not options.quick:
-            write_table()
-
+BENCHMARK = Benchmark(
+    "adhesive_sphere",
+    case=("maugis_parameter", "points"),
+    found=(
+        *("zone_steps", "pull_off", "maugis_pull_off", "radius_over_jkr", "states", "failed"),
+        *("jumps", "transforms", "seconds"),
+    ),
+    table={
+        "maugis_parameter": ("Maugis's parameter", "{:g}"),
+        "points": ("points along a side", "{:.0f}"),
+        "zone_steps": ("steps in the process zone", "{:.2g}"),
+        "pull_off": ("pull-off / πwR", "{:.4f}"),
+        "maugis_pull_off": ("by Maugis", "{:.4f}"),
+        "radius_over_jkr": ("radius over that of JKR", "{:.4f}"),
+        "failed": ("failed states", "{:.0f}"),
+        "transforms": ("transforms", "{:.0f}"),
+        "seconds": ("CPU s", "{:.3g}"),
+    },
+)
 
 if __name__ == "__main__":
-    main()
+    BENCHMARK.run(__doc__, cases, pull)

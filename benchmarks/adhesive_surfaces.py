@@ -9,35 +9,21 @@ here, by numpy's transforms. Install Adhesion first (README.md beside this file)
 
 from __future__ import annotations
 
-import argparse
 import itertools
-import logging
-import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
-import pandas as pd
-from records import Table, on_one_thread
-from report import insert, markdown
+from tabulated import Benchmark
 
 import contactsim as cs
 from contactsim.grid import Array
 
-HERE = Path(__file__).resolve().parent
-CASE = ("work", "reach", "points")
-FOUND = (
-    *("seconds", "own_seconds", "ratio", "own_transforms", "evaluations", "failed", "own_failed"),
-    *("residual", "own_residual", "difference"),
-)
 LENGTH, MODULUS, TOLERANCE = 1024.0, 1.0, 1e-4
 """Period, nm; contact modulus, GPa; largest residual over the strength."""
 APPROACHES = tuple(np.arange(-18.0, -5.9, 0.5).tolist())
 """Approaches of the mean planes, nm."""
-BEGIN, END = "<!-- adhesive surfaces: written by adhesive_surfaces.py -->", "<!-- end of adhesive surfaces -->"
-"""Marks of the table in the README."""
 
 
 @dataclass(frozen=True)
@@ -104,12 +90,11 @@ def pressed_by_adhesion(heights: Array, law: Morse) -> tuple[list[Array], int]:
     return states, evaluations
 
 
-def compare(case: dict) -> dict:
+def compare(case: dict, quick: bool) -> dict:
     """Press one surface with both codes."""
+    del quick
     law, points = Morse(case["work"], case["reach"]), case["points"]
-    surface = cs.SelfAffine(
-        LENGTH, 0.8, LENGTH / 2, LENGTH / 32, rms_height=5.0, dimensions=2, seed=case.get("seed", 1)
-    )
+    surface = cs.SelfAffine(LENGTH, 0.8, LENGTH / 2, LENGTH / 32, rms_height=5.0, dimensions=2, seed=1)
     heights = surface.heights(points)
     begin = time.process_time()
     theirs, evaluations = pressed_by_adhesion(heights, law)
@@ -141,49 +126,34 @@ def compare(case: dict) -> dict:
     }
 
 
-def cases(points: tuple[int, ...]) -> Iterator[dict]:
+def cases(quick: bool) -> Iterator[dict]:
     """Long and short range, weak and strong, coarse grids first."""
-    for count, reach, work in itertools.product(points, (2.0, 1.0), (0.03, 0.3)):
-        yield {"work": work, "reach": reach, "points": count}
+    for points, reach, work in itertools.product((64,) if quick else (256, 512, 1024), (2.0, 1.0), (0.03, 0.3)):
+        yield {"work": work, "reach": reach, "points": points}
 
 
-TABLE = {
-    "points": ("points along a side", "{:.0f}"),
-    "reach": ("r (nm)", "{:g}"),
-    "work": ("w (N/m)", "{:g}"),
-    "seconds": ("theirs (s)", "{:.3g}"),
-    "own_seconds": ("ours (s)", "{:.3g}"),
-    "ratio": ("theirs ÷ ours", "{:.3g}"),
-    "evaluations": ("their evaluations", "{:.0f}"),
-    "own_transforms": ("our transforms", "{:.0f}"),
-    "failed": ("theirs not within the tolerance", "{:.0f}"),
-    "own_failed": ("ours", "{:.0f}"),
-    "difference": ("difference of the last load", "{:.1e}"),
-}
-"""Columns of the table in the README: their heads and forms."""
-
-
-def write_table() -> None:
-    """Put what has been measured into the README."""
-    rows = pd.read_csv(HERE / "adhesive_surfaces.csv").sort_values(["points", "reach", "work"]).to_dict("records")
-    lines = [[form.format(row[name]) for name, (_, form) in TABLE.items()] for row in rows]
-    insert(HERE / "README.md", BEGIN, markdown([head for head, _ in TABLE.values()], lines), END)
-
-
-def main() -> None:
-    """Measure what is missing."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--quick", action="store_true", help="a coarse grid, in a temporary folder")
-    options = parser.parse_args()
-    on_one_thread()
-    logging.getLogger("contactsim").setLevel(logging.ERROR)
-    folder = Path(tempfile.mkdtemp()) if options.quick else HERE
-    table = Table(folder / "adhesive_surfaces.csv", CASE, FOUND)
-    for case in cases((64,) if options.quick else (256, 512, 1024)):
-        table.row(case, compare)
-        if not options.quick:
-            write_table()
-
+BENCHMARK = Benchmark(
+    "adhesive_surfaces",
+    case=("work", "reach", "points"),
+    found=(
+        *("seconds", "own_seconds", "ratio", "own_transforms", "evaluations", "failed", "own_failed"),
+        *("residual", "own_residual", "difference"),
+    ),
+    table={
+        "points": ("points along a side", "{:.0f}"),
+        "reach": ("r (nm)", "{:g}"),
+        "work": ("w (N/m)", "{:g}"),
+        "seconds": ("theirs (s)", "{:.3g}"),
+        "own_seconds": ("ours (s)", "{:.3g}"),
+        "ratio": ("theirs ÷ ours", "{:.3g}"),
+        "evaluations": ("their evaluations", "{:.0f}"),
+        "own_transforms": ("our transforms", "{:.0f}"),
+        "failed": ("theirs not within the tolerance", "{:.0f}"),
+        "own_failed": ("ours", "{:.0f}"),
+        "difference": ("difference of the last load", "{:.1e}"),
+    },
+    order=("points", "reach", "work"),
+)
 
 if __name__ == "__main__":
-    main()
+    BENCHMARK.run(__doc__, cases, compare)

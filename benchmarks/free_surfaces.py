@@ -9,20 +9,14 @@ that is not installed is left out.
 
 from __future__ import annotations
 
-import argparse
 import itertools
-import logging
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
-from pathlib import Path
 
 import numpy as np
-import pandas as pd
-from records import Table, on_one_thread
-from report import insert, markdown
+from tabulated import Benchmark
 
 import contactsim as cs
 from contactsim.contact.hard_wall import HardWallProblem
@@ -32,19 +26,9 @@ from contactsim.grid import Array
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import default_solver
 
-HERE = Path(__file__).resolve().parent
-CASE = ("peer", "hurst_exponent", "points", "reduced_pressure")
-FOUND = (
-    *("tolerance_asked", "seconds", "own_seconds", "ratio", "own_transforms", "error", "own_error", "area", "own_area"),
-    *("differing", "rounds"),
-)
 TOLERANCE = 1e-6
 """Largest gap in contact, and overlap elsewhere, in grid steps."""
 ROUNDS = 3
-BEGIN, END = "<!-- free surfaces: written by free_surfaces.py -->", "<!-- end of free surfaces -->"
-"""Marks of the table in the README."""
-
-logger = logging.getLogger("free_surfaces")
 
 
 def pressed_by_tamaas(problem: HardWallProblem, tolerance: float) -> Array:
@@ -141,7 +125,7 @@ def seconds_of(problem: HardWallProblem, press: Callable[[HardWallProblem, float
     return spent, pressure, max(certificate.max_contact_gap, certificate.penetration)
 
 
-def compare(case: dict, rounds: int) -> dict:
+def compare(case: dict, quick: bool) -> dict:
     """Seconds of a code and of ours, in turns, at the loosest tolerance that is certified."""
     subject = scene(surface(case["points"], case["hurst_exponent"]), case["reduced_pressure"])
     heights, step = subject.heights(case["points"]), subject.path.steps[0]
@@ -154,7 +138,7 @@ def compare(case: dict, rounds: int) -> dict:
             break
     else:
         return {"tolerance_asked": "none", "error": error}
-    theirs, ours = [], []
+    theirs, ours, rounds = [], [], 1 if quick else ROUNDS
     for _ in range(rounds):
         theirs.append(seconds_of(problem, press, asked)[0])
         begin = time.process_time()
@@ -177,50 +161,33 @@ def compare(case: dict, rounds: int) -> dict:
     }
 
 
-def cases(sizes: tuple[int, ...]) -> Iterator[dict]:
+def cases(quick: bool) -> Iterator[dict]:
     """Single loads, coarse grids first."""
+    sizes = (128,) if quick else (512, 1024)
     for points, name, hurst_exponent, pressure in itertools.product(sizes, PEERS, (0.8, 0.2), (1e-3, 1e-2, 1e-1)):
         if find_spec(PEERS[name][0]):
             yield {"peer": name, "hurst_exponent": hurst_exponent, "points": points, "reduced_pressure": pressure}
 
 
-TABLE = {
-    "points": ("points along a side", "{:.0f}"),
-    "peer": ("code", "{}"),
-    "hurst_exponent": ("H", "{:g}"),
-    "reduced_pressure": ("p*", "{:g}"),
-    "seconds": ("theirs (s)", "{:.3g}"),
-    "own_seconds": ("ours (s)", "{:.3g}"),
-    "ratio": ("theirs ÷ ours", "{:.3g}"),
-    "error": ("error (steps)", "{:.1e}"),
-}
-"""Columns of the table in the README: their heads and forms."""
-
-
-def write_table() -> None:
-    """Put what has been measured into the README."""
-    rows = pd.read_csv(HERE / "free_surfaces.csv", na_values="none").sort_values(["points", "peer", "hurst_exponent"])
-    lines = [
-        ["–" if row[name] != row[name] else form.format(row[name]) for name, (_, form) in TABLE.items()]
-        for row in rows.to_dict("records")
-    ]
-    insert(HERE / "README.md", BEGIN, markdown([head for head, _ in TABLE.values()], lines), END)
-
-
-def main() -> None:
-    """Measure what is missing."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--quick", action="store_true", help="a coarse grid and one round, in a temporary folder")
-    options = parser.parse_args()
-    on_one_thread()
-    folder = Path(tempfile.mkdtemp()) if options.quick else HERE
-    table = Table(folder / "free_surfaces.csv", CASE, FOUND)
-    for case in cases((128,) if options.quick else (512, 1024)):
-        table.row(case, lambda case: compare(case, 1 if options.quick else ROUNDS))
-    if not options.quick:
-        write_table()
-    logger.info("written to %s", folder)
-
+BENCHMARK = Benchmark(
+    "free_surfaces",
+    case=("peer", "hurst_exponent", "points", "reduced_pressure"),
+    found=(
+        *("tolerance_asked", "seconds", "own_seconds", "ratio", "own_transforms", "error", "own_error"),
+        *("area", "own_area", "differing", "rounds"),
+    ),
+    table={
+        "points": ("points along a side", "{:.0f}"),
+        "peer": ("code", "{}"),
+        "hurst_exponent": ("H", "{:g}"),
+        "reduced_pressure": ("p*", "{:g}"),
+        "seconds": ("theirs (s)", "{:.3g}"),
+        "own_seconds": ("ours (s)", "{:.3g}"),
+        "ratio": ("theirs ÷ ours", "{:.3g}"),
+        "error": ("error (steps)", "{:.1e}"),
+    },
+    order=("points", "peer", "hurst_exponent"),
+)
 
 if __name__ == "__main__":
-    main()
+    BENCHMARK.run(__doc__, cases, compare)

@@ -15,7 +15,7 @@ from contactsim.contact.simplification import SIMPLIFICATIONS, simplify
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
-from contactsim.observables.adhesion import summarise_load_curves
+from contactsim.observables.path_summary import summarise_load_curves
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.study import Study

@@ -12,21 +12,16 @@ from contactsim.contact.loading import approaches
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.observables.adhesion import (
-    FINAL,
-    SUMMARY,
     contact_length,
     find_peaks,
     gradients,
     histograms,
-    largest_jumps,
-    legs,
-    pull_off,
     slips,
     state_observables,
-    summarise_load_curves,
     touching_peaks,
 )
 from contactsim.observables.load_curve import LoadCurve, join_folds
+from contactsim.observables.path_summary import FINAL, SUMMARY, largest_jumps, legs, pull_off, summarise_load_curves
 from contactsim.reference import adhesion, hard_wall
 from contactsim.simulation import simulate
 from contactsim.study.law_table import tabulate_law

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
-from contactsim.observables.adhesion import pull_off, summarise_load_curves
 from contactsim.observables.load_curve import FOLD, LoadCurve, join_folds
+from contactsim.observables.path_summary import pull_off, summarise_load_curves
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.nested import Nested
 from contactsim.paths.requested import Requested

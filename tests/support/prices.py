@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.observables.adhesion import GRADIENTS
 from contactsim.observables.load_curve import join_folds
 

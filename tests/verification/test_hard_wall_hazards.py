@@ -10,6 +10,7 @@ from scipy.optimize import nnls
 
 import contactsim
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
+from contactsim.evaluation.robustness.adhesive_surfaces import ADHESIVE_SURFACES
 from contactsim.evaluation.robustness.cases import (
     Case,
     flat_pressure,
@@ -30,13 +31,14 @@ from contactsim.solvers.registry import solver_class
 from contactsim.traits import Trait
 from support.cases import ALL, FAST, ON_SURFACES, assert_certified, compliance, press, rough, wave
 
-PATHS = [hazard.__name__ for hazard in (*ADHESIVE, *ROUGH, *SLIDING)]
+GROUPS = (LINES, SURFACES, ADHESIVE, ADHESIVE_SURFACES, ROUGH, SLIDING)
+PATHS = [hazard.__name__ for hazard in (*ADHESIVE, *ADHESIVE_SURFACES, *ROUGH, *SLIDING)]
 WALLS = [hazard for hazard in HAZARDS if hazard not in PATHS]
 ON_LINES_ONLY = {name for name in WALLS if HAZARDS[name](0).heights.ndim == 1}
 
 
 def test_no_two_hazards_have_one_name():
-    assert len(HAZARDS) == len(LINES) + len(SURFACES) + len(ADHESIVE) + len(ROUGH) + len(SLIDING)
+    assert len(HAZARDS) == sum(map(len, GROUPS))
 
 
 PAIRS = [(hazard, name) for hazard in WALLS for name in (ALL if hazard in ON_LINES_ONLY else ON_SURFACES)]

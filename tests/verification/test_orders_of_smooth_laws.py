@@ -17,8 +17,9 @@ from contactsim.elasticity.layer import Layer
 from contactsim.interface.base import Law
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.lattice import Lattice
-from contactsim.observables.adhesion import contact_length, pull_off, summarise_load_curves
+from contactsim.observables.adhesion import contact_length
 from contactsim.observables.load_curve import LoadCurve
+from contactsim.observables.path_summary import pull_off, summarise_load_curves
 from contactsim.paths.requested import Requested
 from contactsim.reference import adhesion, springs
 from contactsim.simulation import simulate

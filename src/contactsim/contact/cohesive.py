@@ -27,32 +27,12 @@ from functools import cached_property
 import numpy as np
 
 from contactsim.contact.steps import LoadStep
+from contactsim.contact.tangent import Tangent
 from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.base import Law, potential
 from contactsim.interface.pairing import Pairing
 from contactsim.traits import Trait
-
-
-@dataclass(frozen=True)
-class Tangent:
-    """Derivative of the traction by the gap at each point (exerted, read, n), GPa/nm, as a map of coefficients."""
-
-    problem: CohesiveProblem
-    values: Array
-
-    def __call__(self, change: Array) -> Array:
-        """Return the change of the traction's coefficients for one of the displacement's, both (exerted, m)."""
-        field = self.problem.field(change)
-        return self.problem.coefficients(contract(self.values, field))
-
-
-def contract(tangent: Array, field: Array) -> Array:
-    """Return derivatives (exerted, read, n) times a change of the gap (read, n), summed over what is read."""
-    out = tangent[:, 0] * field[0]
-    for row in range(1, len(field)):
-        out += tangent[:, row] * field[row]
-    return out
 
 
 @dataclass(frozen=True)

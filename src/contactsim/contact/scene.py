@@ -10,15 +10,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import Enum
 from functools import cached_property, reduce
 from typing import TypeGuard
 
 import numpy as np
 
 from contactsim.contact.loading import LoadPath
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene_checks import check_scene
 from contactsim.elasticity.base import Elasticity
-from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, Law, reads_slip
 from contactsim.interface.pairing import ALIGNED, Pairing
@@ -26,26 +26,6 @@ from contactsim.surfaces.base import Surface
 from contactsim.surfaces.shapes import Flat
 from contactsim.traits import Trait
 
-
-class ProblemKind(Enum):
-    """One of the two kinds of problem that a scene poses.
-
-    They differ in their unknowns, solvers, paths and observables. `Scene.kind` is the one place that tells them apart;
-    all else looks up what it needs by kind.
-    """
-
-    HARD_WALL = "hard_wall"
-    """Gap and pressure are never negative, and one of them is zero at each point; each load has one solution."""
-    COHESIVE = "cohesive"
-    """Traction is a smooth function of the gap; states follow one another along a path."""
-
-
-LAW_LENGTHS = 1e-9, 1e9
-"""Smallest and largest length of a law, over the period."""
-PULL_RANGE = 10.0
-"""Gap, in a law's lengths, up to which a pull is looked for."""
-DEEPEST_OVERLAP = 100.0
-"""Overlap, in the laws' lengths, under which they bear any pressure that a scene may have."""
 RIGID = None
 """Elasticity of a rigid body: absent, not stiff."""
 
@@ -109,76 +89,7 @@ class Scene:
         values = {"lower": lower_body, "upper": upper_body, "effects": acting, "path": path, "pairing": pairing}
         for name, value in values.items():
             object.__setattr__(self, name, value)  # a frozen dataclass
-        self._check_parts()
-        self._check_sliding()
-        self._check_surfaces()
-        self._check_lengths()
-        self._check_loads()
-
-    def _check_parts(self) -> None:
-        """Raise InputError for bodies, effects or loads that are missing or impossible."""
-        if not self.elasticities:
-            raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
-        if len({Trait.FREE in body.traits for body in self.elasticities}) > 1:
-            raise InputError("elasticity", "FreeHalfSpace", "two free half-spaces, or two bodies that repeat")
-        if not self.effects:
-            raise InputError("effects", self.effects, "at least one, which resists overlap")
-        if self.kind is ProblemKind.COHESIVE and not self.repeats:
-            self._check_free_laws()
-        for pressure in self.path.mean_pressures if self.kind is ProblemKind.HARD_WALL else ():
-            if pressure < 0:
-                raise InputError("mean_pressure", pressure, "0 or more, in GPa: without adhesion nothing can pull")
-
-    def _check_free_laws(self) -> None:
-        """Raise InputError for smooth laws on a free half-space that are not solved there."""
-        if len(self.lengths) == 1:
-            raise InputError("elasticity", "FreeHalfSpace", "HalfSpace or Layer under smooth laws on a line")
-        if self.path.mean_pressures:
-            allowed = "left out for approaches: smooth laws on a free half-space follow approaches alone"
-            raise InputError("mean_pressure", self.path.mean_pressures[0], allowed)
-
-    def _check_sliding(self) -> None:
-        """Raise InputError for tangential displacements that nothing determines, and for those of surfaces."""
-        if "t" in self.components and len(self.lengths) > 1:
-            allowed = "those of the normal gap alone: tangential displacements of surfaces are not modelled"
-            raise InputError("effects", self.effects, allowed)
-        for side, body in (("lower", self.lower), ("upper", self.upper)):
-            elasticity = body.elasticity
-            if "t" in self.components and elasticity is not None and elasticity.poisson_ratio is None:
-                allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
-                raise InputError("poisson_ratio", None, allowed)
-        if self.sliding and "t" not in self.components:
-            raise InputError("effects", self.effects, "one that reads the tangential gap: else nothing slides")
-
-    def _check_surfaces(self) -> None:
-        """Raise InputError for surfaces that the pairing cannot join, or of different periods."""
-        self.pairing.check(self.lower.elasticity, self.upper.elasticity, self.traits, self.laws)
-        lengths = self.lower.surface.lengths, self.upper.surface.lengths
-        if len(lengths[0]) != len(lengths[1]) or not all(map(_are_equal, *lengths)):
-            raise InputError("length", lengths, "the same periods for both surfaces")
-
-    def _check_lengths(self) -> None:
-        """Raise InputError for a law's length that rounding would hide beside the period, or the period beside it."""
-        for law in self.laws:
-            for name in ("normal_length", "tangential_length"):
-                length = getattr(law, name, self.length)
-                if not (LAW_LENGTHS[0] <= length / self.length <= LAW_LENGTHS[1] or length == math.inf):
-                    ends = " to ".join(f"{end * self.length:g}" for end in LAW_LENGTHS)
-                    raise InputError(name, length, f"{ends} nm, for a period of {self.length:g} nm")
-
-    def _check_loads(self) -> None:
-        """Raise InputError for a mean pressure that the laws cannot bear, or under a very deep overlap alone."""
-        loads = self.path.mean_pressures
-        if self.kind is not ProblemKind.COHESIVE or not loads:
-            return
-        if min(loads) < 0 and not any(map(_pulls, self.acting_laws)):
-            raise InputError("mean_pressure", min(loads), "0 or more, in GPa: these laws do not pull")
-        bearable = sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in self.acting_laws)
-        if max(loads) > bearable:
-            allowed = (
-                f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
-            )
-            raise InputError("mean_pressure", max(loads), allowed)
+        check_scene(self)
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:
@@ -284,21 +195,3 @@ class Scene:
 def _is_law(effect: Effect) -> TypeGuard[Law]:
     """Return True if an effect is a smooth function of the gap."""
     return Trait.SMOOTH in effect.traits
-
-
-def _are_equal(length: float, other: float) -> bool:
-    """Return True for lengths that differ by rounding alone."""
-    return math.isclose(length, other, rel_tol=1e-9)
-
-
-def _repulsion(law: Law, overlap: float) -> float:
-    """Return the normal traction (GPa) with which a law resists an overlap (nm) without slip."""
-    gap = np.zeros((len(law.reads), 1))
-    gap[0] = -overlap
-    return -float(law.traction(gap)[0, 0])
-
-
-def _pulls(law: Law) -> bool:
-    """Return True if a law pulls surfaces together somewhere within a few of its lengths, without slip."""
-    gaps = np.linspace(0.0, PULL_RANGE, 64) * law.interaction_range
-    return bool((law.traction(np.stack([gaps, *np.zeros((len(law.reads) - 1, 64))]))[0] > 0).any())

@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.error_control.knobs import grid_features
 from contactsim.error_control.measured import KEPT_QUANTITIES, even_part, is_measured
 from contactsim.error_control.options import SAFETY, choose_options, coarsen, expect_error, scale_increment, set_grid

@@ -8,7 +8,8 @@ from typing import Protocol
 
 import numpy as np
 
-from contactsim.contact.scene import ProblemKind, Scene
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Scene
 from contactsim.error_control.relations import Family, Relation
 from contactsim.error_control.scaling import (
     ROUGH_PATH,

@@ -10,7 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from contactsim.contact.scene import Body, ProblemKind, Scene
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Body, Scene
 from contactsim.errors import InputError, Words
 from contactsim.grid import Grid
 from contactsim.observables.dataset_forms import KEPT_NUMBERS

@@ -16,7 +16,8 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 
 from contactsim.code_digest.modules import computing_digest
-from contactsim.contact.scene import ProblemKind, Scene
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Scene
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.effect_maps import FILE, change_without, expected_change
 from contactsim.error_control.options import coarsen

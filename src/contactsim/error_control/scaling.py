@@ -11,7 +11,8 @@ import itertools
 
 import numpy as np
 
-from contactsim.contact.scene import ProblemKind, Scene
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Scene
 from contactsim.error_control.measured import MeasuredRoughness, is_measured, measure_roughness
 from contactsim.errors import InputError
 from contactsim.reference import hard_wall

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.grid import Array
 from contactsim.observables.derived import combine_runs, summarise_paths
 from contactsim.paths.driver import follow_path

@@ -13,7 +13,7 @@ from contactsim.analysis.rough_paths import mean_with_increments
 from contactsim.analysis.scales import LawScales
 from contactsim.figures import style
 from contactsim.grid import Array
-from contactsim.observables.adhesion import LEGS, legs
+from contactsim.observables.path_summary import LEGS, legs
 from contactsim.reference.rough_adhesion import sticking_work
 
 AREA = "relative_repulsive_area"

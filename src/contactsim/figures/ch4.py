@@ -19,7 +19,7 @@ from contactsim.analysis.scales import reduced_line_load
 from contactsim.analysis.stress import stress_below_contact
 from contactsim.figures import style
 from contactsim.figures.parts import asperities, load_curves, stress
-from contactsim.observables.adhesion import LEGS
+from contactsim.observables.path_summary import LEGS
 
 APPROACH_BEFORE_CONTACT = -5.0
 """Approach (nm) before the contact closes at which fields are kept."""

@@ -25,7 +25,7 @@ from contactsim.figures import style
 from contactsim.figures.parts import body_heights as bodies
 from contactsim.figures.parts import interfaces, savings, thicknesses
 from contactsim.figures.parts import rough_curves as rough
-from contactsim.observables.adhesion import LEGS
+from contactsim.observables.path_summary import LEGS
 
 AVERAGES = ("relative_contact_area", "kappa_r", "kappa_r_pairs", "reduced_pressure_contact")
 PICTURE, COVER_PICTURE, CLOSE_UP = 0.12, 0.3, 0.05

@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.observables.adhesion import TURN_TOLERANCE, legs
 from contactsim.observables.linearity import (
     APPROACH_LEVELS,
     LOAD_LEVELS,
@@ -22,6 +21,7 @@ from contactsim.observables.linearity import (
     value_at_level,
     values_at_loads,
 )
+from contactsim.observables.path_summary import TURN_TOLERANCE, legs
 from contactsim.status import is_solved
 
 CRITERIA = {

@@ -12,14 +12,14 @@ from typing import Protocol
 
 import xarray as xr
 
-from contactsim.contact.scene import ProblemKind
-from contactsim.observables.adhesion import FINAL, SUMMARY, SURFACE_FINAL, SURFACE_SUMMARY
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.observables.contact_readings import READINGS
 from contactsim.observables.deformation import AT_ONE_STATE, DEFORMATION
 from contactsim.observables.derived import summarise_approaches, summarise_paths
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
+from contactsim.observables.path_summary import FINAL, SUMMARY, SURFACE_FINAL, SURFACE_SUMMARY
 from contactsim.observables.proportionality import derive_contact_factors
 from contactsim.observables.threshold import THRESHOLD
 from contactsim.variables import LOADS

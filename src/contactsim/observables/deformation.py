@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.observables.adhesion import TURN_TOLERANCE, legs
+from contactsim.observables.path_summary import TURN_TOLERANCE, legs
 from contactsim.status import is_solved
 
 DEFORMATION = (

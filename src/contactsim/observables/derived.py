@@ -8,12 +8,13 @@ from typing import cast
 import numpy as np
 import xarray as xr
 
-from contactsim.observables.adhesion import AREAS, SUMMARY, SURFACE_SUMMARY, summarise_load_curves
+from contactsim.observables.adhesion import AREAS
 from contactsim.observables.deformation import DEFORMATION, DEFORMATIONS, summarise_deformation
 from contactsim.observables.friction import ONSET, SLIDE_INPUTS, summarise_slides
 from contactsim.observables.hysteresis import CYCLE, summarise_cycles
 from contactsim.observables.linearity import AREA_LOAD, summarise_area_load
 from contactsim.observables.load_curve import dimensions_of
+from contactsim.observables.path_summary import SUMMARY, SURFACE_SUMMARY, summarise_load_curves
 from contactsim.observables.threshold import THRESHOLD
 
 GRADIENT_RATIOS = {

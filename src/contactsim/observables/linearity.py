@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.observables.adhesion import legs
+from contactsim.observables.path_summary import legs
 from contactsim.status import is_solved
 
 MAX_AREA = 0.3

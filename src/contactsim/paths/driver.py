@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import xarray as xr
 
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 from contactsim.paths.reuse import Point, Reuse

@@ -52,7 +52,7 @@ class PathState:
     @property
     def points(self) -> int:
         """Number of points of the grid that the state is a solution on."""
-        return self.problem.grid.size
+        return self.problem.heights.size
 
     def fields(self) -> tuple[Array, Array]:
         """Return the gap (read, n), nm, and the traction (exerted, n), GPa."""

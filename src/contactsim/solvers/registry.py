@@ -9,7 +9,8 @@ from importlib import import_module, metadata
 from importlib.util import find_spec
 from typing import Any
 
-from contactsim.contact.scene import ProblemKind, Scene
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Scene
 from contactsim.errors import InputError
 
 SOLVERS = {

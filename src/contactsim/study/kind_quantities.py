@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from contactsim.contact.scene import ProblemKind, Scene
-from contactsim.observables.adhesion import FINAL, SUMMARIES, SUMMARY
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Scene
 from contactsim.observables.deformation import DEFORMATIONS
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE, CYCLES
 from contactsim.observables.linearity import AREA_LOAD
+from contactsim.observables.path_summary import FINAL, SUMMARIES, SUMMARY
 from contactsim.observables.threshold import ALONG, THRESHOLD
 
 

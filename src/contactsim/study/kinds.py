@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.interface.hard_wall import HardWall
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.increments import INCREMENTS

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.error_control.control import COMPANIONS
 from contactsim.error_control.forecast import step_features, transform_seconds
 from contactsim.error_control.knobs import grid_features

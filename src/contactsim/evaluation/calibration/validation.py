@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.contact.scene import ProblemKind
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.error_control.control import Controlled, solve_to_error
 from contactsim.error_control.forecast import forecast_to_error
 from contactsim.error_control.options import choose_options, coarsen, scale_increment, set_grid

@@ -16,7 +16,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.errors import InputError
 from contactsim.evaluation.robustness.cases import Case, displacement, mirror_field
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
-from contactsim.evaluation.robustness.path_cases import PathCase
+from contactsim.evaluation.robustness.path_cases import PathCase, max_interpenetration
 from contactsim.evaluation.robustness.surface_path_cases import SurfacePathCase
 from contactsim.grid import Array
 from contactsim.interface.exponentials import MAX_OVERLAP
@@ -235,16 +235,6 @@ def _relative_force_error(forces: Array, reference: Array | None) -> float:
     if reference is None or not forces.size:
         return 0.0
     return float(np.abs(forces - reference[: len(forces)]).max() / np.abs(reference).max())
-
-
-def max_interpenetration(problem: CohesiveProblem, states: Sequence[PathState]) -> float:
-    """Return the deepest overlap of states over the laws' length, as results report it."""
-    deepest = 0.0
-    for state in states:
-        here = problem.at(state.step)
-        gap = here.gap(state.displacement)
-        deepest = max(deepest, -float(gap[0].min()) / here.interaction_range)
-    return deepest
 
 
 JUDGES: dict[type, Callable[..., Verdict]] = {

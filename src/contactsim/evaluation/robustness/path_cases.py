@@ -8,7 +8,7 @@ several equilibria is right is a matter of the past: there the same path in smal
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
@@ -21,9 +21,9 @@ from contactsim.contact.pose_cohesive import MAX_TOLERANCE, pose_cohesive
 from contactsim.contact.scene import Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.evaluation.robustness.navier import surface_compliance
+from contactsim.evaluation.robustness.printed_laws import FORMULAS
 from contactsim.grid import Array
 from contactsim.interface.base import Law
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.paths.requested import Requested
 from contactsim.paths.state import PathState
@@ -167,7 +167,7 @@ class PathCase:
     @cached_property
     def exact(self) -> Array | None:
         """Forces (step, 1 or 2), N/m, of the fixed point at each step; None where it does not contract."""
-        displacement: Array = np.zeros((2, *self.compliance.shape[:1]), complex)
+        displacement: Array = np.zeros((len(self.shape), len(self.compliance)), complex)
         loads = []
         for step in self.steps:
             solution = self._fixed_point(step, displacement)
@@ -197,16 +197,20 @@ class PathCase:
             return None
         return np.array([slow.forces(state.step, state.displacement) for state in states])
 
+    def answer(self, step: LoadStep, displacement: Array) -> Array:
+        """Coefficients (2, m) of -C T(g + v), with which the bodies answer a displacement v."""
+        traction = np.fft.rfft(self.traction(self.gap(step, displacement))) / self.points
+        traction[len(self.scene.exerted) :] = 0.0
+        return np.asarray(-np.einsum("qij,jq->iq", self.compliance, traction))
+
     def _fixed_point(self, step: LoadStep, start: Array) -> Array | None:
         """Coefficients (2, m) of v = -C T(g + v), by insertion; None where that does not contract."""
         if step.normal.control is not Trait.APPROACH:
             return None
-        displacement, before, rows = start, np.inf, len(self.scene.exerted)
+        displacement, before = start, np.inf
         with np.errstate(over="ignore", invalid="ignore"):  # what does not contract may overflow
             for _ in range(SWEEPS):
-                traction = np.fft.rfft(self.traction(self.gap(step, displacement))) / self.points
-                traction[rows:] = 0.0
-                after = -np.einsum("qij,jq->iq", self.compliance, traction)
+                after = self.answer(step, displacement)
                 change = float(np.abs(after - displacement).sum())
                 displacement = after
                 if change <= 1e-12 * np.abs(after).sum():
@@ -217,27 +221,11 @@ class PathCase:
         return None
 
 
-def _mixed_mode(law: CohesiveZone | UncoupledCohesiveZone, normal: Array, tangential: Array) -> Array:
-    """Eq. 2.17 as printed, (2, n), GPa."""
-    y, s = normal / law.normal_length, tangential / law.tangential_length
-    far = np.exp(-y - s**2)
-    size = law.work_of_separation / law.normal_length, 2 * law.work_of_separation * law.work_ratio
-    return np.stack([size[0] * y * far, size[1] / law.tangential_length * s * far])
-
-
-def _normal(law: NormalCohesiveZone, normal: Array, tangential: Array) -> Array:
-    """Eq. 4.1 as printed, (2, n), GPa."""
-    y = normal / law.normal_length
-    return np.stack([law.work_of_separation / law.normal_length * y * np.exp(-y), np.zeros_like(tangential)])
-
-
-def _uncoupled(law: UncoupledCohesiveZone, normal: Array, tangential: Array) -> Array:
-    """Eq. 4.1 and the tangential traction of Eq. 2.17 as printed, (2, n), GPa."""
-    return np.stack([_normal(law.without_slip(), normal, tangential)[0], _mixed_mode(law, normal, tangential)[1]])
-
-
-FORMULAS: dict[type, Callable[..., Array]] = {
-    CohesiveZone: _mixed_mode,
-    NormalCohesiveZone: _normal,
-    UncoupledCohesiveZone: _uncoupled,
-}
+def max_interpenetration(problem: CohesiveProblem, states: Sequence[PathState]) -> float:
+    """Return the deepest overlap of states over the laws' length, as results report it."""
+    deepest = 0.0
+    for state in states:
+        here = problem.at(state.step)
+        gap = here.gap(state.displacement)
+        deepest = max(deepest, -float(gap[0].min()) / here.interaction_range)
+    return deepest

@@ -9,7 +9,8 @@ import numpy as np
 
 from contactsim.contact.steps import LoadStep
 from contactsim.evaluation.robustness.navier import surface_compliance
-from contactsim.evaluation.robustness.path_cases import FORMULAS, SHRINKING, SWEEPS, PathCase
+from contactsim.evaluation.robustness.path_cases import PathCase
+from contactsim.evaluation.robustness.printed_laws import FORMULAS
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -72,17 +73,6 @@ class SurfacePathCase(PathCase):
         waves[moves] += displacement[0, moves] / self.compliance[moves]
         return float(np.abs(self._field(waves)).max())
 
-    def _fixed_point(self, step: LoadStep, start: Array) -> Array | None:
-        """Coefficients (1, m) of v = -C T(g + v), by insertion; None where that does not contract."""
-        displacement, before = start[:1], np.inf
-        with np.errstate(over="ignore", invalid="ignore"):  # what does not contract may overflow
-            for _ in range(SWEEPS):
-                after = -self.compliance * self._coefficients(self.traction(self.gap(step, displacement))[0])
-                change = float(np.abs(after - displacement[0]).sum())
-                displacement = after[None]
-                if change <= 1e-12 * np.abs(after).sum():
-                    return displacement
-                if not change <= SHRINKING * before:
-                    return None
-                before = change
-        return None
+    def answer(self, step: LoadStep, displacement: Array) -> Array:
+        """Coefficients (1, m) of -C T(g + v), with which the bodies answer a displacement v."""
+        return -self.compliance * self._coefficients(self.traction(self.gap(step, displacement))[0])[None]

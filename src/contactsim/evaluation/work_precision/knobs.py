@@ -16,11 +16,11 @@ import xarray as xr
 
 from contactsim.errors import InputError
 from contactsim.interface.lattice import Lattice
-from contactsim.observables.adhesion import SUMMARY
 from contactsim.observables.dataset_forms import AVERAGED, form_of
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
+from contactsim.observables.path_summary import SUMMARY
 from contactsim.status import is_solved
 from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, listed, positive, read, whole

@@ -13,7 +13,7 @@ from contactsim.analysis.asperities import centred_nodes, contact_sizes, pull_of
 from contactsim.analysis.scales import radius, reduced_line_load
 from contactsim.figures import style
 from contactsim.figures.parts.load_curves import plot_leg
-from contactsim.observables.adhesion import LEGS
+from contactsim.observables.path_summary import LEGS
 
 LARGEST_APPROACH = 10.0
 """Approach (nm) at which fields of the indented asperity are kept."""

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.scales import LawScales, reduced_line_load
 from contactsim.figures import style
-from contactsim.observables.adhesion import LEGS, legs
+from contactsim.observables.path_summary import LEGS, legs
 
 LOAD_LABEL = r"$\bar L=L/(\pi R\varphi_0)$, thickness 1 µm"
 NEGLIGIBLE_LOAD = 0.01

@@ -22,7 +22,8 @@ from contactsim.analysis.rough_paths import (
 )
 from contactsim.analysis.scales import reduced_work
 from contactsim.figures import style
-from contactsim.observables.adhesion import CRITERION, INTERACTING, LEGS, legs
+from contactsim.observables.adhesion import CRITERION, INTERACTING
+from contactsim.observables.path_summary import LEGS, legs
 
 COLUMNS = (
     "normalised_pressure",

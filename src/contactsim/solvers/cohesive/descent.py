@@ -22,7 +22,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, Tangent
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.tangent import Tangent
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import Equilibrium, are_pulled_apart, largest_change
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner

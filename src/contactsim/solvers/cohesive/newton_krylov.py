@@ -17,7 +17,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, Tangent
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.tangent import Tangent
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, largest_change, status_of

@@ -20,7 +20,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem, Tangent
+from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.tangent import Tangent
 from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.long_waves import WAVES, LongWaves, node_averages
