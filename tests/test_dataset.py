@@ -15,6 +15,7 @@ from contactsim.analysis.quantities import ERROR_BARS
 from contactsim.dataset import describe, settings_of, stamp
 from contactsim.errors import InputError
 from contactsim.observables.contact_readings import READINGS
+from contactsim.observables.path_summary import SUMMARIES
 from contactsim.solvers.registry import SOLVERS, solver_class
 from contactsim.status import Status
 from contactsim.study.keys import SECTION_KINDS
@@ -45,7 +46,7 @@ def data():
 
 def names_written():
     """Return the composed names, and every word that a module other than the table has as a string or as a keyword."""
-    words = {*READINGS, *ERROR_BARS}
+    words = {*READINGS, *ERROR_BARS, *(name for names in SUMMARIES.values() for name in names)}
     for module in set(SOURCE.rglob("*.py")) - {SOURCE / "variables.py"}:
         code = re.sub(r'"""[\s\S]*?"""', "", module.read_text(encoding="utf-8"))
         words.update(word for pair in re.findall(r'"(\w+)"|\b(\w+)=', code) for word in pair)
