@@ -33,6 +33,8 @@ PUBLIC = {
     "read_topography": "surfaces.topography",
     "prepare_topography": "surfaces.preparation",
     "HardWall": "interface.hard_wall",
+    "ExponentialAttraction": "interface.attraction",
+    "DugdaleAttraction": "interface.attraction",
     "CohesiveZone": "interface.cohesive_zone",
     "NormalCohesiveZone": "interface.cohesive_zone",
     "UncoupledCohesiveZone": "interface.cohesive_zone",

@@ -15,6 +15,7 @@ class Trait(Enum):
     LINE = "line contact: surfaces vary along one direction"
     SURFACE = "surface contact: surfaces vary along two directions"
     WALL = "hard wall: the gap is never negative, the pressure never pulls"
+    ADHESIVE_WALL = "hard wall beside smooth laws: the gap is never negative, and what pulls is a function of it"
     SMOOTH = "smooth law: traction is a function of the gap"
     NON_CONSERVATIVE = "a law without a potential: there is no energy to minimise"
     HALF_SPACE = "half-space: the mean displacement is free, so the uniform mode has no stiffness"

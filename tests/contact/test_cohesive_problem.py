@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from contactsim.contact.coarse_grid import coarsen
 from contactsim.contact.loading import approaches
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.steps import LoadStep
@@ -222,7 +223,7 @@ def test_a_flat_that_faces_a_flat_gives_way_as_springs_in_series():
 def test_on_fewer_points_the_heights_keep_their_waves_but_the_shortest(points):
     scene = scene_of(LAWS["frictional"])
     whole = pose_cohesive(scene, np.random.default_rng(6).normal(size=points), 1e-7)
-    before, after = (np.fft.rfft(problem.shape[0], norm="forward") for problem in (whole, whole.coarser(32, 1e-3)))
+    before, after = (np.fft.rfft(problem.shape[0], norm="forward") for problem in (whole, coarsen(whole, 32, 1e-3)))
     assert np.allclose(after[:-1], before[:16], rtol=0, atol=1e-14)
     assert after[-1] == pytest.approx(0, abs=1e-14)  # its phase is lost on the grid
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from contactsim.contact import loading
+from contactsim.contact.coarse_grid import coarsen, prolong
 from contactsim.contact.loading import LoadPath
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
@@ -109,7 +110,7 @@ def test_waves_are_followed_as_the_stored_gap_says(name):
 def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
     scene = scene_of(LAWS[name], along(0, 1, 1), surface=rough(256.0))
     whole = pose_cohesive(scene, scene.heights(512), 1e-7)
-    coarse, posed = whole.coarser(64, 1e-3), pose_cohesive(scene, scene.heights(64), 1e-3)
+    coarse, posed = coarsen(whole, 64, 1e-3), pose_cohesive(scene, scene.heights(64), 1e-3)
     assert coarse.tolerance == 1e-3 and coarse.unknowns == posed.unknowns
     assert np.allclose(coarse.stiffness.diagonal[:, :-1], posed.stiffness.diagonal[:, :-1], rtol=1e-12)
     if posed.slip_factor is None and len(posed.shape) == 2:
@@ -117,7 +118,7 @@ def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
     if posed.slip_factor is not None:
         assert np.allclose(coarse.slip_factor, posed.slip_factor, rtol=1e-12)
     assert np.allclose(coarse.shape, posed.shape, atol=1e-12 * np.ptp(posed.shape))
-    assert whole.prolong(np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
+    assert prolong(whole, np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
 
 
 def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_the_mean_plane():

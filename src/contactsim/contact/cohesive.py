@@ -5,12 +5,14 @@ C the sum of the bodies' compliances and T the traction of the laws,
 
     v = -C T(g + v),   or   K v + T(g + v) = 0   with K = C⁻¹,
 
-where g is the gap of the undeformed bodies. Fields of a surface are rows of all its points, and of all its waves. The
-unknowns are the Fourier coefficients of v in the components in which a
-law exerts traction; K is diagonal in the wavenumber. A component that is read but not exerted, like the tangential gap
-of a frictionless coupled law, is no unknown: the tangential displacement of a surface free of shear is the normal one
-times a factor at each wavenumber. K is always the inverse of the compliance of the exerted components; a part of the
-inverse of the whole compliance would fix the other components.
+where g is the gap of the undeformed bodies. Where a hard wall acts beside the laws, T includes its push at an estimate
+of its pressure. Fields of a surface are rows of all its points, and of all its waves.
+
+The unknowns are the Fourier coefficients of v in the components in which a law exerts traction; K is diagonal in the
+wavenumber. A component that is read but not exerted, like the tangential gap of a frictionless coupled law, is no
+unknown: the tangential displacement of a surface free of shear is the normal one times a factor at each wavenumber. K
+is always the inverse of the compliance of the exerted components; a part of the inverse of the whole compliance would
+fix the other components.
 
 Normal approach enters as the uniform mode of the gap. Where the uniform compliance is zero (a half-space, by
 convention, and an incompressible layer) that mode of v is fixed at zero. Under a prescribed mean pressure the uniform
@@ -32,6 +34,7 @@ from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.base import Law, potential
 from contactsim.interface.pairing import Pairing
+from contactsim.interface.wall_pressure import WallPressure
 from contactsim.traits import Trait
 
 
@@ -67,6 +70,8 @@ class CohesiveProblem:
     heights_grid
         Grid of the heights, the first points of `grid` in each direction: all of it where heights repeat. Beyond them
         the gap is too wide for any traction.
+    wall
+        Pressure of a hard wall beside the laws; None without a wall.
     """
 
     grid: Grid
@@ -82,6 +87,7 @@ class CohesiveProblem:
     origin: float = 0.0
     sliding_distance: float = 0.0
     heights_grid: Grid | None = None
+    wall: WallPressure | None = None
 
     @property
     def heights(self) -> Grid:
@@ -156,25 +162,6 @@ class CohesiveProblem:
             return replace(self, approach=normal.value + self.origin, load=None, sliding_distance=step.sliding_distance)
         return replace(self, approach=None, load=normal.value, sliding_distance=step.sliding_distance)
 
-    def coarser(self, points: int, tolerance: float) -> CohesiveProblem:
-        """Return the problem on fewer points, an even number; waves that these cannot carry are left out of heights."""
-        grid, count = self.grid.coarser((points,)), points // 2 + 1
-        shape = self.grid.forward(self.shape[0])[:count]
-        shape[-1] = 0
-        gap = np.zeros((len(self.shape), points))
-        gap[0] = grid.backward(shape)
-        factor = None
-        if self.slip_factor is not None:
-            factor = np.where(np.arange(count) < count - 1, self.slip_factor[:count], 0)
-        stiffness = self.stiffness.coarser(count)
-        return replace(self, grid=grid, shape=gap, stiffness=stiffness, slip_factor=factor, tolerance=tolerance)
-
-    def prolong(self, displacement: Array) -> Array:
-        """Return a displacement of a coarser grid (exerted, m) on this one, without its shortest wave."""
-        out = np.zeros(self.unknowns, complex)
-        out[:, : displacement.shape[1] - 1] = displacement[:, :-1]
-        return out
-
     def field(self, coefficients: Array) -> Array:
         """Return the values (read, n) of a displacement's coefficients (exerted, m), with those that follow it."""
         if self.slip_factor is not None:
@@ -203,11 +190,15 @@ class CohesiveProblem:
 
     def traction(self, gap: Array) -> Array:
         """Return the traction (exerted, n), GPa, at a gap (read, n), nm."""
-        return self.law.traction(gap)
+        traction = self.law.traction(gap)
+        return traction if self.wall is None else traction - self.wall.push(gap[0])
 
     def tangent(self, gap: Array) -> tuple[Array, Tangent]:
         """Return the traction (exerted, n), GPa, and its derivative at a gap (read, n), nm."""
         traction, values = self.law.tangent(gap)
+        if self.wall is not None:
+            push = self.wall.push(gap[0])
+            traction, values = traction - push, values + self.wall.stiffness * (push > 0)
         return traction, Tangent(self, values)
 
     def energy(self, displacement: Array, gap: Array) -> float:
@@ -215,7 +206,10 @@ class CohesiveProblem:
         weighted = self.add_elastic(np.zeros_like(displacement), displacement) * self.mode_weights
         elastic = 0.5 * float(np.vdot(displacement, weighted).real)
         of_load = 0.0 if self.load is None else self.load * float(displacement[0, 0].real)
-        return elastic + of_load + float(potential(self.law, gap).mean())
+        of_laws = potential(self.law, gap)
+        if self.wall is not None:
+            of_laws = of_laws + self.wall.energy(gap[0])
+        return elastic + of_load + float(of_laws.mean())
 
     def residual(self, displacement: Array, traction: Array) -> Array:
         """Return the coefficients (exerted, m) of K v + T, GPa; zero where the displacement is fixed."""

@@ -12,6 +12,8 @@ from contactsim.elasticity.symbol import NormalSymbol, Symbol
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.superposition import superpose
+from contactsim.interface.wall_pressure import WallPressure
+from contactsim.traits import Trait
 
 MIN_TOLERANCE, MAX_TOLERANCE = 1e-13, 0.1
 """Smallest tolerance, which rounding hides, and the largest: with a larger one, the undeformed state would soon be a
@@ -68,6 +70,7 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
         counter=TransformCounter(grid.size),
         origin=scene.path.origin(heights),
         heights_grid=None if scene.repeats else own,
+        wall=WallPressure.beside(stiffness.diagonal[0], grid.size) if Trait.ADHESIVE_WALL in scene.traits else None,
     )
 
 

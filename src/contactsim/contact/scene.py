@@ -57,7 +57,7 @@ class Scene:
     upper : Body or Surface
         Upper body; a surface stands for a rigid body.
     effects : Effect or tuple of Effect
-        A hard wall, or laws whose tractions add.
+        A hard wall, laws whose tractions add, or both.
     path : LoadPath
         Load steps.
     pairing : Pairing
@@ -146,7 +146,8 @@ class Scene:
         """Traits that a solver must accept: the union over effects, bodies, path and dimension."""
         parts = [effect.traits for effect in self.acting] + [body.traits for body in self.elasticities]
         dimension = {1: Trait.LINE, 2: Trait.SURFACE}[len(self.lengths)]
-        return frozenset({dimension}).union(self.path.traits, *parts)
+        traits = frozenset({dimension}).union(self.path.traits, *parts)
+        return traits - {Trait.WALL} | {Trait.ADHESIVE_WALL} if {Trait.WALL, Trait.SMOOTH} <= traits else traits
 
     @cached_property
     def kind(self) -> ProblemKind:

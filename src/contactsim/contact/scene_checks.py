@@ -37,11 +37,26 @@ def _check_parts(scene: Scene) -> None:
         raise InputError("elasticity", "FreeHalfSpace", "two free half-spaces, or two bodies that repeat")
     if not scene.effects:
         raise InputError("effects", scene.effects, "at least one, which resists overlap")
-    if scene.kind is ProblemKind.COHESIVE and not scene.repeats:
-        _check_free_laws(scene)
+    if scene.kind is ProblemKind.COHESIVE:
+        _check_resistance(scene)
+        if not scene.repeats:
+            _check_free_laws(scene)
     for pressure in scene.path.mean_pressures if scene.kind is ProblemKind.HARD_WALL else ():
         if pressure < 0:
             raise InputError("mean_pressure", pressure, "0 or more, in GPa: without adhesion nothing can pull")
+
+
+def _check_resistance(scene: Scene) -> None:
+    """Raise InputError for laws that no overlap resists, and for what a hard wall beside laws does not have."""
+    walls = [effect for effect in scene.effects if Trait.WALL in effect.traits]
+    if not walls and _bearable(scene) <= 0:
+        raise InputError("effects", scene.effects, "also one that resists overlap, such as a hard wall")
+    if walls and "t" in scene.components:
+        raise InputError("effects", scene.effects, "laws of the normal gap alone beside a hard wall")
+    for wall in walls:
+        hardness = getattr(wall, "hardness", None)
+        if hardness is not None:
+            raise InputError("hardness", hardness, "left out: yielding is told of hard walls alone")
 
 
 def _check_free_laws(scene: Scene) -> None:
@@ -92,7 +107,7 @@ def _check_loads(scene: Scene) -> None:
         return
     if min(loads) < 0 and not any(map(_pulls, scene.acting_laws)):
         raise InputError("mean_pressure", min(loads), "0 or more, in GPa: these laws do not pull")
-    bearable = sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in scene.acting_laws)
+    bearable = math.inf if Trait.ADHESIVE_WALL in scene.traits else _bearable(scene)
     if max(loads) > bearable:
         allowed = f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
         raise InputError("mean_pressure", max(loads), allowed)
@@ -101,6 +116,11 @@ def _check_loads(scene: Scene) -> None:
 def _are_equal(length: float, other: float) -> bool:
     """Return True for lengths that differ by rounding alone."""
     return math.isclose(length, other, rel_tol=1e-9)
+
+
+def _bearable(scene: Scene) -> float:
+    """Return the mean pressure (GPa) that the laws bear under a very deep overlap."""
+    return sum(_repulsion(law, DEEPEST_OVERLAP * law.interaction_range) for law in scene.acting_laws)
 
 
 def _repulsion(law: Law, overlap: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from contactsim.interface.attraction import DugdaleAttraction, ExponentialAttraction
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.interface.frictional_repulsion import FrictionalRepulsiveZone, StiffMixedZone
 from contactsim.interface.hard_wall import HardWall
@@ -13,6 +14,8 @@ from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
 
 EFFECTS: dict[str, Any] = {
     "hard_wall": HardWall,
+    "exponential_attraction": ExponentialAttraction,
+    "dugdale_attraction": DugdaleAttraction,
     "cohesive_zone": CohesiveZone,
     "normal_cohesive_zone": NormalCohesiveZone,
     "uncoupled_cohesive_zone": UncoupledCohesiveZone,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactsim.contact.wall import contact_gap
 from contactsim.grid import Array
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
     """
     spacing, length = problem.grid.spacing[0], problem.grid.lengths[0]
     size = np.abs(traction[0]) / problem.strength
-    repulsive = gap[0] < 0
+    touching = contact_gap(problem, gap, traction)
     mean, pull = -float(traction[0].mean()), float(np.maximum(traction[0], 0.0).mean())
     smallest, pushed, pulled = float(gap[0].min()), -float(traction[0].min()), float(traction[0].max())
     numbers = {
@@ -80,7 +81,7 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
         "adhesive_load": pull * length,
         "mean_pressure": mean,
         "mean_gap": float(gap[0].mean()),
-        "contact_length": contact_length(gap[0], spacing),
+        "contact_length": contact_length(touching, spacing),
         "min_gap": smallest,
         "max_pressure": max(pushed, 0.0),
         "max_tensile_traction": max(pulled, 0.0),
@@ -89,7 +90,7 @@ def state_observables(problem: CohesiveProblem, gap: Array, traction: Array) -> 
     numbers |= {name: float(spacing * np.count_nonzero(size > level)) for name, level in INTERACTING.items()}
     if len(gap) > 1:
         slip = np.abs(problem.offset(gap)) / problem.law.tangential_length
-        numbers["slip"] = float(slip.max(where=repulsive, initial=0.0))
+        numbers["slip"] = float(slip.max(where=touching < 0, initial=0.0))
         numbers |= slips(slip, size)
     for row in range(1, len(traction)):
         numbers["friction_force"] = float(traction[row].mean() * length)
@@ -150,7 +151,7 @@ def gradients(square: Array, problem: CohesiveProblem, gap: Array, traction: Arr
         NaN without contact.
     """
     size = np.abs(traction[0]) / problem.strength
-    squares = {"rms_gradient_repulsive": square[gap[0] < 0]}
+    squares = {"rms_gradient_repulsive": square[contact_gap(problem, gap, traction) < 0]}
     squares |= {name: square[size > INTERACTING[criterion]] for name, criterion in GRADIENTS.items()}
     numbers = {name: float(np.sqrt(values.mean())) if values.size else np.nan for name, values in squares.items()}
     return numbers | {"rms_gradient": float(np.sqrt(square.mean()))}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactsim.contact.wall import contact_gap
 from contactsim.grid import Array
 from contactsim.observables.adhesion import CRITERION, INTERACTING
 
@@ -55,7 +56,7 @@ def surface_observables(problem: CohesiveProblem, gap: Array, traction: Array) -
     area = float(np.prod(grid.lengths))
     mean, pulled = -float(pull.mean()), float(np.maximum(pull, 0.0).mean())
     smallest = float(gap[0].min())
-    contact = negative_area(gap[0].reshape(grid.shape), grid.spacing)
+    contact = negative_area(contact_gap(problem, gap, traction).reshape(grid.shape), grid.spacing)
     interacting = float(np.mean(np.abs(pull) > INTERACTING[CRITERION] * problem.strength))
     return {
         "normal_force": mean * area,

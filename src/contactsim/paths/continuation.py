@@ -13,6 +13,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
+from contactsim.contact.wall import hold_wall
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
 from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
@@ -98,7 +99,7 @@ class Continuation:
         self.jumps.forget_pace()
         self.current = current, replace(state, displacement=displacement)
         self.history.restart(current.value, displacement)
-        self._leaves_unstable = state.is_stable and self._grows(self.at(current), state.gap)
+        self._leaves_unstable = state.is_stable and self._grows(self.at(current), state)
 
     def at(self, step: LoadStep) -> CohesiveProblem:
         """Return the problem at a load step."""
@@ -155,11 +156,12 @@ class Continuation:
         """
         if self.current is None:
             return False
-        return self._grows(self.at(step), (self.current[1].gap + state.gap) / 2)
+        return self._grows(self.at(step), self.current[1], state)
 
-    def _grows(self, here: CohesiveProblem, gap: Array) -> bool:
-        """Return True if a small displacement grows on its own at a gap (read, n), nm."""
-        tangent = here.tangent(gap)[1]
+    def _grows(self, here: CohesiveProblem, *states: Equilibrium) -> bool:
+        """Return True if a small displacement grows on its own at the mean of states."""
+        gap, traction = (sum(rows) / len(states) for rows in zip(*((s.gap, s.traction) for s in states), strict=True))
+        tangent = hold_wall(here, gap, traction).tangent(gap)[1]
         return find_growth(tangent, ZonePreconditioner(here, tangent)) is not None
 
     def flow_to(self, step: LoadStep) -> Equilibrium:

@@ -27,7 +27,8 @@ MANY_PATCHES, LOADED = {1: 20, 2: 3}, 0.5
 three on a line, middle and edges, and two on a surface, where to locate every jump of a rough contact takes ten times
 the work of its path. Least traction of a loaded patch, over the laws' strength."""
 CALM_RATIO = 0.25
-"""Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate."""
+"""Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate. In
+contact with a hard wall a surface moves by the step itself, and by this more."""
 SLIP_RATIO = 250.0
 """Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
 ROUNDING = 1e-9
@@ -140,7 +141,8 @@ class JumpCriterion:
         """
         if step.control is not Trait.APPROACH or increment > self.problem.interaction_range * (1 + ROUNDING):
             return False
-        is_calm = after.largest_change <= CALM_RATIO * increment
+        ratio = CALM_RATIO if self.problem.wall is None else 1 + CALM_RATIO
+        is_calm = after.largest_change <= ratio * increment
         patches = max(self._count_patches(before), self._count_patches(after))
         return is_calm or patches > MANY_PATCHES[len(self.problem.grid.shape)]
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from contactsim.contact.coarse_grid import coarsen, prolong
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.pose_cohesive import check_tolerance
 from contactsim.contact.steps import LoadStep
@@ -89,8 +90,8 @@ class Nested:
         """Yield the states at all steps, in order."""
         size, counter = problem.grid.size, problem.counter
         self.check(size, steps, solver)
-        coarse_problem = problem.coarser(size // self.coarse_ratio, self.coarse_tolerance)
-        middle_problem = problem.coarser(size // self.intermediate_ratio, self.intermediate_tolerance)
+        coarse_problem = coarsen(problem, size // self.coarse_ratio, self.coarse_tolerance)
+        middle_problem = coarsen(problem, size // self.intermediate_ratio, self.intermediate_tolerance)
         path = Continuation(coarse_problem, solver, divides=False)
         middle_grid, full_grid = FinerGrid(middle_problem, solver), FinerGrid(problem, solver)
         coarse, middle = (np.zeros(level.unknowns, complex) for level in (coarse_problem, middle_problem))
@@ -98,12 +99,12 @@ class Nested:
             before = counter.transforms
             state = path.advance(step)
             if state.status is Status.CONVERGED:
-                refined = middle_grid.refine(state, middle + middle_problem.prolong(state.displacement - coarse))
+                refined = middle_grid.refine(state, middle + prolong(middle_problem, state.displacement - coarse))
                 if refined.status is Status.CONVERGED:
                     coarse, middle = state.displacement, refined.displacement
                 state = refined
             if state.status is Status.CONVERGED and self._needs_full_grid(step):
-                state = full_grid.refine(state, problem.prolong(state.displacement))
+                state = full_grid.refine(state, prolong(problem, state.displacement))
             yield replace(state, transforms=counter.transforms - before)
 
     def _needs_full_grid(self, step: LoadStep) -> bool:

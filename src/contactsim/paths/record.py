@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset, status
+from contactsim.contact.coarse_grid import prolong
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Scene
@@ -24,6 +25,7 @@ from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.paths.state_numbers import STATE_READERS, StateReader
 from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.solvers.cohesive.multipliers import Multipliers
 from contactsim.surfaces.height_statistics import STATISTICS
 
 logger = logging.getLogger(__name__)
@@ -80,6 +82,8 @@ def simulate_path(
     """
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_cohesive(scene, heights, tolerance, threads)
+    if problem.wall is not None:
+        method = Multipliers(method)
     snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
     reader = STATE_READERS[len(scene.lengths)](problem)
     fields: dict[int, dict[str, Array]] = {}
@@ -130,7 +134,7 @@ def _state_numbers(scene: Scene, state: PathState, reader: StateReader) -> dict[
 def _state_fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
     """Return histograms and, if kept, gap, traction and displacement by component, each (n,), on the whole grid."""
     if state.points < problem.heights.size:
-        state = replace(state, problem=problem, displacement=problem.prolong(state.displacement), solution=None)
+        state = replace(state, problem=problem, displacement=prolong(problem, state.displacement), solution=None)
     gap, traction = map(problem.on_heights, state.fields())
     fields = histograms(problem, gap, traction)
     if keep_fields:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
+from contactsim.contact.wall import hold_wall
 from contactsim.paths.extrapolation import POINTS, combine, lagrange_weights
 from contactsim.paths.jumps import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
@@ -41,8 +42,9 @@ class Segment:
             return states[parameters.index(parameter)]
         weights = lagrange_weights(parameters, parameter)
         gap = combine(weights, [state.gap for state in states])
-        traction = problem.traction(gap)
-        error = traction - combine(weights, [state.traction for state in states])
+        elastic = combine(weights, [state.traction for state in states])
+        traction = hold_wall(problem, gap, elastic).traction(gap)
+        error = traction - elastic
         error[problem.fixed_modes] -= error[problem.fixed_modes].mean(axis=1, keepdims=True)
         inherited = sum(abs(weight) * state.residual for weight, state in zip(weights, states, strict=True))
         residual = float(np.abs(error).max() / problem.strength) + inherited

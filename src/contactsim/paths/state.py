@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
+from contactsim.contact.wall import balance_wall
 from contactsim.grid import Array
 from contactsim.paths.jumps import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
@@ -59,4 +60,4 @@ class PathState:
         if self.solution is not None:
             return self.solution.gap, self.solution.traction
         gap = self.problem.gap(self.displacement)
-        return gap, self.problem.traction(gap)
+        return gap, balance_wall(self.problem, self.displacement).traction(gap)

@@ -17,6 +17,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
 from contactsim.status import Status
+from contactsim.traits import Trait
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class EnergyMinimisation:
     fields = 80
     uses_guess = False
     trust_radius = 0.0
-    accepts = SMOOTH_PATHS
+    accepts = SMOOTH_PATHS | {Trait.ADHESIVE_WALL}
 
     def transforms(self, points: int) -> float:
         """Return the real transforms of a step, for each unknown component."""

@@ -93,7 +93,7 @@ class NewtonKrylov:
     trust_radius: float = 0.1
     fields = 40
     uses_guess = True
-    accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE}
+    accepts = SMOOTH_PATHS | {Trait.NON_CONSERVATIVE, Trait.ADHESIVE_WALL}
 
     def __post_init__(self) -> None:
         for name in ("flow_step", "trust_radius"):

@@ -1,0 +1,141 @@
+"""Attraction beside a hard wall, which alone resists overlap: adhesion without a soft repulsion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
+from contactsim.grid import Array
+from contactsim.interface.base import check_positive
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class ExponentialAttraction:
+    """Attraction that decays exponentially with the gap, for use beside a hard wall.
+
+    The traction is φn/δn exp(-Δn/δn) where the gap is open. Its work of separation is φn, from contact to far apart.
+
+    Parameters
+    ----------
+    work_of_separation
+        Work of separation φn > 0, N/m.
+    normal_length
+        Characteristic length δn, nm.
+    """
+
+    work_of_separation: float
+    normal_length: float = 1.0
+    reads = frozenset({"n"})
+    exerts = frozenset({"n"})
+    traits = frozenset({Trait.SMOOTH})
+    tangential_length = inf
+
+    def __post_init__(self) -> None:
+        check_positive("N/m", work_of_separation=self.work_of_separation)
+        check_positive("nm", normal_length=self.normal_length)
+        keep_floats(self)
+
+    @property
+    def strength(self) -> float:
+        """Traction φn/δn in contact, GPa."""
+        return self.work_of_separation / self.normal_length
+
+    @property
+    def stiffness(self) -> float:
+        """Size of the tangent φn/δn² in contact, GPa/nm."""
+        return self.work_of_separation / self.normal_length**2
+
+    @property
+    def interaction_range(self) -> float:
+        """Length over which the traction changes, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Array) -> Array:
+        """Return the traction (1, n), GPa, at a gap (1, n), nm; that of contact under overlap."""
+        return self.strength * np.exp(-np.maximum(gap, 0.0) / self.normal_length)
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm; zero under overlap."""
+        traction = self.traction(gap)
+        return traction, np.where(gap > 0, -traction / self.normal_length, 0.0)[None]
+
+    def energy(self, gap: Array) -> Array:
+        """Return the potential -φn exp(-Δn/δn), (n,), N/m, at a gap (1, n), nm; a straight line under overlap."""
+        opening, overlap = np.maximum(gap[0], 0.0), np.minimum(gap[0], 0.0)
+        return self.strength * overlap - self.work_of_separation * np.exp(-opening / self.normal_length)
+
+
+@dataclass(frozen=True)
+class DugdaleAttraction:
+    """Constant attraction up to a gap, for use beside a hard wall: the model of Maugis and Dugdale.
+
+    The traction is φn/δn up to a gap of δn (1 - r/2) and zero from δn (1 + r/2) on. Between them it falls along a cubic
+    without kinks. Its work of separation is φn, whatever the ramp r.
+
+    Parameters
+    ----------
+    work_of_separation
+        Work of separation φn > 0, N/m.
+    normal_length
+        Gap δn up to which it acts, nm.
+    ramp
+        Width of the fall over the length, 0 < r ≤ 1. A narrower one needs finer grids.
+
+    References
+    ----------
+    D. Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
+    """
+
+    work_of_separation: float
+    normal_length: float = 1.0
+    ramp: float = 0.2
+    reads = frozenset({"n"})
+    exerts = frozenset({"n"})
+    traits = frozenset({Trait.SMOOTH})
+    tangential_length = inf
+
+    def __post_init__(self) -> None:
+        check_positive("N/m", work_of_separation=self.work_of_separation)
+        check_positive("nm", normal_length=self.normal_length)
+        if not (is_positive(self.ramp) and self.ramp <= 1):
+            raise InputError("ramp", self.ramp, f"{POSITIVE}, at most 1, in parts of the length")
+        keep_floats(self)
+
+    @property
+    def strength(self) -> float:
+        """Traction φn/δn in contact, GPa."""
+        return self.work_of_separation / self.normal_length
+
+    @property
+    def stiffness(self) -> float:
+        """Size of the steepest tangent 3φn/(2 r δn²), GPa/nm."""
+        return 1.5 * self.strength / self.interaction_range
+
+    @property
+    def interaction_range(self) -> float:
+        """Length r δn over which the traction falls, nm."""
+        return self.ramp * self.normal_length
+
+    def _fall(self, gap: Array) -> Array:
+        """Return how far a gap (1, n), nm, is along the fall, from 0 to 1."""
+        return np.clip((gap - self.normal_length) / self.interaction_range + 0.5, 0.0, 1.0)
+
+    def traction(self, gap: Array) -> Array:
+        """Return the traction (1, n), GPa, at a gap (1, n), nm; that of contact under overlap."""
+        part = self._fall(gap)
+        return self.strength * (1 - part**2 * (3 - 2 * part))
+
+    def tangent(self, gap: Array) -> tuple[Array, Array]:
+        """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
+        part = self._fall(gap)
+        return self.traction(gap), (-4 * self.stiffness * part * (1 - part))[None]
+
+    def energy(self, gap: Array) -> Array:
+        """Return the potential (n,), N/m, at a gap (1, n), nm; zero where the surfaces are far apart."""
+        part, width = self._fall(gap)[0], self.interaction_range
+        before = np.minimum(gap[0], self.normal_length - width / 2) - (self.normal_length - width / 2)
+        return self.strength * (before + width * (part - part**3 + part**4 / 2 - 0.5))

@@ -1,0 +1,64 @@
+"""The pressure of a hard wall beside smooth laws, as the method of multipliers corrects it.
+
+A wall is no law: its pressure p is an unknown, bound by gap ≥ 0, p ≥ 0 and p g = 0. From an estimate of p the method
+lets the wall push with max(p - k g, 0), which is a smooth law, and takes this push for the next estimate. Whatever the
+stiffness k, the gap is zero in contact once p no longer changes; k only decides how fast that is.
+
+References
+----------
+M. R. Hestenes, J. Optim. Theory Appl. 4, 303 (1969), doi:10.1007/BF00927673.
+P. Alart and A. Curnier, Comput. Methods Appl. Mech. Eng. 92, 353 (1991), doi:10.1016/0045-7825(91)90022-X.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contactsim.grid import Array
+
+RELATIVE_STIFFNESS = 0.5
+"""Stiffness by which overlap corrects the pressure, over the largest one of the bodies. A larger one needs
+fewer corrections, and more iterations for each."""
+
+
+@dataclass(frozen=True)
+class WallPressure:
+    """Estimate of the pressure of a hard wall.
+
+    Parameters
+    ----------
+    values
+        Pressure, GPa, (n,); never negative.
+    stiffness
+        Pressure by which an overlap corrects it, GPa/nm.
+    """
+
+    values: Array
+    stiffness: float
+
+    @classmethod
+    def beside(cls, body_stiffness: Array, points: int) -> WallPressure:
+        """Return no pressure on a number of points, beside bodies of a stiffness (GPa/nm) at each wavenumber."""
+        return cls(np.zeros(points), RELATIVE_STIFFNESS * float(body_stiffness.max()))
+
+    def push(self, gap: Array) -> Array:
+        """Return the pressure (n,), GPa, with which the wall pushes at a gap (n,), nm."""
+        return np.maximum(self.values - self.stiffness * gap, 0.0)
+
+    def energy(self, gap: Array) -> Array:
+        """Return the potential of the push (n,), N/m, at a gap (n,), nm."""
+        energy: Array = (self.push(gap) ** 2 - self.values**2) / (2 * self.stiffness)
+        return energy
+
+    def corrected(self, gap: Array, stiffening: float = 1.0) -> WallPressure:
+        """Return the next estimate, from the gap (n,), nm, at which the push was in equilibrium.
+
+        stiffening: stiffness over that of this estimate
+        """
+        return WallPressure(self.push(gap), stiffening * self.stiffness)
+
+    def overlap(self, gap: Array) -> float:
+        """Return the largest size of a gap (n,), nm, where the wall pushes: how far it is from zero in contact."""
+        return float(np.abs(gap).max(where=self.push(gap) > 0, initial=0.0))
