@@ -11,6 +11,7 @@ from scipy.optimize import nnls
 import contactsim
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.adhesive_surfaces import ADHESIVE_SURFACES
+from contactsim.evaluation.robustness.attracting_walls import ATTRACTING_WALLS
 from contactsim.evaluation.robustness.cases import (
     Case,
     flat_pressure,
@@ -20,19 +21,18 @@ from contactsim.evaluation.robustness.cases import (
     summit_pressure,
 )
 from contactsim.evaluation.robustness.judge import judge
-from contactsim.evaluation.robustness.lines import LINES
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.registry import HAZARDS
+from contactsim.evaluation.robustness.registry import GROUPS, HAZARDS
 from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.evaluation.robustness.sliding import SLIDING
-from contactsim.evaluation.robustness.surfaces import SURFACES
 from contactsim.reference import hard_wall
 from contactsim.solvers.registry import solver_class
 from contactsim.traits import Trait
 from support.cases import ALL, FAST, ON_SURFACES, assert_certified, compliance, press, rough, wave
 
-GROUPS = (LINES, SURFACES, ADHESIVE, ADHESIVE_SURFACES, ROUGH, SLIDING)
-PATHS = [hazard.__name__ for hazard in (*ADHESIVE, *ADHESIVE_SURFACES, *ROUGH, *SLIDING)]
+PATHS = [
+    hazard.__name__ for group in (ADHESIVE, ADHESIVE_SURFACES, ATTRACTING_WALLS, ROUGH, SLIDING) for hazard in group
+]
 WALLS = [hazard for hazard in HAZARDS if hazard not in PATHS]
 ON_LINES_ONLY = {name for name in WALLS if HAZARDS[name](0).heights.ndim == 1}
 

@@ -20,6 +20,7 @@ from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
 from contactsim.solvers.cohesive.linearised import find_growth
+from contactsim.solvers.cohesive.multipliers import fit_solver
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -59,7 +60,7 @@ class Continuation:
         divides: bool = True,
         max_amplification: float = MAX_AMPLIFICATION,
     ) -> None:
-        self.problem, self.solver = problem, solver
+        self.problem, self.solver = problem, fit_solver(solver, problem)
         self._divides = divides and solver.uses_guess
         self.history = History(max_amplification)
         self.displacement = np.zeros(problem.unknowns, complex)

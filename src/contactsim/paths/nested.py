@@ -20,6 +20,7 @@ from contactsim.grid import Array
 from contactsim.paths.continuation import Continuation
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
+from contactsim.solvers.cohesive.multipliers import fit_solver
 from contactsim.status import Status
 
 FLOW_DISTANCE = 0.5
@@ -116,7 +117,7 @@ class FinerGrid:
     """A grid finer than that of the path, on which its states are solved again."""
 
     def __init__(self, problem: CohesiveProblem, solver: CohesiveSolver) -> None:
-        self._problem, self._solver = problem, solver
+        self._problem, self._solver = problem, fit_solver(solver, problem)
         self._prefers_flow = False
 
     def refine(self, coarse: PathState, start: Array) -> PathState:

@@ -25,7 +25,6 @@ from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.paths.state_numbers import STATE_READERS, StateReader
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.solvers.cohesive.multipliers import Multipliers
 from contactsim.surfaces.height_statistics import STATISTICS
 
 logger = logging.getLogger(__name__)
@@ -82,8 +81,6 @@ def simulate_path(
     """
     heights, steps = scene.heights(points), scene.path.steps
     problem = pose_cohesive(scene, heights, tolerance, threads)
-    if problem.wall is not None:
-        method = Multipliers(method)
     snapshot_steps = {scene.path.nearest(value) for value in snapshots or ()}
     reader = STATE_READERS[len(scene.lengths)](problem)
     fields: dict[int, dict[str, Array]] = {}

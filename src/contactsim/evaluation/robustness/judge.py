@@ -18,6 +18,7 @@ from contactsim.evaluation.robustness.cases import Case, displacement, mirror_fi
 from contactsim.evaluation.robustness.outcome import Outcome, Verdict
 from contactsim.evaluation.robustness.path_cases import PathCase, max_interpenetration
 from contactsim.evaluation.robustness.surface_path_cases import SurfacePathCase
+from contactsim.evaluation.robustness.wall_path_cases import WallPathCase
 from contactsim.grid import Array
 from contactsim.interface.exponentials import MAX_OVERLAP
 from contactsim.paths.state import PathState
@@ -241,5 +242,6 @@ JUDGES: dict[type, Callable[..., Verdict]] = {
     Case: _judge_hard_wall,
     PathCase: _judge_path,
     SurfacePathCase: _judge_path,
+    WallPathCase: _judge_path,
 }
 """The judge of each kind of case."""

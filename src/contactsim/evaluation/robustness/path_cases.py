@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 
@@ -35,11 +34,10 @@ from contactsim.traits import Trait
 
 FAR = 12.0
 """Tangential lengths beyond which a site does nothing, to all digits."""
-SWEEPS, SHRINKING = 400, 0.9
-"""Most steps of the fixed point, and how much each must be smaller than the one before."""
-
 BRANCH_SOLVER = "mass_weighted_verlet"
 """The solver of smaller increments: not the default one, and it moves as the surface itself would."""
+SWEEPS, SHRINKING = 400, 0.9
+"""Most steps of the fixed point, and how much each must be smaller than the one before."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +66,8 @@ class PathCase:
 
     @property
     def laws(self) -> tuple[Law, ...]:
-        """The effects of the scene, all of them smooth laws."""
-        return cast(tuple[Law, ...], self.scene.effects)
+        """The smooth laws of the scene."""
+        return self.scene.laws
 
     @property
     def heights(self) -> Array:
@@ -177,6 +175,12 @@ class PathCase:
             loads.append(self.forces(step, displacement))
         return np.array(loads)
 
+    @property
+    def branch_solver(self) -> CohesiveSolver:
+        """The solver of smaller increments."""
+        solver: CohesiveSolver = make_solver(BRANCH_SOLVER, budget=500)
+        return solver
+
     @cached_property
     def branch(self) -> Array | None:
         """Forces (step, 1 or 2), N/m, of damped dynamics in smaller increments, for the twin where there is one.
@@ -192,7 +196,7 @@ class PathCase:
             place[step.control] = step.value
         path = LoadPath(tuple(parts))
         slow = replace(self, scene=replace(self.scene, path=path, effects=self.twin or self.scene.effects))
-        states = slow.follow(make_solver(BRANCH_SOLVER, budget=500))[1][self.parts - 1 :: self.parts]
+        states = slow.follow(self.branch_solver)[1][self.parts - 1 :: self.parts]
         if any(state.status is not Status.CONVERGED for state in states):
             return None
         return np.array([slow.forces(state.step, state.displacement) for state in states])

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from contactsim.grid import Array
+from contactsim.interface.attraction import ExponentialAttraction
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 
 
@@ -29,9 +30,16 @@ def _uncoupled(law: UncoupledCohesiveZone, normal: Array, tangential: Array) -> 
     return np.stack([_normal(law.without_slip(), normal, tangential)[0], _mixed_mode(law, normal, tangential)[1]])
 
 
+def _exponential(law: ExponentialAttraction, normal: Array, tangential: Array) -> Array:
+    """φn/δn exp(-Δn/δn), (2, n), GPa."""
+    size = law.work_of_separation / law.normal_length
+    return np.stack([size * np.exp(-normal / law.normal_length), np.zeros_like(tangential)])
+
+
 FORMULAS: dict[type, Callable[..., Array]] = {
     CohesiveZone: _mixed_mode,
     NormalCohesiveZone: _normal,
     UncoupledCohesiveZone: _uncoupled,
+    ExponentialAttraction: _exponential,
 }
 """Normal traction and that along x (2, n), GPa, at a normal and a tangential gap (n,), nm, by the class of a law."""

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from contactsim.evaluation.robustness.adhesive import ADHESIVE
 from contactsim.evaluation.robustness.adhesive_surfaces import ADHESIVE_SURFACES
+from contactsim.evaluation.robustness.attracting_walls import ATTRACTING_WALLS
 from contactsim.evaluation.robustness.cases import Case
 from contactsim.evaluation.robustness.lines import LINES
 from contactsim.evaluation.robustness.path_cases import PathCase
@@ -18,8 +19,9 @@ from contactsim.evaluation.robustness.rough import ROUGH
 from contactsim.evaluation.robustness.sliding import SLIDING
 from contactsim.evaluation.robustness.surfaces import SURFACES
 
+GROUPS = (LINES, SURFACES, ADHESIVE, ADHESIVE_SURFACES, ATTRACTING_WALLS, ROUGH, SLIDING)
 HAZARDS: dict[str, Callable[[float], Case | PathCase]] = {
-    hazard.__name__: hazard for hazard in (*LINES, *SURFACES, *ADHESIVE, *ADHESIVE_SURFACES, *ROUGH, *SLIDING)
+    hazard.__name__: hazard for group in GROUPS for hazard in group
 }
 
 

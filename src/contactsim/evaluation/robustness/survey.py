@@ -17,9 +17,9 @@ import xarray as xr
 from contactsim import dataset
 from contactsim.errors import InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
+from contactsim.evaluation.robustness import path_cases, wall_path_cases
 from contactsim.evaluation.robustness.judge import judge
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.evaluation.robustness.path_cases import BRANCH_SOLVER
 from contactsim.evaluation.robustness.registry import HAZARDS, describe_hazard
 from contactsim.provenance import digest
 from contactsim.solvers.registry import SOLVERS, make_solver, solver_class, solver_module
@@ -106,7 +106,9 @@ def robustness_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
 
 def hazard_job(robustness: Robustness, hazard: str) -> dict[str, Any]:
     """Return what the survey of one hazard depends on."""
-    modules = [solver_module(name) for name in (*robustness.solvers, BRANCH_SOLVER)]
+    modules = [
+        solver_module(name) for name in (*robustness.solvers, path_cases.BRANCH_SOLVER, wall_path_cases.BRANCH_SOLVER)
+    ]
     return {
         "hazard": hazard,
         "severities": robustness.severities,

@@ -28,6 +28,11 @@ LARGEST_RATIO, STIFFENING = 0.45, 4.0
 """Largest overlap after a correction, over the one before it; and factor of the stiffness where it is larger."""
 
 
+def fit_solver(solver: CohesiveSolver, problem: CohesiveProblem) -> CohesiveSolver:
+    """Return a solver of a problem: where a wall acts, the method of multipliers about the one given."""
+    return solver if problem.wall is None else Multipliers(solver)
+
+
 @dataclass(frozen=True)
 class Multipliers:
     """Method of multipliers about a solver of smooth laws.
