@@ -92,6 +92,7 @@ NOT_YET_SHOWN = {"rough_adhesive_surfaces"}
 NOT_YET_JUDGED = {
     *("surface_load_lower", "surface_nonlinear", "surface_gradient_whole", "surface_pull_off_growth"),
     *("profile_pull_off_growth", "surface_dissipation"),
+    *("area_at_attracting_wall", "area_at_attracting_wall_largest", "pressure_at_attracting_wall"),
 }
 """Findings of the same kind."""
 

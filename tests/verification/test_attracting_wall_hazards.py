@@ -39,7 +39,7 @@ def test_every_fault_of_a_state_is_found():
 
 def test_a_wall_that_pulls_and_one_that_is_passed_are_faults():
     case = attracting_wall_range(0)
-    problem, states = case.follow(make_solver("newton"))
+    _, states = case.follow(make_solver("newton"))
     step, displacement = states[-1].step, states[-1].displacement
     assert case.residual(step, displacement) < 1e-5
     deeper = replace(step, value=step.value + 0.1)  # the same displacement at a larger approach: all points overlap

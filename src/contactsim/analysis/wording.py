@@ -60,6 +60,7 @@ STUDY_PHRASES = {
     "rough_repulsive": "repulsion alone",
     "rough_stiff": "weak adhesion on stiff repulsion",
     "rough_wall": "hard wall",
+    "rough_attraction": "hard wall that attracts",
     "adhesive_surface": "adhesive rough surfaces",
     "adhesive_surface_wall": "surfaces at a hard wall",
     "adhesive_profile": "adhesive rough lines of the same spectrum",
