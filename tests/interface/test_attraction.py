@@ -79,5 +79,5 @@ def test_a_correction_leaves_the_pressure_of_points_whose_gap_is_zero():
     gap = np.array([0.0, 0.0, 0.1, -0.1])
     assert wall.corrected(gap).values == pytest.approx([0.0, 0.5, 0.3, 0.7])
     assert wall.corrected(gap, 4.0).stiffness == 8.0
-    assert wall.overlap(gap) == pytest.approx(0.1)
-    assert wall.overlap(np.array([3.0, 0.0, 0.3, 0.0])) == 0.0
+    assert wall.largest_gap(gap) == pytest.approx(0.1)
+    assert wall.largest_gap(np.array([3.0, 0.0, 0.3, 0.0])) == 0.0

@@ -22,7 +22,7 @@ def coarsen(problem: CohesiveProblem, points: int, tolerance: float) -> Cohesive
     if problem.slip_factor is not None:
         factor = np.where(np.arange(count) < count - 1, problem.slip_factor[:count], 0)
     stiffness = problem.stiffness.coarser(count)
-    wall = None if problem.wall is None else WallPressure.beside(stiffness.diagonal[0], points)
+    wall = None if problem.wall is None else WallPressure.zero(points, stiffness.diagonal[0], problem.law_stiffness)
     return replace(
         problem, grid=grid, shape=gap, stiffness=stiffness, slip_factor=factor, tolerance=tolerance, wall=wall
     )

@@ -21,7 +21,7 @@ solution."""
 
 
 FAR = 1e6
-"""Gap beyond the ends of heights that do not repeat, in the laws' length: no law reaches so far."""
+"""Gap beyond the ends of heights that do not repeat, in the longest length of a law: no law reaches so far."""
 
 
 def check_tolerance(tolerance: float, name: str = "tolerance") -> None:
@@ -37,7 +37,7 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
     Parameters
     ----------
     scene
-        Scene whose effects are all laws.
+        Scene of laws, with or without a hard wall beside them.
     heights
         Sum of both surfaces' heights (n,) or (ny, nx), nm.
     tolerance
@@ -55,10 +55,11 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
     law = scene.pairing.join(superpose(scene.acting_laws), lower, scene.length)
     own = Grid(heights.shape, scene.lengths, threads)
     grid, stiffness, slip_factor = _stiffness(scene, own)
-    undeformed = np.full(grid.shape, FAR * law.interaction_range - heights.min())
+    undeformed = np.full(grid.shape, FAR * _reach(scene) - heights.min())
     undeformed[tuple(slice(0, size) for size in own.shape)] = -heights
     shape = np.zeros((len(scene.components), grid.size))
     shape[0] = undeformed.ravel()
+    has_wall = Trait.ADHESIVE_WALL in scene.traits
     return CohesiveProblem(
         grid=grid,
         shape=shape,
@@ -70,8 +71,13 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
         counter=TransformCounter(grid.size),
         origin=scene.path.origin(heights),
         heights_grid=None if scene.repeats else own,
-        wall=WallPressure.beside(stiffness.diagonal[0], grid.size) if Trait.ADHESIVE_WALL in scene.traits else None,
+        wall=WallPressure.zero(grid.size, stiffness.diagonal[0], law.stiffness) if has_wall else None,
     )
+
+
+def _reach(scene: Scene) -> float:
+    """Return the longest length of a law, nm."""
+    return max(float(getattr(law, "normal_length", law.interaction_range)) for law in scene.acting_laws)
 
 
 def _stiffness(scene: Scene, grid: Grid) -> tuple[Grid, Symbol, Array | None]:

@@ -9,6 +9,7 @@ half-spaces that keep their volume: there a law that reads the tangential gap ha
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from typing import TypeGuard
@@ -17,7 +18,7 @@ import numpy as np
 
 from contactsim.contact.loading import LoadPath
 from contactsim.contact.problem_kind import ProblemKind
-from contactsim.contact.scene_checks import check_scene
+from contactsim.contact.scene_checks import check_effects, check_scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, Law, reads_slip
@@ -56,7 +57,7 @@ class Scene:
         Lower body; an elasticity stands for a flat body.
     upper : Body or Surface
         Upper body; a surface stands for a rigid body.
-    effects : Effect or tuple of Effect
+    effects : Effect or sequence of Effect
         A hard wall, laws whose tractions add, or both.
     path : LoadPath
         Load steps.
@@ -79,13 +80,14 @@ class Scene:
         self,
         lower: Body | Elasticity,
         upper: Body | Surface,
-        effects: Effect | tuple[Effect, ...],
+        effects: Effect | Sequence[Effect],
         path: LoadPath,
         pairing: Pairing = ALIGNED,
     ) -> None:
         upper_body = upper if isinstance(upper, Body) else Body(upper)
         lower_body = lower if isinstance(lower, Body) else Body(Flat.facing(upper_body.surface), lower)
-        acting = effects if isinstance(effects, tuple) else (effects,)
+        acting = tuple(effects) if isinstance(effects, (tuple, list)) else (effects,)
+        check_effects(acting)
         values = {"lower": lower_body, "upper": upper_body, "effects": acting, "path": path, "pairing": pairing}
         for name, value in values.items():
             object.__setattr__(self, name, value)  # a frozen dataclass

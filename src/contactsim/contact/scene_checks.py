@@ -23,6 +23,13 @@ DEEPEST_OVERLAP = 100.0
 """Overlap, in the laws' lengths, under which they bear any pressure that a scene may have."""
 
 
+def check_effects(effects: tuple[object, ...]) -> None:
+    """Raise InputError for an effect that is none, or a class of effects without its parameters."""
+    for effect in effects:
+        if isinstance(effect, type) or not all(hasattr(effect, name) for name in ("reads", "exerts", "traits")):
+            raise InputError("effects", effect, "effects such as HardWall() or NormalCohesiveZone(1.0)")
+
+
 def check_scene(scene: Scene) -> None:
     """Raise InputError for bodies, effects and paths that do not go together."""
     for check in CHECKS:
@@ -53,10 +60,12 @@ def _check_resistance(scene: Scene) -> None:
         raise InputError("effects", scene.effects, "also one that resists overlap, such as a hard wall")
     if walls and "t" in scene.components:
         raise InputError("effects", scene.effects, "laws of the normal gap alone beside a hard wall")
+    if len(walls) > 1:
+        raise InputError("effects", scene.effects, "one hard wall")
     for wall in walls:
         hardness = getattr(wall, "hardness", None)
         if hardness is not None:
-            raise InputError("hardness", hardness, "left out: yielding is told of hard walls alone")
+            raise InputError("hardness", hardness, "left out: yielding is not computed where laws act beside the wall")
 
 
 def _check_free_laws(scene: Scene) -> None:

@@ -18,8 +18,8 @@ def wall_pressure(problem: CohesiveProblem, gap: Array, traction: Array) -> Arra
 def contact_gap(problem: CohesiveProblem, gap: Array, traction: Array) -> Array:
     """Return the gap (n,), nm, of a state, negative in contact.
 
-    In contact with a wall it is minus the overlap at which a spring of the wall's stiffness has its pressure, so that
-    the edge of contact lies between points as it does with laws that overlap.
+    In contact with a wall it is minus the pressure over the wall's stiffness, as if the wall were a spring. So the edge
+    of contact lies between points, as it does with laws that overlap.
     """
     if problem.wall is None:
         return gap[0]

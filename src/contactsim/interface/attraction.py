@@ -7,10 +7,13 @@ from math import inf
 
 import numpy as np
 
-from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
+from contactsim.errors import InputError, is_positive, keep_floats
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.traits import Trait
+
+MIN_RAMP = 1e-3
+"""Narrowest fall of Dugdale's attraction, over its length."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,8 @@ class DugdaleAttraction:
     normal_length
         Gap δn up to which it acts, nm.
     ramp
-        Width of the fall over the length, 0 < r ≤ 1. A narrower one needs finer grids.
+        Width of the fall over the length, from 0.001 to 1. It is the law's length for tolerances and jumps; a narrower
+        one needs finer grids and shorter steps.
 
     References
     ----------
@@ -101,8 +105,8 @@ class DugdaleAttraction:
     def __post_init__(self) -> None:
         check_positive("N/m", work_of_separation=self.work_of_separation)
         check_positive("nm", normal_length=self.normal_length)
-        if not (is_positive(self.ramp) and self.ramp <= 1):
-            raise InputError("ramp", self.ramp, f"{POSITIVE}, at most 1, in parts of the length")
+        if not (is_positive(self.ramp) and MIN_RAMP <= self.ramp <= 1):
+            raise InputError("ramp", self.ramp, f"at least {MIN_RAMP:g} and at most 1, in parts of the length")
         keep_floats(self)
 
     @property

@@ -18,9 +18,9 @@ import numpy as np
 
 from contactsim.grid import Array
 
-RELATIVE_STIFFNESS = 0.5
-"""Stiffness by which overlap corrects the pressure, over the largest one of the bodies. A larger one needs
-fewer corrections, and more iterations for each."""
+BODY_RATIO, LAW_RATIO = 0.5, 3.0
+"""Least stiffness by which overlap corrects the pressure, over the largest one of the bodies, and over that of the
+laws, which pull the wall's springs apart. A larger one needs fewer corrections, and more iterations for each."""
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,13 @@ class WallPressure:
     stiffness: float
 
     @classmethod
-    def beside(cls, body_stiffness: Array, points: int) -> WallPressure:
-        """Return no pressure on a number of points, beside bodies of a stiffness (GPa/nm) at each wavenumber."""
-        return cls(np.zeros(points), RELATIVE_STIFFNESS * float(body_stiffness.max()))
+    def zero(cls, points: int, body_stiffness: Array, law_stiffness: float) -> WallPressure:
+        """Return no pressure on a number of points.
+
+        body_stiffness, law_stiffness: of the bodies at each wavenumber and of the laws, GPa/nm
+        """
+        stiffness = max(BODY_RATIO * float(body_stiffness.max()), LAW_RATIO * law_stiffness)
+        return cls(np.zeros(points), stiffness)
 
     def push(self, gap: Array) -> Array:
         """Return the pressure (n,), GPa, with which the wall pushes at a gap (n,), nm."""
@@ -59,6 +63,6 @@ class WallPressure:
         """
         return WallPressure(self.push(gap), stiffening * self.stiffness)
 
-    def overlap(self, gap: Array) -> float:
-        """Return the largest size of a gap (n,), nm, where the wall pushes: how far it is from zero in contact."""
+    def largest_gap(self, gap: Array) -> float:
+        """Return the largest size, or overlap, of a gap (n,), nm, where the wall pushes."""
         return float(np.abs(gap).max(where=self.push(gap) > 0, initial=0.0))

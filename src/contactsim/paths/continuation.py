@@ -13,7 +13,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
-from contactsim.contact.wall import hold_wall
+from contactsim.contact.wall import hold_wall, is_beyond_closure
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
 from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
@@ -155,9 +155,7 @@ class Continuation:
 
         A symmetric state, such as that of flat surfaces, exists before, after and while it is unstable.
         """
-        if self.current is None:
-            return False
-        return self._grows(self.at(step), self.current[1], state)
+        return self.current is not None and self._grows(self.at(step), self.current[1], state)
 
     def _grows(self, here: CohesiveProblem, *states: Equilibrium) -> bool:
         """Return True if a small displacement grows on its own at the mean of states."""
@@ -190,14 +188,14 @@ class Continuation:
     def advance(self, step: LoadStep) -> PathState:
         """Return the state at the next step of the path, found by continuation or else by flow."""
         counter, here = self.problem.counter, self.at(step)
-        if self._failures == MAX_FAILURES:
-            return PathState(step, here, self.displacement, Status.SKIPPED, np.nan, 0.0, 0, 0.0)
+        if self._failures == MAX_FAILURES or is_beyond_closure(here):  # the path may come back from beyond closure
+            status = Status.SKIPPED if self._failures == MAX_FAILURES else Status.NO_EQUILIBRIUM
+            return PathState(step, here, self.displacement, status, np.nan, 0.0, 0, 0.0)
         before = counter.transforms
         state, jumps, iterations = self.advance_to(step)
         is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE, Status.NO_REST)
         self._failures = 0 if state.is_stable else MAX_FAILURES if is_final else self._failures + 1
-        cost = counter.transforms - before
-        distance = sum(jump.distance for jump in jumps)
+        distance, cost = sum(jump.distance for jump in jumps), counter.transforms - before
         numbers = state.status, state.residual, distance, iterations, cost
         return PathState(step, here, state.displacement, *numbers, state, jumps)
 
@@ -248,6 +246,5 @@ class Continuation:
 
     def _is_minor(self, step: LoadStep, increment: float, state: Equilibrium) -> bool:
         """Return True if the flow to a state passed no jump worth locating."""
-        if self.current is None or not state.is_stable:
-            return False
-        return self.jumps.is_minor(step, abs(increment), self.current[1], state)
+        last = self.current
+        return last is not None and state.is_stable and self.jumps.is_minor(step, abs(increment), last[1], state)

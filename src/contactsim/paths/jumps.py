@@ -128,7 +128,8 @@ class JumpCriterion:
     def is_minor(self, step: LoadStep, increment: float, before: Equilibrium, after: Equilibrium) -> bool:
         """Return True if there is no jump worth locating on a step: none at all, or that of one contact among many.
 
-        On approach alone, and for steps no longer than the laws' length.
+        On approach alone, and for steps no longer than the laws' length. Beside a hard wall, steps of a load are taken
+        whole: how far they move a surface that the wall pushes is not known before.
 
         Parameters
         ----------
@@ -139,6 +140,8 @@ class JumpCriterion:
         before, after
             The last state, and the one that the flow reaches from it.
         """
+        if step.control is Trait.MEAN_PRESSURE and self.problem.wall is not None:
+            return True
         if step.control is not Trait.APPROACH or increment > self.problem.interaction_range * (1 + ROUNDING):
             return False
         ratio = CALM_RATIO if self.problem.wall is None else 1 + CALM_RATIO

@@ -43,11 +43,14 @@ class Segment:
         weights = lagrange_weights(parameters, parameter)
         gap = combine(weights, [state.gap for state in states])
         elastic = combine(weights, [state.traction for state in states])
-        traction = hold_wall(problem, gap, elastic).traction(gap)
+        held = hold_wall(problem, gap, elastic)
+        traction = held.traction(gap)
         error = traction - elastic
         error[problem.fixed_modes] -= error[problem.fixed_modes].mean(axis=1, keepdims=True)
         inherited = sum(abs(weight) * state.residual for weight, state in zip(weights, states, strict=True))
         residual = float(np.abs(error).max() / problem.strength) + inherited
+        if held.wall is not None:
+            residual = max(residual, held.wall.largest_gap(gap[0]) / problem.interaction_range)
         status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
         displacement = combine(weights, [state.displacement for state in states])
         return Equilibrium(displacement, gap, traction, status, residual, 0.0, 0)

@@ -15,17 +15,16 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.wall import balance_wall, is_beyond_closure
 from contactsim.grid import Array
-from contactsim.interface.wall_pressure import WallPressure
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-LEEWAY = 2.0
+SEARCH_RATIO = 2.0
 """Change from a guess that the solver is allowed, over the largest one of use. A guess may leave a large residual in
 contact, where gaps must be zero, and yet be near a state; so the solver must not judge it by the residual."""
 
 LARGEST_RATIO, STIFFENING = 0.45, 4.0
-"""Largest overlap after a correction, over the one before it; and factor of the stiffness where it is larger."""
+"""Largest gap in contact after a correction, over the one before it; and factor of the stiffness where it is larger."""
 
 
 def fit_solver(solver: CohesiveSolver, problem: CohesiveProblem) -> CohesiveSolver:
@@ -81,7 +80,7 @@ class Multipliers:
         if is_beyond_closure(problem):
             return _no_state(problem, guess)
         near = balance_wall(problem, guess)
-        state = self.solver.solve_near(near, guess, memory, LEEWAY * within)
+        state = self.solver.solve_near(near, guess, memory, SEARCH_RATIO * within)
         return self._correct(near, state, guess, memory, follows_flow=False)
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
@@ -100,28 +99,20 @@ class Multipliers:
         follows_flow: True to let the bodies move on where a correction ends a branch
         """
         iterations, allowed, before = state.iterations, near.tolerance * near.interaction_range, np.inf
-        for _ in range(self.budget):
-            overlap = _wall(near).overlap(state.gap[0])
-            if not state.is_stable or overlap <= allowed:
+        wall, count = near.wall, 0
+        while wall is not None and state.is_stable and (gap := wall.largest_gap(state.gap[0])) > allowed:
+            if count == self.budget:
+                state = replace(state, status=Status.MAX_ITERATIONS)
                 break
-            stiffening = 1.0 if overlap <= LARGEST_RATIO * before else STIFFENING
-            near, before = replace(near, wall=_wall(near).corrected(state.gap[0], stiffening)), overlap
-            here = state.displacement
+            wall = wall.corrected(state.gap[0], 1.0 if gap <= LARGEST_RATIO * before else STIFFENING)
+            near, before, count, here = replace(near, wall=wall), gap, count + 1, state.displacement
             state = self.solver.solve_near(near, here, memory)
             iterations += state.iterations
             if follows_flow and not state.is_stable:
                 state = self.solver.flow_from(near, here)
                 iterations += state.iterations
-        else:
-            state = replace(state, status=Status.MAX_ITERATIONS)
         change = largest_change(near, state.displacement - start, self.trust_radius * near.interaction_range)
         return replace(state, largest_change=change, iterations=iterations)
-
-
-def _wall(problem: CohesiveProblem) -> WallPressure:
-    """Return the wall of a problem that has one."""
-    assert problem.wall is not None
-    return problem.wall
 
 
 def _no_state(problem: CohesiveProblem, displacement: Array) -> Equilibrium:
