@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
+
+if TYPE_CHECKING:
+    from contactsim.contact.cohesive import CohesiveProblem
 
 
 def wall_pressure(problem: CohesiveProblem, gap: Array, traction: Array) -> Array:
