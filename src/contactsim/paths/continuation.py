@@ -30,7 +30,7 @@ BOND_LENGTH = 3.0
 MAX_HALVINGS = 8
 """Largest number of times that a step, or a part of it, is halved."""
 MAX_RESTLESS = 2
-"""Motions that do not come to rest, after which a step has no state, and the path ends."""
+"""Motions that do not come to rest, after which a step has no state."""
 MAX_FAILURES = 3
 """Steps in a row without a solution, each sought from the last stable state, after which a path ends."""
 
@@ -193,7 +193,7 @@ class Continuation:
             return PathState(step, here, self.displacement, status, np.nan, 0.0, 0, 0.0)
         before = counter.transforms
         state, jumps, iterations = self.advance_to(step)
-        is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE, Status.NO_REST)
+        is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)
         self._failures = 0 if state.is_stable else MAX_FAILURES if is_final else self._failures + 1
         distance, cost = sum(jump.distance for jump in jumps), counter.transforms - before
         numbers = state.status, state.residual, distance, iterations, cost
