@@ -159,7 +159,7 @@ class Continuation:
 
     def _grows(self, here: CohesiveProblem, *states: Equilibrium) -> bool:
         """Return True if a small displacement grows on its own at the mean of states."""
-        gap, traction = (sum(rows) / len(states) for rows in zip(*((s.gap, s.traction) for s in states), strict=True))
+        gap, traction = (np.mean([getattr(state, name) for state in states], 0) for name in ("gap", "traction"))
         tangent = hold_wall(here, gap, traction).tangent(gap)[1]
         return find_growth(tangent, ZonePreconditioner(here, tangent)) is not None
 

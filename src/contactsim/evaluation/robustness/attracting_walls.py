@@ -47,8 +47,8 @@ def attracting_wall_range(severity: float) -> WallPathCase:
     return WallPathCase(_pressed(law, path, surface), POINTS, parts=4, begin=touch - length)
 
 
-def attracting_wall_load(severity: float) -> WallPathCase:
-    """The pressure at a hard wall rises from that of attraction to a hundred times its strength."""
+def attracting_wall_strength(severity: float) -> WallPathCase:
+    """The attraction of a hard wall gets weaker beside the same pressures, to a hundredth of its strength."""
     surface = _rough(3.0)
     touch = -float(surface.heights(POINTS).max())
     law = ExponentialAttraction(0.02 * 10 ** (-severity / 50))
@@ -63,5 +63,5 @@ def attracting_wall_fill(severity: float) -> WallPathCase:
     return WallPathCase(_pressed(law, path, _rough(2.0), body), POINTS, parts=4, begin=-4.0)
 
 
-ATTRACTING_WALLS = (attracting_wall_sphere, attracting_wall_range, attracting_wall_load, attracting_wall_fill)
+ATTRACTING_WALLS = (attracting_wall_sphere, attracting_wall_range, attracting_wall_strength, attracting_wall_fill)
 """In the order of the map."""

@@ -59,8 +59,8 @@ class Equilibrium:
         return self.status is Status.CONVERGED and not self.unstable
 
 
-class CohesiveSolver(Solver, Protocol):
-    """A method that finds equilibria of cohesive problems along a load path."""
+class EquilibriumFinder(Protocol):
+    """What finds equilibria of cohesive problems along a load path."""
 
     @property
     def uses_guess(self) -> bool:
@@ -96,6 +96,10 @@ class CohesiveSolver(Solver, Protocol):
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """Return the equilibrium that the overdamped flow reaches from a displacement (exerted, m), nm."""
+
+
+class CohesiveSolver(Solver, EquilibriumFinder, Protocol):
+    """A method that finds equilibria, with what a scene needs to know of it."""
 
 
 def status_of(residual: float, problem: CohesiveProblem) -> Status:

@@ -15,9 +15,8 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.wall import balance_wall, is_beyond_closure
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
+from contactsim.solvers.cohesive.base import Equilibrium, EquilibriumFinder, largest_change
 from contactsim.status import Status
-from contactsim.traits import Trait
 
 SEARCH_RATIO = 2.0
 """Change from a guess that the solver is allowed, over the largest one of use. A guess may leave a large residual in
@@ -27,7 +26,7 @@ LARGEST_RATIO, STIFFENING = 0.45, 4.0
 """Largest gap in contact after a correction, over the one before it; and factor of the stiffness where it is larger."""
 
 
-def fit_solver(solver: CohesiveSolver, problem: CohesiveProblem) -> CohesiveSolver:
+def fit_solver(solver: EquilibriumFinder, problem: CohesiveProblem) -> EquilibriumFinder:
     """Return a solver of a problem: where a wall acts, the method of multipliers about the one given."""
     return solver if problem.wall is None else Multipliers(solver)
 
@@ -44,39 +43,25 @@ class Multipliers:
         Largest number of estimates.
     """
 
-    solver: CohesiveSolver
+    solver: EquilibriumFinder
     budget: int = 30
 
     @property
-    def accepts(self) -> frozenset[Trait]:
-        """Traits of the scenes that it can solve."""
-        return self.solver.accepts
-
-    @property
-    def fields(self) -> float:
-        """Memory at its peak; see `Solver`."""
-        return self.solver.fields
-
-    @property
     def uses_guess(self) -> bool:
-        """True where the solver uses a guess; see `CohesiveSolver`."""
+        """True where the solver uses a guess; see `EquilibriumFinder`."""
         return self.solver.uses_guess
 
     @property
     def trust_radius(self) -> float:
-        """Trust radius of the solver; see `CohesiveSolver`."""
+        """Trust radius of the solver; see `EquilibriumFinder`."""
         return self.solver.trust_radius
-
-    def transforms(self, points: int) -> float:
-        """Return the real transforms of an iteration; see `Solver`."""
-        return self.solver.transforms(points)
 
     def new_memory(self) -> Any:
         """Return an empty memory of the solver."""
         return self.solver.new_memory()
 
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: Any, within: float = np.inf) -> Equilibrium:
-        """Return the equilibrium near a guess; see `CohesiveSolver`."""
+        """Return the equilibrium near a guess; see `EquilibriumFinder`."""
         if is_beyond_closure(problem):
             return _no_state(problem, guess)
         near = balance_wall(problem, guess)
@@ -84,7 +69,7 @@ class Multipliers:
         return self._correct(near, state, guess, memory, follows_flow=False)
 
     def flow_from(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
-        """Return the equilibrium that a slow motion reaches from a displacement; see `CohesiveSolver`."""
+        """Return the equilibrium that a slow motion reaches from a displacement; see `EquilibriumFinder`."""
         if is_beyond_closure(problem):
             return _no_state(problem, start)
         near = balance_wall(problem, start)
