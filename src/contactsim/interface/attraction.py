@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 
 import numpy as np
 
-from contactsim.errors import InputError, is_positive, keep_floats
+from contactsim.errors import InputError, is_positive
 from contactsim.grid import Array
-from contactsim.interface.base import check_positive
-from contactsim.traits import Trait
+from contactsim.interface.normal_law import NormalLaw
 
 MIN_RAMP = 1e-3
 """Narrowest fall of Dugdale's attraction, over its length."""
 
 
 @dataclass(frozen=True)
-class ExponentialAttraction:
+class ExponentialAttraction(NormalLaw):
     """Attraction that decays exponentially with the gap, for use beside a hard wall.
 
     The traction is φn/δn exp(-Δn/δn) where the gap is open. Its work of separation is φn, from contact to far apart.
@@ -30,32 +28,10 @@ class ExponentialAttraction:
         Characteristic length δn, nm.
     """
 
-    work_of_separation: float
-    normal_length: float = 1.0
-    reads = frozenset({"n"})
-    exerts = frozenset({"n"})
-    traits = frozenset({Trait.SMOOTH})
-    tangential_length = inf
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("nm", normal_length=self.normal_length)
-        keep_floats(self)
-
     @property
     def strength(self) -> float:
         """Traction φn/δn in contact, GPa."""
         return self.work_of_separation / self.normal_length
-
-    @property
-    def stiffness(self) -> float:
-        """Size of the tangent φn/δn² in contact, GPa/nm."""
-        return self.work_of_separation / self.normal_length**2
-
-    @property
-    def interaction_range(self) -> float:
-        """Length over which the traction changes, nm."""
-        return self.normal_length
 
     def traction(self, gap: Array) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm; that of contact under overlap."""
@@ -73,7 +49,7 @@ class ExponentialAttraction:
 
 
 @dataclass(frozen=True)
-class DugdaleAttraction:
+class DugdaleAttraction(NormalLaw):
     """Constant attraction up to a gap, for use beside a hard wall: the model of Maugis and Dugdale.
 
     The traction is φn/δn up to a gap of δn (1 - r/2) and zero from δn (1 + r/2) on. Between them it falls along a cubic
@@ -94,20 +70,12 @@ class DugdaleAttraction:
     D. Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
     """
 
-    work_of_separation: float
-    normal_length: float = 1.0
     ramp: float = 0.2
-    reads = frozenset({"n"})
-    exerts = frozenset({"n"})
-    traits = frozenset({Trait.SMOOTH})
-    tangential_length = inf
 
     def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("nm", normal_length=self.normal_length)
         if not (is_positive(self.ramp) and MIN_RAMP <= self.ramp <= 1):
             raise InputError("ramp", self.ramp, f"at least {MIN_RAMP:g} and at most 1, in parts of the length")
-        keep_floats(self)
+        super().__post_init__()
 
     @property
     def strength(self) -> float:

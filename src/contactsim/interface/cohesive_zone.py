@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.exponentials import MAX_OVERLAP, MAX_SLIP, decay, pull
+from contactsim.interface.normal_law import NormalLaw
 from contactsim.traits import Trait
 
 
@@ -138,7 +138,7 @@ class CohesiveZone:
 
 
 @dataclass(frozen=True)
-class NormalCohesiveZone:
+class NormalCohesiveZone(NormalLaw):
     """Cohesive zone of the normal gap alone (Eq. 4.1). It has a potential.
 
     Parameters
@@ -149,32 +149,10 @@ class NormalCohesiveZone:
         Characteristic length δn, nm.
     """
 
-    work_of_separation: float
-    normal_length: float = 1.0
-    reads = frozenset({"n"})
-    exerts = frozenset({"n"})
-    traits = frozenset({Trait.SMOOTH})
-    tangential_length = inf
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("nm", normal_length=self.normal_length)
-        keep_floats(self)
-
     @property
     def strength(self) -> float:
         """Largest traction φn/(e δn), GPa."""
         return float(self.work_of_separation / self.normal_length / np.e)
-
-    @property
-    def stiffness(self) -> float:
-        """Tangent at zero gap φn/δn², GPa/nm."""
-        return self.work_of_separation / self.normal_length**2
-
-    @property
-    def interaction_range(self) -> float:
-        """Length over which the traction changes, nm."""
-        return self.normal_length
 
     def traction(self, gap: Array) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm."""

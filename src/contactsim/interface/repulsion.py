@@ -16,11 +16,12 @@ from contactsim.errors import keep_floats
 from contactsim.grid import Array
 from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.interface.normal_law import NormalLaw
 from contactsim.traits import Trait
 
 
 @dataclass(frozen=True)
-class RepulsiveZone:
+class RepulsiveZone(NormalLaw):
     """Eq. 5.3 without its pull: the normal traction under overlap, and zero where the gap is open.
 
     The tangent jumps from φn/δn² to zero at zero gap. Strength, stiffness and range are those of the law with its pull,
@@ -34,18 +35,6 @@ class RepulsiveZone:
         Characteristic length δn, nm.
     """
 
-    work_of_separation: float
-    normal_length: float = 1.0
-    reads = frozenset({"n"})
-    exerts = frozenset({"n"})
-    traits = frozenset({Trait.SMOOTH})
-    tangential_length = inf
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("nm", normal_length=self.normal_length)
-        keep_floats(self)
-
     @cached_property
     def _whole(self) -> NormalCohesiveZone:
         """The law with its pull."""
@@ -55,16 +44,6 @@ class RepulsiveZone:
     def strength(self) -> float:
         """Largest traction φn/(e δn) of the law with its pull, GPa."""
         return self._whole.strength
-
-    @property
-    def stiffness(self) -> float:
-        """Tangent φn/δn² where overlap begins, GPa/nm."""
-        return self._whole.stiffness
-
-    @property
-    def interaction_range(self) -> float:
-        """Length over which the traction changes, nm."""
-        return self.normal_length
 
     def traction(self, gap: Array) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm."""

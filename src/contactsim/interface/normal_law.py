@@ -1,0 +1,45 @@
+"""What laws of the normal gap alone have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+from contactsim.errors import keep_floats
+from contactsim.interface.base import check_positive
+from contactsim.traits import Trait
+
+
+@dataclass(frozen=True)
+class NormalLaw:
+    """A work of separation and a length, and what follows from them.
+
+    Parameters
+    ----------
+    work_of_separation
+        Work of separation φn > 0, N/m.
+    normal_length
+        Characteristic length δn, nm.
+    """
+
+    work_of_separation: float
+    normal_length: float = 1.0
+    reads = frozenset({"n"})
+    exerts = frozenset({"n"})
+    traits = frozenset({Trait.SMOOTH})
+    tangential_length = inf
+
+    def __post_init__(self) -> None:
+        check_positive("N/m", work_of_separation=self.work_of_separation)
+        check_positive("nm", normal_length=self.normal_length)
+        keep_floats(self)
+
+    @property
+    def stiffness(self) -> float:
+        """Size of the tangent φn/δn² at zero gap, GPa/nm."""
+        return self.work_of_separation / self.normal_length**2
+
+    @property
+    def interaction_range(self) -> float:
+        """Length over which the traction changes, nm."""
+        return self.normal_length
