@@ -14,14 +14,8 @@ from contactsim import cli, dataset
 from contactsim.error_control import control, options
 from contactsim.error_control.control import Controlled, estimate_errors, solve_to_error
 from contactsim.error_control.forecast import forecast_run, forecast_setup, forecast_to_error
-from contactsim.error_control.options import (
-    GRID_FACTORS,
-    MIN_POINTS,
-    choose_options,
-    coarsen,
-    expect_error,
-    round_grid,
-)
+from contactsim.error_control.grids import GRID_FACTORS, MIN_POINTS, round_grid
+from contactsim.error_control.options import choose_options, coarsen, expect_error
 from contactsim.error_control.relations import Relation, scaling_relations
 from contactsim.error_control.scaling import (
     FAMILIES,
@@ -152,14 +146,11 @@ def test_the_choice_does_not_depend_on_the_grid_and_increments_that_a_run_has():
 
 
 def test_what_was_not_measured_is_refused():
-    wave = LINE_SCENE | {"surface": {"kind": "sinusoid", "length": 1.0, "amplitude": 0.1}}
-    with refused("surface", "are not known"):
-        study(wave)
     with refused("accuracy.quantities", "relative_contact_area"):
         study(LINE_SCENE, accuracy={"error": 0.1, "quantities": ["pull_off_load_loading"]})
     with refused("accuracy", "grid points are enough"):
         study(LINE_SCENE, accuracy=1e-16)
-    with refused("path", "loads"):
+    with refused("path", "needs loads above zero"):
         study({name: value for name, value in LINE_SCENE.items() if name != "load"}, path={"approach": [0.0, 1.0]})
 
 

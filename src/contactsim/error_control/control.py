@@ -25,6 +25,7 @@ from contactsim.error_control.options import SAFETY, choose_options, coarsen, ex
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
+from contactsim.error_control.stepwise import has_relations, solve_stepwise
 from contactsim.grid import Array
 from contactsim.paths.options import Setup
 
@@ -119,6 +120,9 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     first = choose_options(setup, error, quantities)
     if is_measured(first.scene):
         return _solve_measured(first, error, quantities)
+    if not has_relations(first.scene):
+        (*before, last), errors = solve_stepwise(first, error, quantities)
+        return Controlled(last, before, errors, error)
     name_of_family = scene_family(first.scene)
     family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
     companion = COMPANIONS[setup.scene.kind](coarsen(first))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from contactsim.contact.scene import Scene
+from contactsim.error_control.grids import MIN_POINTS, choose_grid
 from contactsim.error_control.knobs import KNOBS, solve_relations
 from contactsim.error_control.measured import choose_measured, is_measured, sample_every_second
 from contactsim.error_control.relations import Family, scaling_relations
@@ -23,25 +23,17 @@ from contactsim.error_control.scaling import (
     SURFACE,
     features,
     scene_family,
-    shortest_wavelength,
 )
+from contactsim.error_control.stepwise import begin_stepwise, has_relations
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 
 SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}
 """Part of an error that the grid is chosen for: less where scenes of a family differ more from their relation."""
-GRID_FACTORS = (8, 9, 10, 12, 15)
-"""Points of a grid are one of these times a power of two: short transforms, and blocks of eight."""
-MIN_POINTS = 16
-"""Least points of a grid; a run has twice as many, as its coarse companion has fewer."""
-MAX_POINTS = 2**28
-"""Most points of a grid that a wanted error may lead to."""
 COARSE_INCREMENT_RATIO = 3.0
 """Increments of a coarse companion, over those of its run."""
 COARSE_GRID_RATIOS = {LINE: 5.0}
 """Ratio of the grid that is expected to be needed to the companion's, where it is not three."""
-POINTS_PER_WAVE = 2.5
-"""Least points for each shortest wavelength."""
 
 
 def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Setup:
@@ -69,6 +61,8 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     scene = setup.scene
     if is_measured(scene):
         return choose_measured(setup, quantities)
+    if not has_relations(scene):
+        return begin_stepwise(setup, error, quantities)
     name_of_family = scene_family(scene)
     family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
     for name in names:
@@ -87,28 +81,6 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     points = choose_grid(scene, max(scene.length / spacing, 2 * MIN_POINTS), error)
     setup = knobs.choose_tolerance(setup.with_options(points=points), family, names, error)
     return knobs.suit_grid(setup)
-
-
-def round_grid(points: float) -> int:
-    """Return the smallest grid with that many points that has short transforms."""
-    exponent = max(math.ceil(math.log2(max(points, MIN_POINTS) / GRID_FACTORS[-1])), 0)
-    sizes = [factor * 2**power for factor in GRID_FACTORS for power in range(exponent + 2)]
-    return min(size for size in sizes if size >= max(points, MIN_POINTS))
-
-
-def choose_grid(scene: Scene, points: float, error: float) -> int:
-    """Return a grid of about that many points which resolves the surface.
-
-    Raises
-    ------
-    InputError
-        Where it has more than `MAX_POINTS` points in all; `error` is named as the cause.
-    """
-    surface = scene.upper.surface
-    points = max(points, POINTS_PER_WAVE * scene.length / shortest_wavelength(scene))
-    if not math.prod(surface.shape(round_grid(min(points, MAX_POINTS)))) <= MAX_POINTS or points > MAX_POINTS:
-        raise InputError("accuracy", error, f"an error for which {MAX_POINTS:.2g} grid points are enough")
-    return round_grid(points)
 
 
 def set_grid(setup: Setup, points: float, error: float = 0.0) -> Setup:

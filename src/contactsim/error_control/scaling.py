@@ -78,12 +78,6 @@ def _radius(scene: Scene) -> float:
     return surface.radius
 
 
-def shortest_wavelength(scene: Scene) -> float:
-    """Return the shortest wavelength (nm) of the surface; infinite for a round one."""
-    surface = _rough_surface(scene)
-    return np.inf if surface is None else surface.effective_short_cutoff
-
-
 def _load_family(scene: Scene, rough: bool) -> str:
     """Return the family of loads at a hard wall."""
     if Trait.APPROACH in scene.traits:
