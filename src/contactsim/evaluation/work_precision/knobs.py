@@ -20,7 +20,7 @@ from contactsim.observables.dataset_forms import AVERAGED, form_of
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLE
 from contactsim.observables.linearity import AREA_LOAD
-from contactsim.observables.path_summary import SUMMARY
+from contactsim.observables.path_summary import SUMMARY, SURFACE_SUMMARY
 from contactsim.status import is_solved
 from contactsim.study.kinds import study_kind
 from contactsim.study.reading import Key, listed, positive, read, whole
@@ -115,7 +115,7 @@ class WholePath:
     """A path of smooth laws as a whole, every increment solved as it is asked for; names as those of `SingleLoads`."""
 
     knobs: tuple[str, ...] = (*SingleLoads.knobs, "increment")
-    quantities: tuple[str, ...] = (*SUMMARY, *CYCLE, *AREA_LOAD)
+    quantities: tuple[str, ...] = tuple(dict.fromkeys((*SUMMARY, *SURFACE_SUMMARY, *CYCLE, *AREA_LOAD)))
     unused_keys = {
         "load": "no such key: the study follows a path, which is priced whole",
         "tangential_cutoff": "no such key: the study does not slide",
