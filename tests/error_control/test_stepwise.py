@@ -25,7 +25,6 @@ from contactsim.error_control.stepwise import (
     known_quantities,
     usual_quantities,
 )
-from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 from support.cases import refused
@@ -123,9 +122,9 @@ def test_the_first_grid_has_a_few_points_for_the_shortest_length():
     assert choose_options(Setup(sharp), 0.01).points > 2 * choose_options(Setup(SCENES["sphere"]), 0.01).points
 
 
-def test_approaches_are_followed_adaptively_and_loads_one_by_one():
+def test_every_increment_of_a_path_is_solved():
     pressed, loaded = (begin_stepwise(Setup(SCENES[name]), 0.01, ()) for name in ("sphere", "load"))
-    assert pressed.options.increments == Adaptive()
+    assert pressed.options.increments == Requested()
     assert pressed.scene.path.increment == 1.0
     assert loaded.options.increments == Requested()
     assert len(loaded.scene.path.steps) == FIRST_STEPS

@@ -26,8 +26,6 @@ from contactsim.grid import Array
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLES
 from contactsim.observables.path_summary import SUMMARIES
-from contactsim.paths.adaptive import Adaptive
-from contactsim.paths.increments import Increments
 from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 from contactsim.status import process_zone
@@ -95,7 +93,8 @@ def begin_stepwise(setup: Setup, error: float, quantities: Sequence[str]) -> Set
     setup = setup if increment is None else setup.with_increment(increment)
     points = choose_grid(scene, scene.length / _first_spacing(scene, error), error)
     tolerance = min(MAX_TOLERANCE, TOLERANCE_SHARE * error)
-    return setup.with_options(points=points, tolerance=tolerance, increments=_increments(scene))
+    increments = None if scene.kind is ProblemKind.HARD_WALL else Requested()  # adaptive ones locate every jump
+    return setup.with_options(points=points, tolerance=tolerance, increments=increments)
 
 
 def usual_quantities(scene: Scene) -> tuple[str, ...]:
@@ -198,11 +197,3 @@ def _first_increment(scene: Scene) -> float | None:
     if path.steps[-1].control is Trait.MEAN_PRESSURE and not scene.sliding:
         return sum(abs(after - before) for before, after in itertools.pairwise(path.turning_points)) / FIRST_STEPS
     return FIRST_RANGE * shortest_range(scene)
-
-
-def _increments(scene: Scene) -> Increments | None:
-    """Return how the path is followed: adaptively where it is one of approaches; None at a hard wall."""
-    if scene.kind is ProblemKind.HARD_WALL:
-        return None
-    is_pressed = not scene.sliding and scene.path.steps[0].control is Trait.APPROACH
-    return Adaptive() if is_pressed else Requested()
