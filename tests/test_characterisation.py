@@ -133,7 +133,7 @@ def test_the_command_tells_what_it_repaired_and_what_it_cannot_read(tmp_path, ca
     main(["press", str(tmp_path / "scan.npy"), *loads, "--fill", "linear", "--spikes", "8", "--ends", "mirror"])
     text = capsys.readouterr().out
     assert "38 × 38 points on 38 × 76 nm" in text
-    assert "0.25% of the points filled; 0.25% of the points replaced as spikes" in text
+    assert "0.25% of the points filled, 0.25% of the points replaced as spikes" in text
     for options, message in (
         ([], "fill"),
         (["--fill", "linear", "--figure", "contact.jpg"], "--figure: got 'contact.jpg'"),
@@ -172,6 +172,66 @@ def test_the_gradient_of_periodic_heights_has_the_step_between_their_ends():
     assert periodic == pytest.approx(np.sqrt((31 + 31**2) / 32))
 
 
-def test_other_options_of_press_are_refused():
-    with refused("other", "periodic"):
-        cs.characterise(cs.Topography(rough(64), 1.0), contact_modulus=1.0, mean_pressures=[0.1], other=rough(64))
+@pytest.mark.parametrize("periodic", [True, False])
+def test_two_scans_are_pressed_as_the_sum_of_their_heights(periodic):
+    first, second = surface(), cs.Topography(np.roll(surface().values, 5, 0), surface().spacing)
+    moved = np.roll(second.values, (3, -2), (0, 1))
+    both = cs.Topography(first.values + moved, first.spacing)
+    if not periodic:
+        both = cs.Topography(first.values[3:, :-2] + second.values[:-3, 2:], first.spacing)
+    options = {"contact_modulus": 1.0, "mean_pressures": LOADS, "periodic": periodic}
+    pair, single = cs.characterise(first, second, offset=(3, -2), **options), cs.characterise(both, **options)
+    xr.testing.assert_equal(pair, single)
+
+
+def test_the_conductance_of_each_load_follows_from_its_stiffness_and_has_its_relative_error():
+    data = cs.characterise(
+        surface(), contact_modulus=2.0, mean_pressures=LOADS, conductivities=(400.0, np.inf), periodic=True
+    )
+    assert data.contact_conductance.values == pytest.approx(2 * data.contact_stiffness.values * 400 / 2.0)
+    error = data.contact_conductance_grid_error / data.contact_conductance
+    assert error.values == pytest.approx((data.contact_stiffness_grid_error / data.contact_stiffness).values)
+    assert data.contact_conductance.units == "W/(m K nm)"
+
+
+def test_the_second_scan_and_its_place_are_checked():
+    def press(*others, **options):
+        cs.characterise(surface(), *others, contact_modulus=1.0, mean_pressures=[0.1], **options)
+
+    with refused("other", "a Topography"):
+        press(rough(64))
+    with refused("offset", "none without"):
+        press(offset=(1, 1))
+    with refused("other", "that of heights"):
+        press(cs.Topography(rough(64), 3.0), periodic=True)
+    with refused("conductivities", "a pair of positive numbers"):
+        press(conductivities=(1.0, -1.0))
+    with refused("spacing", "periodic"):
+        press(spacing=1.0)
+
+
+def test_the_command_presses_two_scans_that_repeat_and_tells_their_conductance(tmp_path, capsys):
+    heights = surface().values
+    np.save(tmp_path / "one.npy", heights)
+    np.save(tmp_path / "two.npy", heights[:, ::-1])  # seen from outside its body
+    loads = ["--contact-modulus", "1", "--mean-pressure", "0.01", "--spacing", "1", "--detrend", "none"]
+    both = ["--other", str(tmp_path / "two.npy"), "--offset", "1", "2", "--conductivities", "400", "60", "--periodic"]
+    output = tmp_path / "contact.nc"
+    main(["press", str(tmp_path / "one.npy"), *loads, *both, "--output", str(output)])
+    text = capsys.readouterr().out
+    assert "both together: rms height" in text
+    assert "conductance" in text and "W/(m K nm)" in text
+    sum_of_both = cs.Topography(heights + np.roll(heights, (1, 2), (0, 1)), 1.0)
+    expected = cs.characterise(sum_of_both, contact_modulus=1.0, mean_pressures=[0.01], periodic=True)
+    with xr.open_dataset(output) as data:
+        assert data.contact_stiffness.values == pytest.approx(expected.contact_stiffness.values)
+
+
+def test_the_command_presses_a_layer(tmp_path, capsys):
+    np.save(tmp_path / "one.npy", surface().values)
+    loads = ["--contact-modulus", "1", "--mean-pressure", "0.01", "--spacing", "1"]
+    layer = ["--thickness", "20", "--poisson-ratio", "0.3"]
+    main(["press", str(tmp_path / "one.npy"), *loads, *layer, "--ends", "mirror"])
+    assert "converged" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match="poisson_ratio"):
+        main(["press", str(tmp_path / "one.npy"), *loads, *layer[:2], "--ends", "mirror"])

@@ -13,13 +13,16 @@ from contactsim.dataset import describe
 from contactsim.error_control.measured import MIN_POINTS
 from contactsim.errors import InputError, Words, check_option_names, is_number
 from contactsim.interface.hard_wall import HardWall
+from contactsim.observables.conductance import conductance
 from contactsim.simulation import simulate
 from contactsim.single_load import choose_elasticity
 from contactsim.solvers.base import HardWallSolver
 from contactsim.status import is_solved
+from contactsim.surfaces.pair import add_heights
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.spectral_moments import nayak_parameter
 from contactsim.surfaces.topography import Topography
+from contactsim.traits import Trait
 
 NUMBERS = (
     "relative_contact_area_subgrid",
@@ -27,10 +30,11 @@ NUMBERS = (
     "mean_gap",
     "max_pressure",
     "contact_stiffness",
+    "contact_conductance",
     "patches",
     "yielding_share",
 )
-"""Numbers of each load, the last with a hardness; NaN where it did not converge."""
+"""Numbers of each load, conductance with conductivities and the last with a hardness; NaN where it did not converge."""
 OF_HEIGHTS = ("rms_gradient", "rms_height", "contact_modulus", "length", "length_y")
 """Numbers of the heights and of the body, the last of a surface."""
 WITHOUT_ERROR = ("patches", "contact_modulus", "length", "length_y")
@@ -40,10 +44,13 @@ WITHOUT_ERROR = ("patches", "contact_modulus", "length", "length_y")
 @check_option_names
 def characterise(
     topography: Topography,
+    other: Topography | None = None,
     *,
     contact_modulus: float,
     mean_pressures: Sequence[float],
+    offset: int | tuple[int, int] | None = None,
     hardness: float | None = None,
+    conductivities: tuple[float, float] | None = None,
     tolerance: float = 1e-4,
     threads: int = 1,
     periodic: bool | None = None,
@@ -61,13 +68,20 @@ def characterise(
     ----------
     topography : Topography
         Heights of a body, 8 points or more each way, nm.
+    other : Topography, optional
+        Heights of the other body, positive towards the first; flat without it. Of two scans, each seen from outside its
+        body, one has to be mirrored.
     contact_modulus : float
         E* of the pair, GPa.
     mean_pressures : sequence of float
         Mean pressures, GPa.
+    offset : int or (int, int), optional
+        Whole points by which the other body is moved, as in `contactsim.press`.
     hardness : float, optional
         Pressure above which the softer body yields, GPa. Pressures stay elastic; the share of the contact is told that
         would yield.
+    conductivities : (float, float), optional
+        Thermal conductivities of both bodies, W/(m K), of which one may be infinite.
     tolerance : float
         Gap in contact and overlap outside, in grid steps.
     threads : int
@@ -79,23 +93,30 @@ def characterise(
     -------
     xarray.Dataset
         With dimension `mean_pressure`: relative contact area with edges between points, approach, mean gap, largest
-        pressure, contact stiffness, yielding share with a hardness, number of patches, status, and `validity_flags`,
-        which tell if slopes are too large for linear elasticity and if the contact would yield; without it rms height
-        and gradient, Nayak's parameter, E*, and lengths of the heights. The error of a number is that with
-        `_grid_error` behind its name.
+        pressure, contact stiffness, conductance with conductivities, yielding share with a hardness, number of patches,
+        status, and `validity_flags`, which tell if slopes are too large for linear elasticity and if the contact would
+        yield; without it rms height and gradient, Nayak's parameter, E* and lengths, of two bodies those of the sum of
+        their heights. The error of a number is that with `_grid_error` behind its name.
 
     Raises
     ------
     InputError
         For an input that cannot be used.
     """
-    if not isinstance(topography, Topography) or min(topography.values.shape) < MIN_POINTS:
-        value = Words(f"shape {topography.values.shape}") if isinstance(topography, Topography) else topography
-        raise InputError("topography", value, f"a Topography of {MIN_POINTS} points or more each way")
+    for name, surface in {"topography": topography, "other": other}.items():
+        if not isinstance(surface, Topography) and not (name == "other" and surface is None):
+            raise InputError(name, surface, "a Topography")
     loads = np.atleast_1d(np.asarray(mean_pressures, object))
     if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
     elasticity = choose_elasticity(topography, contact_modulus, thickness, poisson_ratio, periodic)
+    if other is not None:
+        topography = add_heights(topography, other, offset, Trait.FREE not in elasticity.traits)
+    elif offset is not None:
+        raise InputError("offset", offset, "none without the heights of another body")
+    if min(topography.values.shape) < MIN_POINTS:
+        value = Words(f"shape {topography.values.shape}")
+        raise InputError("topography", value, f"a Topography of {MIN_POINTS} points or more each way")
     wall, values = HardWall(hardness), loads.astype(float).tolist()
 
     def numbers_of(surface: Topography) -> xr.Dataset:
@@ -103,6 +124,9 @@ def characterise(
         lower = Body(Flat.facing(surface), elasticity)
         scene = Scene(lower, surface, wall, pressures(values))
         data = simulate(scene, tolerance=tolerance, solver=solver, threads=threads, keep=("patches", "stiffness"))
+        if conductivities is not None:
+            through = conductance(data.contact_stiffness.values, contact_modulus, conductivities)
+            data = data.assign(contact_conductance=("step", np.atleast_1d(through)))
         return _select_numbers(data, surface, scene.repeats, values)
 
     even = topography.even_part()

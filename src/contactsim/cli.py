@@ -81,7 +81,33 @@ def _add_press(press: argparse.ArgumentParser) -> None:
     press.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
     press.add_argument("--level", default="none", help="how scan lines are levelled: none, median or steps")
     press.add_argument("--spikes", type=float, metavar="N", help="standard deviations beyond which a point is replaced")
-    press.add_argument("--ends", default="none", help="let the heights repeat: mirror, window, or tilt on a line")
+    press.add_argument("--ends", default="none", help="make the heights repeat: mirror, window, or tilt on a line")
+    press.add_argument(
+        "--periodic",
+        action="store_true",
+        help="press the heights as if they repeated as they are, not alone on the half-space",
+    )
+    press.add_argument(
+        "--other",
+        metavar="FILE",
+        help="scan of the other body, seen from outside it; it is mirrored along x and pressed on",
+    )
+    press.add_argument(
+        "--offset",
+        type=int,
+        nargs="+",
+        metavar="N",
+        help="points by which it is moved, along x or along y and x",
+    )
+    press.add_argument("--thickness", type=float, metavar="H", help="of a layer on a rigid base, nm; else a half-space")
+    press.add_argument("--poisson-ratio", type=float, metavar="NU", help="of the layer")
+    press.add_argument(
+        "--conductivities",
+        type=float,
+        nargs=2,
+        metavar="C",
+        help="thermal conductivities of both bodies, W/(m K): tell the conductance",
+    )
     press.add_argument("--hardness", type=float, metavar="H", help="tell the share of the contact above it, GPa")
     press.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
     press.add_argument("--output", metavar="FILE", help="dataset to write, .nc")

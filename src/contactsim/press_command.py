@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -22,6 +25,7 @@ from contactsim.surfaces.topography import Topography, read_topography
 COLUMNS = {
     "relative_contact_area_subgrid": ("area", ""),
     "contact_stiffness": ("stiffness", "GPa/nm"),
+    "contact_conductance": ("conductance", "W/(m K nm)"),
     "mean_gap": ("mean gap", "nm"),
     "max_pressure": ("largest pressure", "GPa"),
     "yielding_share": ("yielding", "of the contact"),
@@ -35,18 +39,21 @@ def press_file(options: argparse.Namespace) -> None:
     """Press a file of measured heights; print the numbers with their errors, draw and write them if asked to."""
     if options.figure and Path(options.figure).suffix not in DRAWN:
         raise InputError("--figure", options.figure, f"a name ending in one of {', '.join(DRAWN)}")
-    spacing = options.spacing[0] if options.spacing and len(options.spacing) == 1 else options.spacing
-    raw = read_topography(
-        options.file, spacing=spacing, unit=options.unit, variable=options.variable, fill=options.fill
-    )
-    heights = prepare_topography(raw, options.detrend, options.ends, options.level, options.spikes)
+    heights = _read_heights(options.file, options)
+    other = None if options.other is None else _mirror(_read_heights(options.other, options))
     data = characterise(
         heights,
+        other,
         contact_modulus=options.contact_modulus,
         mean_pressures=options.mean_pressure,
+        offset=_one_or_pair(options.offset),
         hardness=options.hardness,
+        conductivities=options.conductivities,
+        periodic=options.periodic or None,
+        thickness=options.thickness,
+        poisson_ratio=options.poisson_ratio,
     )
-    sys.stdout.write(f"{_describe_heights(heights, data)}\n{_press_table(data)}\n")
+    sys.stdout.write(f"{_describe_heights([heights, other], data)}\n{_press_table(data)}\n")
     if options.output:
         title, source = f"Contact of {Path(options.file).name}", source_digest("contactsim.characterisation")
         settings = {key: value for key, value in vars(options).items() if key not in ("module", "command")}
@@ -62,15 +69,43 @@ def press_file(options: argparse.Namespace) -> None:
         sys.exit(f"Error: {failed} of {data.status.size} loads did not converge")
 
 
-def _describe_heights(heights: Topography, data: xr.Dataset) -> str:
-    """Return size, roughness and repairs of heights in words."""
-    size = " × ".join(f"{length:.4g}" for length in heights.lengths)
-    points = " × ".join(map(str, heights.values.shape))
-    text = f"{points} points on {size} nm; rms height {_with_error(data, 'rms_height')} nm"
-    text += f", rms gradient {_with_error(data, 'rms_gradient')}"
-    for share, what in ((heights.filled, "filled"), (heights.spikes, "replaced as spikes")):
-        text += f"; {share:.2%} of the points {what}" if share else ""
+def _read_heights(file: str, options: argparse.Namespace) -> Topography:
+    """Return the heights of a file, prepared as the options say."""
+    raw = read_topography(
+        file,
+        spacing=_one_or_pair(options.spacing),
+        unit=options.unit,
+        variable=options.variable,
+        fill=options.fill,
+    )
+    return prepare_topography(raw, options.detrend, options.ends, options.level, options.spikes)
+
+
+def _one_or_pair(values: list[Any] | None) -> Any:
+    """Return the only value of a list, several as a tuple, and None for none."""
+    return values[0] if values and len(values) == 1 else values and tuple(values)
+
+
+def _mirror(heights: Topography) -> Topography:
+    """Return heights mirrored along x: those of a body that is turned over."""
+    return replace(heights, values=heights.values[..., ::-1])
+
+
+def _describe_heights(scans: Sequence[Topography | None], data: xr.Dataset) -> str:
+    """Return size, roughness and repairs of the heights of one body or two in words."""
+    bodies = [heights for heights in scans if heights is not None]
+    text = "; ".join(_describe_scan(heights) for heights in bodies)
+    text += "; both together:" * (len(bodies) > 1) or ";"
+    text += f" rms height {_with_error(data, 'rms_height')} nm, rms gradient {_with_error(data, 'rms_gradient')}"
     return "\n".join([text, *(f"Beyond what the model holds for: {words}" for words in describe_excess(data))])
+
+
+def _describe_scan(heights: Topography) -> str:
+    """Return points, size and repairs of heights in words."""
+    size = " × ".join(f"{length:.4g}" for length in heights.lengths)
+    text = f"{' × '.join(map(str, heights.values.shape))} points on {size} nm"
+    repairs = {"filled": heights.filled, "replaced as spikes": heights.spikes}
+    return text + "".join(f", {share:.2%} of the points {what}" for what, share in repairs.items() if share)
 
 
 def _press_table(data: xr.Dataset) -> str:
