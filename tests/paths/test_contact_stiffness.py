@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import contactsim as cs
-from contactsim.reference.hard_wall import persson_area, persson_pressure_density
 from support.cases import orders, refused, rough, wave
 
 
@@ -101,11 +100,3 @@ def cs_solver():
     from contactsim.solvers.registry import make_solver
 
     return make_solver("polonsky_keer", budget=1, batch=1)
-
-
-def test_perssons_density_has_his_area_and_the_mean_pressure():
-    pressure = np.linspace(0, 10, 200001)
-    density = persson_pressure_density(pressure, 0.3, 2.0, 1.2)
-    assert np.trapezoid(density, pressure) == pytest.approx(float(persson_area(0.3 / 2.4)), rel=1e-8)
-    assert np.trapezoid(density * pressure, pressure) == pytest.approx(0.3, rel=1e-8)
-    assert density[0] == 0

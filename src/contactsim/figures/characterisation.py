@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from contactsim.figures import style
 from contactsim.figures.parts.scale_bar import fitting_unit
-from contactsim.reference.hard_wall import persson_area
+from contactsim.reference.persson import persson_area
 from contactsim.status import is_solved
 
 PERSSON = r"Persson, erf$(\sqrt{2}p^*)$"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,12 +12,18 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from contactsim import dataset
 from contactsim.analysis.mean_errors import mean_error
 from contactsim.figures import style
 from contactsim.figures.parts.proportionality import persson_curve
 from contactsim.grid import Array
 from contactsim.reference.bush import bush_area
-from contactsim.reference.hard_wall import persson_pressure_density
+from contactsim.reference.persson import (
+    Spectrum,
+    persson_gap_density,
+    persson_mean_gap,
+    persson_pressure_density,
+)
 
 REDUCED_PRESSURE = r"reduced pressure $p^*$"
 PERSSON, BUSH = "-.", "--"
@@ -27,6 +34,8 @@ LEAST_DENSITY = 1e-4
 """Least density that is drawn."""
 LEGEND_ROOM = 1.35
 """End of the axis of densities over the last place that is drawn: beyond it the legend stands."""
+Theory = Callable[[Array, float], Array]
+"""Density that a theory gives at places and a reduced pressure."""
 
 
 def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -63,14 +72,29 @@ def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     label = r"$K\bar h/(E^*\bar g)=G\bar h/(2c\bar g)$"
     stiffness.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=label)
     gap.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"mean gap over $\bar h$")
+    loads, _ = persson_curve(data)
+    for hurst_exponent in _exponents(data):
+        spectrum = _expected_spectrum(data, hurst_exponent)
+        theory = [persson_mean_gap(load, spectrum, 1.0) / spectrum.rms_height for load in loads]
+        gap.plot(loads, theory, lw=0.9, ls=PERSSON, color=style.hurst_colour(hurst_exponent), zorder=1)
+    gap.legend(handles=style.line_handles({"Persson": PERSSON}), loc="upper right")
     stiffness.legend(handles=_hurst_handles(data), loc="upper left")
     style.add_letters(axes)
     return style.mean_table(data, ("reduced_stiffness", "reduced_gap"))
 
 
+def _expected_spectrum(data: xr.Dataset, hurst_exponent: float) -> Spectrum:
+    """Return the expected spectrum of the surfaces of a dataset, with an rms gradient of one."""
+    surface = dataset.settings_of(data)["surface"]
+    return Spectrum.self_affine(
+        surface["length"], surface["long_cutoff"], surface["short_cutoff"], hurst_exponent, rms_gradient=1.0
+    )
+
+
 def pressure_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the density of pressure, one panel a Hurst exponent, with that of Persson."""
-    table = _plot_densities(axes, data, "pressure_density", r"pressure $p/(E^*\bar g)$", _persson_density)
+    theories = [_persson_density] * len(axes)
+    table = _plot_densities(axes, data, "pressure_density", r"pressure $p/(E^*\bar g)$", theories)
     handles = style.line_handles({"Persson": PERSSON})
     axes[-1].legend(handles=[*_load_handles(data), *handles], loc="upper right")
     return table
@@ -82,10 +106,18 @@ def _persson_density(pressures: Array, reduced_pressure: float) -> Array:
 
 
 def gap_distribution(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the density of the gap, one panel a Hurst exponent."""
-    table = _plot_densities(axes, data, "gap_density", r"gap over $\bar h$", None)
-    axes[-1].legend(handles=_load_handles(data), loc="upper right")
+    """Plot the density of the gap, one panel a Hurst exponent, with that of Persson."""
+    theories = [partial(_persson_gaps, _expected_spectrum(data, value)) for value in _exponents(data)]
+    table = _plot_densities(axes, data, "gap_density", r"gap over $\bar h$", theories)
+    handles = style.line_handles({"Persson": PERSSON})
+    axes[-1].legend(handles=[*_load_handles(data), *handles], loc="upper right")
     return table
+
+
+def _persson_gaps(spectrum: Spectrum, gaps: Array, reduced_pressure: float) -> Array:
+    """Return Persson's density of the gap over the rms height, of a surface with an rms gradient of one."""
+    height = spectrum.rms_height
+    return height * persson_gap_density(gaps * height, reduced_pressure, spectrum, 1.0)
 
 
 def contact_patches(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -168,11 +200,11 @@ def _plot_theory(axes: Sequence[Axes], pressure: Array, areas: Array, **look: An
 
 
 def _plot_densities(
-    axes: Sequence[Axes], data: xr.Dataset, name: str, label: str, theory: Callable[[Array, float], Array] | None
+    axes: Sequence[Axes], data: xr.Dataset, name: str, label: str, theories: Sequence[Theory]
 ) -> pd.DataFrame:
-    """Plot densities, one panel a Hurst exponent and one colour a load; return them as a table."""
+    """Plot densities, one panel a Hurst exponent and one colour a load, with theories; return them as a table."""
     means, errors = data[f"{name}_mean"], mean_error(data, name)
-    for panel, hurst_exponent in zip(axes, _exponents(data), strict=True):
+    for panel, hurst_exponent, theory in zip(axes, _exponents(data), theories, strict=True):
         _plot_density(panel, data.sel(hurst_exponent=hurst_exponent), name, theory)
         panel.set(yscale="log", ylim=(LEAST_DENSITY, None), xlabel=label, ylabel="density")
         panel.set_title(f"$H={hurst_exponent:g}$", fontsize=9)
@@ -183,8 +215,8 @@ def _plot_densities(
     return table[table[name] > 0]
 
 
-def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Callable[[Array, float], Array] | None) -> None:
-    """Plot a density with its error, one colour a load."""
+def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Theory) -> None:
+    """Plot a density with its error and that of a theory, one colour a load."""
     means, errors = data[f"{name}_mean"], mean_error(data, name)
     x = _bins(means)
     for pressure, colour in style.shades(data.reduced_pressure.values).items():
@@ -192,8 +224,7 @@ def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Callable[[Arr
         axes.plot(x, np.where(mean > 0, mean, np.nan), color=colour, lw=1.1)
         seen = mean > error  # a band down to zero would hide others on a logarithmic axis
         axes.fill_between(x, mean - error, mean + error, where=seen, color=colour, alpha=SHADE, lw=0)
-        if theory is not None:
-            axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
+        axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
 
 
 def _bins(densities: xr.DataArray) -> Array:

@@ -1,13 +1,11 @@
-"""Exact answers without adhesion, on a half-space: Hertz, parallel cylinders, Westergaard, complete contact.
-
-Persson's estimate of the area of rough surfaces stands beside them.
-"""
+"""Exact answers without adhesion, on a half-space: Hertz, parallel cylinders, Westergaard, complete contact."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from contactsim.grid import Array, Grid
+from contactsim.reference.persson import persson_area
 
 
 def cylinder_load(half_width: Array | float, radius: float, contact_modulus: float) -> Array:
@@ -135,39 +133,6 @@ def body_compression(pressure: Array | float, height: float, youngs_modulus: flo
     differs from that of a half-space by 0.05 %, at half the period by 8 %.
     """
     return np.asarray(pressure) * height / uniaxial_modulus(youngs_modulus, poisson_ratio)
-
-
-def persson_area(reduced_pressure: Array | float) -> Array:
-    """Relative contact area erf(√2 p*) of a rough surface (J. Chem. Phys. 115, 3840, doi:10.1063/1.1388626)."""
-    from scipy.special import erf  # takes longer to import than most of this package
-
-    return erf(np.sqrt(2) * np.asarray(reduced_pressure))
-
-
-def persson_pressure_density(
-    pressure: Array | float, mean_pressure: float, contact_modulus: float, rms_gradient: float
-) -> Array:
-    """Return Persson's density of pressure in contact with a rough surface, over the whole area, 1/GPa.
-
-    Parameters
-    ----------
-    pressure
-        Pressures, 0 or more, GPa.
-    mean_pressure
-        Mean pressure over the whole area, GPa.
-    contact_modulus
-        E*, GPa.
-    rms_gradient
-        Rms gradient of the heights.
-
-    Notes
-    -----
-    A Gaussian about the mean, whose standard deviation E* ḡ/2 is that in full contact, less its mirror image at zero
-    pressure. It integrates to `persson_area`, and its first moment to the mean pressure.
-    """
-    spread = contact_modulus * rms_gradient / 2
-    towards, away = ((np.asarray(pressure) - sign * mean_pressure) / spread for sign in (1, -1))
-    return (np.exp(-(towards**2) / 2) - np.exp(-(away**2) / 2)) / (spread * np.sqrt(2 * np.pi))
 
 
 def line_area(reduced_pressure: Array | float, b1: float, b2: float) -> Array:

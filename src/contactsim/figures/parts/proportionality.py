@@ -14,7 +14,7 @@ from contactsim.analysis.mean_errors import estimate_trend, grid_error, mean_err
 from contactsim.analysis.rounding import rounded_texts
 from contactsim.figures import style
 from contactsim.grid import Array
-from contactsim.reference import hard_wall
+from contactsim.reference.persson import persson_area
 
 GRADIENTS = {
     r"$\kappa$: $\bar g$ of the whole surface": style.WHOLE,
@@ -99,7 +99,7 @@ def estimator_handles() -> list[Line2D]:
 def persson_curve(data: xr.Dataset, points: int = 100) -> tuple[Array, Array]:
     """Return reduced pressures over the range of a dataset, and Persson's area erf(√2 p*) at them."""
     pressure = np.geomspace(*data.reduced_pressure.values[[0, -1]], points)
-    return pressure, hard_wall.persson_area(pressure)
+    return pressure, persson_area(pressure)
 
 
 def plot_persson(area: Axes, factor: Axes, data: xr.Dataset) -> None:
