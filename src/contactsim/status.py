@@ -82,12 +82,14 @@ def validity_flags(numbers: Mapping[str, float]) -> int:
 
 
 def describe_excess(data: xr.Dataset) -> list[str]:
-    """Return in words which limits the states of a dataset exceed, by how much, and how many do."""
+    """Return in words which limits the solved states of a dataset exceed, by how much, and how many do."""
     texts = []
-    flags = data.validity_flags.fillna(0).astype(int)
+    solved = is_solved(data.status)
+    flags = data.validity_flags.where(solved, 0).fillna(0).astype(int)
     for name, (limit, words) in LIMITS.items():
-        share = float(((flags & FLAGS[name]) > 0).mean())
-        if share:
-            part = "all" if share == 1 else f"{100 * share:.3g} %"
-            texts.append(f"{words} up to {float(data[name].max()):.2g} (limit {limit:g}) in {part}")
+        count, solutions = int(((flags & FLAGS[name]) > 0).sum()), int(solved.sum())
+        if count:
+            part = "all" if count == solutions else f"{100 * count / solutions:.3g} %"
+            largest = float(data[name].where(solved).max())
+            texts.append(f"{words} up to {largest:.2g} (limit {limit:g}) in {part}")
     return texts

@@ -72,8 +72,10 @@ def test_slopes_that_are_not_small_are_flagged(amplitude):
     assert flagged(data, "rms_gradient").all() == (rms > 0.45)
 
 
-def test_exceeded_limits_are_reported_in_words_even_where_states_are_missing():
-    numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0], "validity_flags": [0, 1, np.nan, 1]}
+def test_exceeded_limits_of_solved_states_are_reported_in_words():
+    numbers = {"max_interpenetration": [1.0, 4.0, np.nan, 5.0, 9.0], "validity_flags": [0, 1, np.nan, 1, 1]}
+    solved, failed = (state.value[0] for state in (status.Status.CONVERGED, status.Status.NO_EQUILIBRIUM))
+    numbers["status"] = [solved, solved, solved, solved, failed]
     data = describe(xr.Dataset({name: ("step", values) for name, values in numbers.items()}))
     assert status.describe_excess(data) == ["overlap over the laws' length up to 5 (limit 3) in 50 %"]
     assert list(data.validity_flags.flag_masks) == [1, 2, 4, 8, 16, 32]
