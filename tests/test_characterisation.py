@@ -219,7 +219,7 @@ def test_the_command_presses_two_scans_that_repeat_and_tells_their_conductance(t
     output = tmp_path / "contact.nc"
     main(["press", str(tmp_path / "one.npy"), *loads, *both, "--output", str(output)])
     text = capsys.readouterr().out
-    assert "both together: rms height" in text
+    assert "both together on 128 × 128 nm: rms height" in text
     assert "conductance" in text and "W/(m K nm)" in text
     sum_of_both = cs.Topography(heights + np.roll(heights, (1, 2), (0, 1)), 1.0)
     expected = cs.characterise(sum_of_both, contact_modulus=1.0, mean_pressures=[0.01], periodic=True)
@@ -235,3 +235,12 @@ def test_the_command_presses_a_layer(tmp_path, capsys):
     assert "converged" in capsys.readouterr().out
     with pytest.raises(SystemExit, match="poisson_ratio"):
         main(["press", str(tmp_path / "one.npy"), *loads, *layer[:2], "--ends", "mirror"])
+
+
+def test_complete_contact_is_told_and_drawn(tmp_path, capsys):
+    np.save(tmp_path / "one.npy", surface().values)
+    loads = ["--contact-modulus", "1", "--mean-pressure", "1e3", "--spacing", "1", "--periodic"]
+    main(["press", str(tmp_path / "one.npy"), *loads, "--figure", str(tmp_path / "contact.png")])
+    assert "inf" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match=r"--output: got 'contact\.txt'"):
+        main(["press", str(tmp_path / "one.npy"), *loads, "--output", "contact.txt"])

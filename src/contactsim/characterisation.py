@@ -109,6 +109,8 @@ def characterise(
     loads = np.atleast_1d(np.asarray(mean_pressures, object))
     if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
+    if conductivities is not None:
+        conductance(0.0, contact_modulus, conductivities)  # refused before the contact is solved
     elasticity = choose_elasticity(topography, contact_modulus, thickness, poisson_ratio, periodic)
     if other is not None:
         topography = add_heights(topography, other, offset, Trait.FREE not in elasticity.traits)

@@ -38,7 +38,7 @@ def main(arguments: list[str] | None = None) -> None:
     )
     run.add_argument("--threads", type=int, default=1, help=threads)
     run.set_defaults(command="run_scene")
-    _add_press(commands.add_parser("press", help="press measured heights on a half-space, at one load or several"))
+    _add_press(commands.add_parser("press", help="press measured heights on a half-space or layer"))
     estimate = commands.add_parser("estimate", help="predict cost and error without simulating")
     estimate.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; default all figures")
     estimate.add_argument("--tier", help="tier of the study or figures, default that of ./config")

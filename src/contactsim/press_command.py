@@ -39,6 +39,8 @@ def press_file(options: argparse.Namespace) -> None:
     """Press a file of measured heights; print the numbers with their errors, draw and write them if asked to."""
     if options.figure and Path(options.figure).suffix not in DRAWN:
         raise InputError("--figure", options.figure, f"a name ending in one of {', '.join(DRAWN)}")
+    if options.output and Path(options.output).suffix != ".nc":
+        raise InputError("--output", options.output, "a name ending in .nc")
     heights = _read_heights(options.file, options)
     other = None if options.other is None else _mirror(_read_heights(options.other, options))
     data = characterise(
@@ -95,7 +97,8 @@ def _describe_heights(scans: Sequence[Topography | None], data: xr.Dataset) -> s
     """Return size, roughness and repairs of the heights of one body or two in words."""
     bodies = [heights for heights in scans if heights is not None]
     text = "; ".join(_describe_scan(heights) for heights in bodies)
-    text += "; both together:" * (len(bodies) > 1) or ";"
+    size = " × ".join(f"{float(data[name]):.4g}" for name in ("length_y", "length") if name in data)
+    text += f"; both together on {size} nm:" if len(bodies) > 1 else ";"
     text += f" rms height {_with_error(data, 'rms_height')} nm, rms gradient {_with_error(data, 'rms_gradient')}"
     return "\n".join([text, *(f"Beyond what the model holds for: {words}" for words in describe_excess(data))])
 
@@ -131,6 +134,8 @@ def _press_table(data: xr.Dataset) -> str:
 def _with_error(data: xr.Dataset, name: str) -> str:
     """Return a number and its error as text."""
     value, error = float(data[name]), float(data[f"{name}_grid_error"])
+    if np.isinf(value):
+        return f"{value:g}"
     if not (np.isfinite(value) and error > 0):
         return f"{value:.4g} ± {error:.2g}"
     digits = max(int(np.floor(np.log10(abs(value) or error))) - int(np.floor(np.log10(error))) + 1, 0)

@@ -106,7 +106,7 @@ def simulate(
     for name, value in {"points": points, "tolerance": tolerance, "increments": increments}.items():
         if value is not None:
             raise InputError(name, value, "left out, for it follows from the accuracy")
-    wanted = Accuracy(accuracy, tuple(quantities))
+    wanted = Accuracy(accuracy, _names(quantities))
     controlled = solve_to_error(setup, wanted.error, wanted.quantities)
     if not controlled.met:
         logger.warning("an accuracy of %g is not reached: %s", controlled.wanted, controlled.summary)
@@ -130,7 +130,7 @@ def estimate_cost(
     InputError
         For a scene whose costs were not measured.
     """
-    wanted = None if accuracy is None else Accuracy(accuracy, tuple(quantities))
+    wanted = None if accuracy is None else Accuracy(accuracy, _names(quantities))
     options = RunOptions(points=points, tolerance=tolerance, accuracy=wanted, increments=increments)
     return forecast_run(Setup(scene, options))
 
@@ -189,6 +189,13 @@ def explain(
         Print it, or read its attributes.
     """
     return explain_setup(Setup(scene, RunOptions(points=points, solver=_find_solver(solver), increments=increments)))
+
+
+def _names(quantities: Sequence[str]) -> tuple[str, ...]:
+    """Return names of quantities; a name alone is no list of them."""
+    if isinstance(quantities, str):
+        raise InputError("quantities", quantities, "a list of names")
+    return tuple(quantities)
 
 
 def _find_solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:

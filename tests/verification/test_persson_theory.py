@@ -7,6 +7,7 @@ import pytest
 from scipy.special import erf
 
 import contactsim as cs
+from contactsim.reference import persson
 from contactsim.reference.persson import (
     ENERGY_PART,
     PARTS,
@@ -16,6 +17,7 @@ from contactsim.reference.persson import (
     persson_mean_gap,
     persson_pressure_density,
 )
+from support.cases import refused
 
 LENGTH, LONG, SHORT, GRADIENT = 1000.0, 250.0, 31.25, 0.1
 WAVES = Spectrum.self_affine(LENGTH, LONG, SHORT, 0.8, GRADIENT)
@@ -46,7 +48,8 @@ def test_the_expected_spectrum_is_that_of_surfaces_that_are_drawn(hurst_exponent
 def elastic_energy(pressure: float) -> float:
     """Return the elastic energy for each area, summed as it is written in the notes."""
     waves = WAVES.divided(PARTS)
-    variance = (MODULUS / 2) ** 2 * np.cumsum(waves.powers * waves.wavenumbers**2)
+    part = waves.powers * waves.wavenumbers**2
+    variance = (MODULUS / 2) ** 2 * (np.cumsum(part) - part / 2)
     area = erf(pressure / np.sqrt(2 * variance))
     parts = area * (ENERGY_PART + (1 - ENERGY_PART) * area**2)
     return MODULUS / 4 * float(np.sum(waves.powers * waves.wavenumbers * parts))
@@ -83,3 +86,20 @@ def test_a_rough_surface_has_about_the_gap_of_the_theory():
         pressure = reduced * MODULUS * GRADIENT
         result = cs.press(surface.heights(128), contact_modulus=MODULUS, mean_pressure=pressure, spacing=LENGTH / 128)
         assert float(result.gap.mean()) == pytest.approx(persson_mean_gap(pressure, WAVES, MODULUS), rel=0.1)
+
+
+def test_parts_of_waves_are_fine_enough(monkeypatch):
+    gaps = {}
+    for parts in (PARTS, 32 * PARTS):
+        monkeypatch.setattr(persson, "PARTS", parts)
+        gaps[parts] = [persson_mean_gap(reduced * MODULUS * GRADIENT, WAVES, MODULUS) for reduced in (1e-3, 0.1)]
+    assert gaps[PARTS] == pytest.approx(gaps[32 * PARTS], rel=1e-2)
+
+
+@pytest.mark.parametrize("load", [0.0, -1.0, np.nan, [0.1, 0.2]])
+def test_a_load_is_one_number_above_zero(load):
+    for theory in (persson_mean_gap, lambda *given: persson_gap_density(1.0, *given)):
+        with refused("mean_pressure", "positive"):
+            theory(load, WAVES, MODULUS)
+    with refused("short_cutoff", "below the length"):
+        Spectrum.self_affine(1000.0, 250.0, 1000.0, 0.8, 0.1)

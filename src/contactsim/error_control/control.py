@@ -1,5 +1,7 @@
 """Solve a scene to a wanted error: on two grids, the error estimated, and refined once where it is missed.
 
+Scenes without measured relations are solved as `stepwise` describes.
+
 The coarse companion is solved first. At a hard wall it shows how small the contacts are, so the grid of the run follows
 from it better than from any relation, and its pressure is where the cascade of the run begins. Along a path it has
 three times the increments too, so that its difference from the run is what all knobs together leave. The estimate

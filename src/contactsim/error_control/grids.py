@@ -13,6 +13,8 @@ MIN_POINTS = 16
 """Least points of a grid; a run has twice as many, as its coarse companion has fewer."""
 MAX_POINTS = 2**28
 """Most points of a grid that a wanted error may lead to."""
+MIN_SIDE = 8
+"""Least points along the shorter side of a surface."""
 POINTS_PER_WAVE = 2.5
 """Least points for each shortest wavelength."""
 
@@ -33,7 +35,8 @@ def choose_grid(scene: Scene, points: float, error: float) -> int:
         Where it has more than `MAX_POINTS` points in all; `error` is named as the cause.
     """
     surface = scene.upper.surface
-    points = max(points, POINTS_PER_WAVE * scene.length / shortest_wave(scene))
+    oblong = MIN_SIDE * scene.length / min(scene.lengths)
+    points = max(points, oblong, POINTS_PER_WAVE * scene.length / shortest_wave(scene))
     if not math.prod(surface.shape(round_grid(min(points, MAX_POINTS)))) <= MAX_POINTS or points > MAX_POINTS:
         raise InputError("accuracy", error, f"an error for which {MAX_POINTS:.2g} grid points are enough")
     return round_grid(points)

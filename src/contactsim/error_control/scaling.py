@@ -82,6 +82,9 @@ def _load_family(scene: Scene, rough: bool) -> str:
     """Return the family of loads at a hard wall."""
     if Trait.APPROACH in scene.traits:
         raise InputError("path", "approach", "loads: walls at given approaches were not measured")
+    for step in scene.path.steps:
+        if not step.value > 0:
+            raise InputError("mean_pressure", step.value, "above zero: bodies that hardly touch were not measured")
     return SURFACE if Trait.SURFACE in scene.traits else LINE
 
 

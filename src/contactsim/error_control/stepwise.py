@@ -21,7 +21,7 @@ from contactsim.error_control.grids import choose_grid, shortest_wave
 from contactsim.error_control.measured import QUANTITIES as LOAD_QUANTITIES
 from contactsim.error_control.scaling import contact_scale, scene_family, shortest_range, total_strength
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 from contactsim.observables.friction import ONSET
 from contactsim.observables.hysteresis import CYCLES
@@ -85,6 +85,8 @@ def begin_stepwise(setup: Setup, error: float, quantities: Sequence[str]) -> Set
     scene = setup.scene
     if scene.kind is ProblemKind.HARD_WALL and Trait.APPROACH in scene.traits:
         raise InputError("path", "approach", "mean pressures: with a hard wall an accuracy needs loads above zero")
+    if {Trait.APPROACH, Trait.MEAN_PRESSURE} <= scene.traits and not scene.sliding:
+        raise InputError("path", Words("approaches and mean pressures"), "one of them, with an accuracy")
     known = known_quantities(scene)
     for name in quantities:
         if name not in known:
@@ -127,17 +129,23 @@ def solve_stepwise(first: Setup, error: float, quantities: Sequence[str]) -> tup
     solutions : list of Solution
         All runs, the last of which counts.
     errors : dict from str to Array
-        Its estimated relative error by quantity; larger than the wanted one where `MAX_GRIDS` were not enough.
+        Its estimated relative error by quantity; larger than the wanted one where `MAX_GRIDS` were not enough, a grid
+        would be too large, or two runs one after the other were not solved.
     """
     names = tuple(quantities or usual_quantities(first.scene))
     coarse, fine = (solve_setup(_refine(first, ratio, error), names) for ratio in (1.0, 2.0))
     solutions = [coarse, fine]
+    names = _present(coarse, fine, names, quantities)
     errors = {name: relative_difference(fine, coarse, name) for name in names}
     if _largest(errors) <= SMALL_CHANGE * error:
         return solutions, errors
     ratio = 2.0
-    while len(solutions) < MAX_GRIDS:
-        solutions.append(solve_setup(_refine(solutions[-1].setup, ratio, error), names))
+    while len(solutions) < MAX_GRIDS and (solutions[-1].solved or solutions[-2].solved):
+        try:
+            setup = _refine(solutions[-1].setup, ratio, error)
+        except InputError:  # beyond the largest grid: what was solved is kept, and called too coarse
+            break
+        solutions.append(solve_setup(setup, names))
         errors = estimate_from_changes(solutions, names)
         logger.info("on %d points: an error of %.2g of %g", solutions[-1].points, _largest(errors), error)
         if _largest(errors) <= error:
@@ -161,6 +169,24 @@ def estimate_from_changes(solutions: Sequence[Solution], names: Sequence[str]) -
     return errors
 
 
+def _present(coarse: Solution, fine: Solution, names: Sequence[str], asked: Sequence[str]) -> tuple[str, ...]:
+    """Return the quantities that a path has; all where a run was not solved, as nobody knows then.
+
+    Raises
+    ------
+    InputError
+        Where one that was asked for is missing, or all.
+    """
+    if not (coarse.solved and fine.solved):
+        return tuple(names)
+    present = tuple(name for name in names if np.isfinite([coarse.values[name], fine.values[name]]).any())
+    missing = [name for name in (asked or names if not present else asked) if name not in present]
+    if missing:
+        allowed = "a quantity that this path has: it does not come so far, or does not turn back"
+        raise InputError("accuracy.quantities", missing[0], allowed)
+    return present
+
+
 def _largest(errors: Mapping[str, Array]) -> float:
     """Return the largest error of all quantities."""
     return max(float(values.max()) for values in errors.values())
@@ -182,7 +208,8 @@ def _first_spacing(scene: Scene, error: float) -> float:
     """Return the spacing (nm) of the first grid for a wanted error."""
     spacings = [scene.length / FIRST_POINTS[len(scene.lengths)], shortest_wave(scene) / FIRST_RESOLUTION]
     if isinstance(scene.upper.surface, Cylinder | Sphere):
-        spacings += [contact_scale(scene, step.value) / FIRST_RESOLUTION for step in scene.path.steps[:1]]
+        least = min((step.value for step in scene.path.steps if step.value > 0), default=None)
+        spacings += [contact_scale(scene, least) / FIRST_RESOLUTION] if least else []
     if scene.kind is ProblemKind.COHESIVE:
         zone = process_zone(scene.contact_modulus, total_strength(scene), shortest_range(scene))
         spacings.append(zone / ZONE_RESOLUTION)

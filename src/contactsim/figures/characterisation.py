@@ -56,4 +56,5 @@ def _draw(axes: Axes, data: xr.Dataset, name: str, label: str, factor: float = 1
     """Draw a number against the mean pressure, with its error, on logarithmic axes."""
     bars = data[f"{name}_grid_error"] * factor
     style.errorbars(axes, data.mean_pressure, data[name] * factor, bars, **style.marker_look(style.CONTACT), lw=1)
-    axes.set(xscale="log", yscale="log", xlabel=r"mean pressure $p$ (GPa)", ylabel=label)
+    is_positive = bool((np.isfinite(data[name]) & (data[name] > 0)).any())  # complete contact has no gap to draw
+    axes.set(xscale="log", yscale="log" if is_positive else "linear", xlabel=r"mean pressure $p$ (GPa)", ylabel=label)

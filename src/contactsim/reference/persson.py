@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
 
 ENERGY_PART = 0.45
@@ -43,6 +44,8 @@ class Spectrum:
     ) -> Spectrum:
         """Return the expected spectrum of a self-affine surface (ny, nx); lengths in nm, as of `SelfAffine`."""
         modes = int(np.ceil(length / short_cutoff * (1 - 1e-12))) - 1
+        if modes < 1:
+            raise InputError("short_cutoff", short_cutoff, f"below the length, {length} nm")
         number = np.arange(-modes, modes + 1)
         size = np.hypot(number[:, None], number)
         size = size[(size > 0) & (size <= modes * (1 + 1e-12))]
@@ -96,6 +99,12 @@ def persson_pressure_density(
     return (np.exp(-(towards**2) / 2) - np.exp(-(away**2) / 2)) / (spread * np.sqrt(2 * np.pi))
 
 
+def _check_load(mean_pressure: object) -> None:
+    """Raise InputError unless a mean pressure is one number above zero."""
+    if not is_positive(mean_pressure):
+        raise InputError("mean_pressure", mean_pressure, f"{POSITIVE}, in GPa")
+
+
 def persson_mean_gap(mean_pressure: float, spectrum: Spectrum, contact_modulus: float) -> float:
     """Return the mean gap (nm) between a rough surface and a flat one, without adhesion.
 
@@ -118,13 +127,15 @@ def persson_mean_gap(mean_pressure: float, spectrum: Spectrum, contact_modulus: 
     ----------
     C. Yang and B. N. J. Persson, J. Phys.: Condens. Matter 20, 215214 (2008), doi:10.1088/0953-8984/20/21/215214.
     """
+    _check_load(mean_pressure)
     return _mean_gap(mean_pressure, spectrum.divided(PARTS), contact_modulus, 0)
 
 
 def _mean_gap(pressure: float, spectrum: Spectrum, contact_modulus: float, first: int) -> float:
     """Return the mean gap (nm) that the waves from one on leave where a pressure (GPa) acts."""
     wavenumbers, powers = spectrum.wavenumbers[first:], spectrum.powers[first:]
-    spread = contact_modulus / 2 * np.sqrt(2 * np.cumsum(powers * wavenumbers**2))
+    parts = powers * wavenumbers**2
+    spread = contact_modulus / 2 * np.sqrt(2 * (np.cumsum(parts) - parts / 2))  # in the middle of each part
     integral = np.interp(pressure / spread, TABLE, _gap_integral(), right=0.0)
     return float(contact_modulus / 4 * np.sum(powers * wavenumbers / spread * integral))
 
@@ -153,13 +164,15 @@ def persson_gap_density(gap: Array | float, mean_pressure: float, spectrum: Spec
     -----
     Where a wave takes the surfaces out of contact, the gap is that which the mean gap loses with this part of the
     area. About it the shorter waves, which the surface keeps there, spread the gap as a Gaussian, mirrored at zero. It
-    integrates to 1 less `persson_area`.
+    integrates to 1 less `persson_area`. Its own mean is larger than `persson_mean_gap`, as the mirror adds to it: by a
+    few per cent at p* = 0.01, by a sixth at 0.1.
 
     References
     ----------
     A. Almqvist, C. Campañá, N. Prodanov, B. N. J. Persson, J. Mech. Phys. Solids 59, 2355 (2011),
     doi:10.1016/j.jmps.2011.08.004.
     """
+    _check_load(mean_pressure)
     places, spectrum = np.asarray(gap, float), spectrum.divided(PARTS)
     variances = np.concatenate(([0.0], np.cumsum(spectrum.powers * spectrum.wavenumbers**2)))
     with np.errstate(divide="ignore"):

@@ -141,6 +141,11 @@ class Sinusoid(Smooth):
             raise InputError("periods", self.periods, "a whole number, 1 or more")
         keep_floats(self)
 
+    @property
+    def modes(self) -> int:
+        """Number of waves in a period."""
+        return self.periods
+
     def heights(self, points: int) -> Array:
         """Return the heights in nm, a crest at the origin, shape (points,) or (points, points)."""
         wave = np.cos(2 * np.pi * (np.arange(points) * self.periods % points / points))
