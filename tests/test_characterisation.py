@@ -219,6 +219,14 @@ def test_the_command_presses_two_scans_that_repeat_and_tells_their_conductance(t
     output = tmp_path / "contact.nc"
     main(["press", str(tmp_path / "one.npy"), *loads, *both, "--output", str(output)])
     text = capsys.readouterr().out
+    for more, message in (
+        (["--other", str(tmp_path / "small.npy")], r"--other .*small\.npy: got shape \(32, 32\)"),
+        ([*both[:2], "--offset", "125", "0"], r"--offset: got \(125, 0\); allowed: one that leaves 8"),
+    ):
+        np.save(tmp_path / "small.npy", heights[:32, :32])
+        periodic = ["--periodic"] if "small" in more[1] else []
+        with pytest.raises(SystemExit, match=message):
+            main(["press", str(tmp_path / "one.npy"), *loads, *more, *periodic])
     assert "both together on 128 × 128 nm: rms height" in text
     assert "conductance" in text and "W/(m K nm)" in text
     sum_of_both = cs.Topography(heights + np.roll(heights, (1, 2), (0, 1)), 1.0)

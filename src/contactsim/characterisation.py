@@ -117,6 +117,8 @@ def characterise(
     elif offset is not None:
         raise InputError("offset", offset, "none without the heights of another body")
     if min(topography.values.shape) < MIN_POINTS:
+        if offset is not None:
+            raise InputError("offset", offset, f"one that leaves {MIN_POINTS} points or more each way")
         value = Words(f"shape {topography.values.shape}")
         raise InputError("topography", value, f"a Topography of {MIN_POINTS} points or more each way")
     wall, values = HardWall(hardness), loads.astype(float).tolist()

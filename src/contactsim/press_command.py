@@ -43,18 +43,21 @@ def press_file(options: argparse.Namespace) -> None:
         raise InputError("--output", options.output, "a name ending in .nc")
     heights = _read_heights(options.file, options)
     other = None if options.other is None else _mirror(_read_heights(options.other, options))
-    data = characterise(
-        heights,
-        other,
-        contact_modulus=options.contact_modulus,
-        mean_pressures=options.mean_pressure,
-        offset=_one_or_pair(options.offset),
-        hardness=options.hardness,
-        conductivities=options.conductivities,
-        periodic=options.periodic or None,
-        thickness=options.thickness,
-        poisson_ratio=options.poisson_ratio,
-    )
+    try:
+        data = characterise(
+            heights,
+            other,
+            contact_modulus=options.contact_modulus,
+            mean_pressures=options.mean_pressure,
+            offset=_one_or_pair(options.offset),
+            hardness=options.hardness,
+            conductivities=options.conductivities,
+            periodic=options.periodic or None,
+            thickness=options.thickness,
+            poisson_ratio=options.poisson_ratio,
+        )
+    except InputError as error:
+        raise error.renamed("other", f"--other {options.other}").renamed("offset", "--offset") from error
     sys.stdout.write(f"{_describe_heights([heights, other], data)}\n{_press_table(data)}\n")
     if options.output:
         title, source = f"Contact of {Path(options.file).name}", source_digest("contactsim.characterisation")
