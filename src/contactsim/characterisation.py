@@ -112,10 +112,7 @@ def characterise(
     if conductivities is not None:
         conductance(0.0, contact_modulus, conductivities)  # refused before the contact is solved
     elasticity = choose_elasticity(topography, contact_modulus, thickness, poisson_ratio, periodic)
-    if other is not None:
-        topography = add_heights(topography, other, offset, Trait.FREE not in elasticity.traits)
-    elif offset is not None:
-        raise InputError("offset", offset, "none without the heights of another body")
+    topography = add_heights(topography, other, offset, Trait.FREE not in elasticity.traits)
     if min(topography.values.shape) < MIN_POINTS:
         if offset is not None:
             raise InputError("offset", offset, f"one that leaves {MIN_POINTS} points or more each way")

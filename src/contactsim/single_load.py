@@ -102,10 +102,7 @@ def press(
     steps: Any = topographies[0].spacing if topographies else spacing  # an array beside a topography takes its spacing
     surface = _read_heights(heights, steps, "heights")
     step = load_step(approach, mean_pressure, "load")
-    if other is not None:
-        surface = add_heights(surface, _read_heights(other, steps, "other"), offset, repeats)
-    elif offset is not None:
-        raise InputError("offset", offset, "none without the heights of another body")
+    surface = add_heights(surface, None if other is None else _read_heights(other, steps, "other"), offset, repeats)
     scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
     method: Any = make_solver(solver) if isinstance(solver, str) else solver
     method = default_solver(scene) if method is None else method

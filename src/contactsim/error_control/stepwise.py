@@ -19,7 +19,17 @@ from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene import Scene
 from contactsim.error_control.grids import choose_grid, shortest_wave
 from contactsim.error_control.measured import QUANTITIES as LOAD_QUANTITIES
-from contactsim.error_control.scaling import contact_scale, scene_family, shortest_range, total_strength
+from contactsim.error_control.scaling import (
+    LINE,
+    PATH,
+    QUANTITIES,
+    SLIDE,
+    SURFACE,
+    contact_scale,
+    scene_family,
+    shortest_range,
+    total_strength,
+)
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.errors import InputError, Words
 from contactsim.grid import Array
@@ -57,9 +67,9 @@ SAFETY = 0.7
 TOLERANCE_SHARE, MAX_TOLERANCE = 1e-2, 1e-4
 """Tolerance over the wanted error, and the largest: far below what grid and increments leave."""
 USUAL_QUANTITIES = {
-    (ProblemKind.HARD_WALL, 1): ("relative_contact_area_subgrid",),
-    (ProblemKind.HARD_WALL, 2): ("relative_contact_area_subgrid",),
-    (ProblemKind.COHESIVE, 1): ("pull_off_load_loading", "final_contact_length"),
+    (ProblemKind.HARD_WALL, 1): QUANTITIES[LINE],
+    (ProblemKind.HARD_WALL, 2): QUANTITIES[SURFACE],
+    (ProblemKind.COHESIVE, 1): QUANTITIES[PATH],
     (ProblemKind.COHESIVE, 2): ("pull_off_force_loading", "final_contact_area"),
 }
 """Quantities whose relative error counts where no others are named, by kind of problem and dimension."""
@@ -101,7 +111,7 @@ def begin_stepwise(setup: Setup, error: float, quantities: Sequence[str]) -> Set
 
 def usual_quantities(scene: Scene) -> tuple[str, ...]:
     """Return the quantities of a scene without relations whose error counts where no others are named."""
-    return ("static_friction",) if scene.sliding else USUAL_QUANTITIES[scene.kind, len(scene.lengths)]
+    return QUANTITIES[SLIDE] if scene.sliding else USUAL_QUANTITIES[scene.kind, len(scene.lengths)]
 
 
 def known_quantities(scene: Scene) -> tuple[str, ...]:
@@ -133,7 +143,7 @@ def solve_stepwise(first: Setup, error: float, quantities: Sequence[str]) -> tup
         would be too large, or two runs one after the other were not solved.
     """
     names = tuple(quantities or usual_quantities(first.scene))
-    coarse, fine = (solve_setup(_refine(first, ratio, error), names) for ratio in (1.0, 2.0))
+    coarse, fine = (solve_setup(setup, names) for setup in (first, _refine(first, 2.0, error)))
     solutions = [coarse, fine]
     names = _present(coarse, fine, names, quantities)
     errors = {name: relative_difference(fine, coarse, name) for name in names}

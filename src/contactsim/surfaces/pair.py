@@ -13,13 +13,15 @@ from contactsim.surfaces.io import TOLERANCE
 from contactsim.surfaces.topography import Topography
 
 
-def add_heights(first: Topography, second: Topography, offset: object, periodic: bool) -> Topography:
-    """Return the sum of the heights of two bodies.
+def add_heights(first: Topography, second: Topography | None, offset: object, periodic: bool) -> Topography:
+    """Return the sum of the heights of two bodies, those of the first where the second is flat.
 
     Parameters
     ----------
-    first, second : Topography
-        Heights, each positive towards the other, at the same places.
+    first : Topography
+        Heights of a body.
+    second : Topography or None
+        Heights of the other at the same places, each positive towards the other body; None for a flat one.
     offset : int, (int, int) or None
         Whole points by which the second is moved, along x or along (y, x).
     periodic : bool
@@ -29,8 +31,12 @@ def add_heights(first: Topography, second: Topography, offset: object, periodic:
     ------
     InputError
         For different spacings, of periodic heights for different shapes, for an offset that is none, or one that leaves
-        fewer than two points each way.
+        fewer than two points each way, or is given without a second body.
     """
+    if second is None:
+        if offset is not None:
+            raise InputError("offset", offset, "none without the heights of another body")
+        return first
     here, there = first.values, second.values
     if here.ndim != there.ndim or (periodic and here.shape != there.shape):
         raise InputError("other", Words(f"shape {there.shape}"), f"that of heights, {here.shape}")
