@@ -226,8 +226,6 @@ def test_what_surfaces_do_not_have_is_refused():
     )
     with refused("increments", "requested or adaptive"):
         cs.simulate(scene, points=64, increments=cs.Nested([4.0]))
-    with refused("surface", "a line"):
-        cs.simulate(scene, accuracy=0.1)
     sheared = cs.CohesiveZone(work_of_separation=WORK, work_ratio=1.0, normal_length=5.0, tangential_length=5.0)
     body = cs.HalfSpace(MODULUS, 0.3)
     with refused("effects", "surfaces are not modelled"):
