@@ -18,7 +18,7 @@ from contactsim.grid import Array
 from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
 from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
 from contactsim.paths.state import PathState
-from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium, largest_change
+from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.solvers.cohesive.linearised import find_growth
 from contactsim.solvers.cohesive.multipliers import fit_solver
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
@@ -97,7 +97,7 @@ class Continuation:
         if target.control is Trait.SLIDE:
             current = LoadStep(Trait.SLIDE, step.sliding_distance, held=normal)
         self.displacement = displacement
-        self.jumps.forget_pace()
+        self.jumps.forget()
         self.current = current, replace(state, displacement=displacement)
         self.history.restart(current.value, displacement)
         self._leaves_unstable = state.is_stable and self._grows(self.at(current), state)
@@ -176,8 +176,8 @@ class Continuation:
         if flowed and self.current is not None and self.jumps.is_jump(step, increment, distance, leaves):
             jump = Jump(*self.current, step, state, distance)
         self._leaves_unstable = False
-        if step.control is Trait.MEAN_PRESSURE and not jump and 0 < increment < np.inf:
-            self.jumps.learn_pace(largest_change(self.problem, state.displacement - self.displacement) / increment)
+        if self.current is not None and not jump and 0 < increment < np.inf:
+            self.jumps.learn(self.current, (step, state), state.displacement - self.displacement)
         if jump or (flowed and not self._divides):  # the branch may have ended
             self.history.restart(step.value, state.displacement)
         else:
@@ -207,19 +207,22 @@ class Continuation:
         """
         goals, divides, locates, iterations, restless = [step.value], self._divides, False, 0, 0
         jumps: list[Jump] = []
+        beyond: set[float] = set()  # goals beyond the end of the branch
         while True:
             goal = replace(step, value=goals[-1])
             flowed = True
-            if self.solver.uses_guess:
+            increment = self._divisible_increment(goal) if divides and len(goals) <= MAX_HALVINGS else 0.0
+            if self.solver.uses_guess and not (increment and goal.value in beyond):
                 state = self.continue_to(goal)
                 iterations += state.iterations
                 flowed = not self.is_on_branch(state)
+                if state.status is Status.MAX_ITERATIONS and state.iterations >= 2:
+                    beyond.add(goal.value)
             if flowed:
-                increment = self._divisible_increment(goal) if divides and len(goals) <= MAX_HALVINGS else 0.0
                 if not (increment and locates):
                     state = self.flow_to(goal)
                     iterations += state.iterations
-                    locates = not self._is_minor(goal, increment, state)
+                    locates = not self._is_minor(goal, state)
                     restless += state.status is Status.NO_REST
                     if restless == MAX_RESTLESS:
                         return state, tuple(jumps), iterations
@@ -244,7 +247,6 @@ class Continuation:
         increment = step.value - parameter
         return increment if self.jumps.may_hide_in(step, abs(increment)) else 0.0
 
-    def _is_minor(self, step: LoadStep, increment: float, state: Equilibrium) -> bool:
+    def _is_minor(self, step: LoadStep, state: Equilibrium) -> bool:
         """Return True if the flow to a state passed no jump worth locating."""
-        last = self.current
-        return last is not None and state.is_stable and self.jumps.is_minor(step, abs(increment), last[1], state)
+        return self.current is not None and state.is_stable and self.jumps.is_minor(self.current, (step, state))

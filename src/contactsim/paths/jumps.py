@@ -16,7 +16,7 @@ from contactsim.grid import Array
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.load_curve import CURVES
 from contactsim.observables.sliding import TOUCHING, slide_observables
-from contactsim.solvers.cohesive.base import Equilibrium
+from contactsim.solvers.cohesive.base import Equilibrium, largest_change
 from contactsim.traits import Trait
 
 JUMP_LENGTH, JUMP_RATIO = 0.1, 5.0
@@ -29,6 +29,10 @@ the work of its path. Least traction of a loaded patch, over the laws' strength.
 CALM_RATIO = 0.25
 """Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate. In
 contact with a hard wall a surface moves by the step itself, and by this more."""
+BALANCED_CHANGE, BALANCED_STEP, BALANCED_ENERGY = 2.0, 2.0, 1 / 8
+"""A flow whose energy balances passes no jump if it moves the surface at most by the step, by this many steps more, and
+by the laws' length more. Longest such step, over the laws' length. Largest energy that is missing, over the product of
+the step and the change of the traction: so much a trapezoidal rule may miss of the work along a smooth path."""
 SLIP_RATIO = 250.0
 """Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
 ROUNDING = 1e-9
@@ -74,6 +78,10 @@ class Jump:
     distance: float
 
 
+Side = tuple[LoadStep, Equilibrium]
+"""Load step and state at one end of a step."""
+
+
 class JumpCriterion:
     """Distance beyond which a motion of the surface is a jump.
 
@@ -88,14 +96,28 @@ class JumpCriterion:
     def __init__(self, problem: CohesiveProblem, fold_width: float = FOLD_WIDTH) -> None:
         self.problem, self._fold_width = problem, fold_width
         self._pace: float | None = None  # distance that the surface moved per mean pressure, nm/GPa
+        self._rate = 0.0  # change of the traction per approach, GPa/nm
 
-    def learn_pace(self, pace: float) -> None:
-        """Store the distance that the surface moved smoothly per mean pressure, nm/GPa."""
-        self._pace = pace
+    def learn(self, before: Side, after: Side, change: Array) -> None:
+        """Store how fast the surface and its traction change on the last smooth step.
 
-    def forget_pace(self) -> None:
+        Parameters
+        ----------
+        before, after
+            Load step and state at both ends.
+        change
+            Change of the displacement (exerted, m), nm.
+        """
+        (start, first), (end, last) = before, after
+        increment = abs(end.value - start.value)
+        if end.control is Trait.MEAN_PRESSURE:
+            self._pace = largest_change(self.problem, change) / increment
+        if end.control is Trait.APPROACH:
+            self._rate = abs(float(last.traction[0].mean() - first.traction[0].mean())) / increment
+
+    def forget(self) -> None:
         """Forget how fast the surface moved, because the control changes."""
-        self._pace = None
+        self._pace, self._rate = None, 0.0
 
     @property
     def has_lattice(self) -> bool:
@@ -125,29 +147,52 @@ class JumpCriterion:
             smooth = min(smooth, self.problem.lattice_constant / 2)
         return distance > smooth
 
-    def is_minor(self, step: LoadStep, increment: float, before: Equilibrium, after: Equilibrium) -> bool:
+    def is_minor(self, before: Side, after: Side) -> bool:
         """Return True if there is no jump worth locating on a step: none at all, or that of one contact among many.
 
-        On approach alone, and for steps no longer than the laws' length. Beside a hard wall, steps of a load are taken
-        whole: how far they move a surface that the wall pushes is not known before.
+        On approach alone, and for steps no longer than the laws' length, or twice that where the energy balances.
+        Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not
+        known before.
 
         Parameters
         ----------
-        step
-            Load step at which the motion ends.
-        increment
-            Change of the load since the last state, nm or GPa.
         before, after
-            The last state, and the one that the flow reaches from it.
+            Load step and state from which a flow starts, and those that it reaches.
         """
+        step, state = after
         if step.control is Trait.MEAN_PRESSURE and self.problem.wall is not None:
             return True
-        if step.control is not Trait.APPROACH or increment > self.problem.interaction_range * (1 + ROUNDING):
+        if step.control is not Trait.APPROACH:
+            return False
+        increment = abs(step.value - before[0].value)
+        if self._is_balanced(before, after, increment):
+            return True
+        if increment > self.problem.interaction_range * (1 + ROUNDING):
             return False
         ratio = CALM_RATIO if self.problem.wall is None else 1 + CALM_RATIO
-        is_calm = after.largest_change <= ratio * increment
-        patches = max(self._count_patches(before), self._count_patches(after))
-        return is_calm or patches > MANY_PATCHES[len(self.problem.grid.shape)]
+        patches = max(self._count_patches(before[1]), self._count_patches(state))
+        return state.largest_change <= ratio * increment or patches > MANY_PATCHES[len(self.problem.grid.shape)]
+
+    def _is_balanced(self, before: Side, after: Side, increment: float) -> bool:
+        """Return True if a flow of few steps releases no energy: a jump does, which the work of the load lacks.
+
+        The work is that of a trapezoidal rule. On a smooth path it misses less, the less the traction changes.
+        """
+        problem, length = self.problem, self.problem.interaction_range
+        (start, first), (end, last) = before, after
+        excess = last.largest_change - increment
+        if (
+            problem.wall is not None
+            or Trait.NON_CONSERVATIVE in problem.law.traits
+            or increment > BALANCED_STEP * length * (1 + ROUNDING)
+            or excess > min(BALANCED_CHANGE * increment, length)
+        ):
+            return False
+        forces = [-float(state.traction[0].mean()) for state in (first, last)]
+        energies = [problem.at(step).energy(state.displacement, state.gap) for step, state in (before, after)]
+        released = sum(forces) / 2 * (end.value - start.value) - (energies[1] - energies[0])
+        change = max(abs(forces[1] - forces[0]), self._rate * increment)
+        return abs(released) <= BALANCED_ENERGY * change * increment
 
     def _count_patches(self, state: Equilibrium) -> int:
         """Return the number of loaded patches of a state."""

@@ -34,6 +34,9 @@ MAX_CHANGE_RATIO = 3.0
 MAX_RESIDUAL = 0.1
 """Newton's method ends where the residual is more than this part of the strength, if a state is sought within the trust
 radius: it is farther away, and the end of its branch is sooner found by a flow."""
+MAX_STALL = 0.5
+"""Largest ratio of the residual to that of the Newton step before, from the second on, if a state is sought within the
+trust radius. Newton's method that converges reduces it much more; beyond the end of a branch it wanders."""
 MAX_SHARED_ITERATIONS = 5
 """A preconditioner is made anew after a linear solve with more iterations than this."""
 STEP_DIVISIONS = 1, 3
@@ -111,17 +114,20 @@ class NewtonKrylov:
     def solve_near(self, problem: CohesiveProblem, guess: Array, memory: Memory, within: float = np.inf) -> Equilibrium:
         """Return the state that Newton's method reaches from a guess."""
         displacement, far, distance = guess, MAX_CHANGE_RATIO * within, 0.0
-        worst_near = MAX_RESIDUAL if within <= self.trust_radius * problem.interaction_range else np.inf
+        is_near = within <= self.trust_radius * problem.interaction_range
+        worst, worst_near = np.inf, MAX_RESIDUAL if is_near else np.inf
         for count in range(self.newton_budget + 1):
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
-            worst = problem.norm(residual)
+            before, worst = worst, problem.norm(residual)
+            stalls = is_near and count > 1 and worst > MAX_STALL * before
             if count:
                 distance = largest_change(problem, displacement - guess, self.trust_radius * problem.interaction_range)
             if (
                 worst <= problem.tolerance
                 or count == self.newton_budget
+                or stalls
                 or not (np.isfinite(worst) and worst <= worst_near and distance <= far)
             ):
                 break
