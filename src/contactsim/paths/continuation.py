@@ -29,6 +29,9 @@ BOND_LENGTH = 3.0
 """Gaps, in the laws' length, over which sites of a lattice hold each other."""
 MAX_HALVINGS = 8
 """Largest number of times that a step, or a part of it, is halved."""
+MAX_TOLERANCE = 3e-3
+"""Largest tolerance on paths whose steps are divided. Less exact states predict the next one so badly that more steps
+are divided, and a path takes several times the work."""
 MAX_RESTLESS = 2
 """Motions that do not come to rest, after which a step has no state."""
 MAX_FAILURES = 3
@@ -60,8 +63,10 @@ class Continuation:
         divides: bool = True,
         max_amplification: float = MAX_AMPLIFICATION,
     ) -> None:
-        self.problem, self.solver = problem, fit_solver(solver, problem)
         self._divides = divides and solver.uses_guess
+        if self._divides:
+            problem = replace(problem, tolerance=min(problem.tolerance, MAX_TOLERANCE))
+        self.problem, self.solver = problem, fit_solver(solver, problem)
         self.history = History(max_amplification)
         self.displacement = np.zeros(problem.unknowns, complex)
         self._failures = 0

@@ -1,0 +1,74 @@
+"""Jumps told from smooth motion: by distance, and by the energy that a step releases."""
+
+from __future__ import annotations
+
+import pytest
+
+from contactsim.contact.scene import Scene
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.interface.cohesive_zone import NormalCohesiveZone
+from contactsim.paths.continuation import Continuation
+from contactsim.surfaces.shapes import Cylinder, Sphere
+from support.smooth import along, walk
+
+SHAPES = {"line": (Cylinder(radius=2000.0, length=1000.0), 512), "surface": (Sphere(radius=2000.0, length=1000.0), 64)}
+
+
+def loop(surface, increment):
+    """Press an adhesive cylinder or sphere into a half-space, and pull it off."""
+    path = along(-8, 4, increment) >> along(4 - increment, -12, increment)
+    return Scene(HalfSpace(1.0), surface, NormalCohesiveZone(work_of_separation=0.15), path)
+
+
+@pytest.fixture
+def accepted(monkeypatch):
+    """Load parameters of all states that a path accepts."""
+    values = []
+    accept = Continuation.accept
+
+    def record(path, step, state, flowed):
+        values.append(step.value)
+        return accept(path, step, state, flowed)
+
+    monkeypatch.setattr(Continuation, "accept", record)
+    return values
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_steps_without_a_jump_are_taken_whole_and_both_jumps_are_located(accepted, name):
+    surface, points = SHAPES[name]
+    path = walk(loop(surface, 1.0), points, tolerance=1e-4)
+    folds = [jump for state in path.states for jump in state.jumps]
+    assert len(folds) == 2
+    assert all(abs(fold.step.value - fold.step_before.value) <= 0.002 for fold in folds)
+    in_contact = [value for value in accepted if -4 < value <= 4]
+    assert len(in_contact) <= 20  # 16 steps
+    fine = walk(loop(surface, 1 / 16), points, tolerance=1e-6)
+    finer = [jump for state in fine.states for jump in state.jumps]
+    assert [fold.step.value for fold in folds] == pytest.approx([fold.step.value for fold in finer], abs=0.005)
+    assert [fold.distance for fold in folds] == pytest.approx([fold.distance for fold in finer], rel=0.01)
+
+
+def test_a_step_releases_energy_where_it_passes_a_jump_alone():
+    surface, points = SHAPES["line"]
+    path = walk(loop(surface, 0.5), points, tolerance=1e-6)
+    released = {}
+    for before, after in zip(path.states, path.states[1:], strict=False):
+        energies = [
+            path.problem.at(state.step).energy(state.displacement, state.solution.gap) for state in (before, after)
+        ]
+        forces = [-state.solution.traction[0].mean() for state in (before, after)]
+        step = after.step.value - before.step.value
+        released[bool(after.jump), after.step.value] = sum(forces) / 2 * step - (energies[1] - energies[0])
+    jumps = [value for (is_jump, _), value in released.items() if is_jump]
+    smooth = [abs(value) for (is_jump, _), value in released.items() if not is_jump]
+    assert len(jumps) == 2
+    assert min(jumps) > 5 * max(smooth)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_loose_tolerance_takes_no_more_work_and_finds_the_same_jumps(name):
+    surface, points = SHAPES[name]
+    exact, loose = (walk(loop(surface, 0.5), points, tolerance=tolerance) for tolerance in (1e-5, 0.1))
+    assert loose.transforms < exact.transforms
+    assert loose.jumps == exact.jumps
