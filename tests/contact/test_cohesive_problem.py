@@ -219,11 +219,13 @@ def test_a_flat_that_faces_a_flat_gives_way_as_springs_in_series():
     assert spring * (gap[0] + place) + law.traction(gap[None, :1])[0, 0] == pytest.approx(0, abs=1e-12)
 
 
-@pytest.mark.parametrize("points", [128, 127])
+@pytest.mark.parametrize("points", [128, 96])
 def test_on_fewer_points_the_heights_keep_their_waves_but_the_shortest(points):
     scene = scene_of(LAWS["frictional"])
     whole = pose_cohesive(scene, np.random.default_rng(6).normal(size=points), 1e-7)
-    before, after = (np.fft.rfft(problem.shape[0], norm="forward") for problem in (whole, coarsen(whole, 32, 1e-3)))
+    before, after = (
+        np.fft.rfft(problem.shape[0], norm="forward") for problem in (whole, coarsen(whole, points // 32, 1e-3))
+    )
     assert np.allclose(after[:-1], before[:16], rtol=0, atol=1e-14)
     assert after[-1] == pytest.approx(0, abs=1e-14)  # its phase is lost on the grid
 

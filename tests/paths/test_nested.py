@@ -7,11 +7,11 @@ import pytest
 
 from contactsim.contact import loading
 from contactsim.contact.coarse_grid import coarsen, prolong
-from contactsim.contact.loading import LoadPath
+from contactsim.contact.loading import LoadPath, approaches
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.half_space import FreeHalfSpace, HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
@@ -22,6 +22,7 @@ from contactsim.paths.nested import Nested
 from contactsim.paths.state import PathState
 from contactsim.simulation import simulate
 from contactsim.solvers.registry import make_solver
+from contactsim.status import Status
 from contactsim.study import execute
 from contactsim.study.execute import RunFiles
 from contactsim.study.plan import Plan
@@ -94,6 +95,39 @@ def test_fields_kept_are_those_of_the_whole_grid_wherever_a_state_was_solved():
     assert abs(datum + data.snapshot + data.approach_first_touch).max() < 1e-9
 
 
+def rough_surface(length: float = 512.0) -> SelfAffine:
+    """A rough surface whose shortest wave is eight of 128 points long."""
+    seed = realisation_seed(3, 0.8)
+    return SelfAffine(length, 0.8, length / 2, length / 16, rms_height=3.0, seed=seed, dimensions=2)
+
+
+def test_on_a_surface_states_on_the_full_grid_are_those_of_a_path_on_the_full_grid():
+    law, full = NormalCohesiveZone(0.1), [-12.0, -4.0, -16.0]
+    path = approaches([-14.0, -4.0, -16.0], 1.0)
+    scene = Scene(HalfSpace(1.0), rough_surface(), law, path)
+    whole, nested = (
+        simulate(scene, points=128, tolerance=1e-6, increments=increments)
+        for increments in (None, Nested(full, coarse_ratio=4, intermediate_ratio=2))
+    )
+    assert set(nested.status.values) == set(whole.status.values) == {Status.CONVERGED.value[0]}
+    is_full = nested.solved_points.values == 128**2
+    assert is_full.tolist() == [step.value in full for step in path.steps]
+    assert set(nested.solved_points.values[~is_full]) == {64**2}
+    assert nested.residual.values[is_full].max() <= 1e-6
+    wrong = np.abs(nested.normal_force - whole.normal_force).values / np.abs(whole.normal_force).values.max()
+    assert wrong[is_full].max() < 1e-5
+    assert np.median(wrong[~is_full]) < 0.02  # four points for the shortest wave
+    assert float(nested.transforms.sum()) < float(whole.transforms.sum()) / 2
+
+
+def test_grids_are_not_nested_where_heights_do_not_repeat():
+    path = approaches([-2.0, 0.0], 1.0)
+    scene = Scene(FreeHalfSpace(1.0), rough_surface(), NormalCohesiveZone(0.1), path)
+    with pytest.raises(InputError, match="as the heights do not repeat") as caught:
+        simulate(scene, points=64, increments=Nested([0.0], coarse_ratio=4))
+    assert caught.value.key == "increments"
+
+
 @pytest.mark.parametrize("name", ["normal", "coupled"])
 def test_waves_are_followed_as_the_stored_gap_says(name):
     scene = rough_scene(ROUGH_LAWS[name], end=0.0)
@@ -110,7 +144,7 @@ def test_waves_are_followed_as_the_stored_gap_says(name):
 def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
     scene = scene_of(LAWS[name], along(0, 1, 1), surface=rough(256.0))
     whole = pose_cohesive(scene, scene.heights(512), 1e-7)
-    coarse, posed = coarsen(whole, 64, 1e-3), pose_cohesive(scene, scene.heights(64), 1e-3)
+    coarse, posed = coarsen(whole, 8, 1e-3), pose_cohesive(scene, scene.heights(64), 1e-3)
     assert coarse.tolerance == 1e-3 and coarse.unknowns == posed.unknowns
     assert np.allclose(coarse.stiffness.diagonal[:, :-1], posed.stiffness.diagonal[:, :-1], rtol=1e-12)
     if posed.slip_factor is None and len(posed.shape) == 2:
@@ -118,7 +152,7 @@ def test_a_coarser_problem_is_the_one_posed_on_fewer_points(name):
     if posed.slip_factor is not None:
         assert np.allclose(coarse.slip_factor, posed.slip_factor, rtol=1e-12)
     assert np.allclose(coarse.shape, posed.shape, atol=1e-12 * np.ptp(posed.shape))
-    assert prolong(whole, np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
+    assert prolong(whole, coarse.grid, np.ones(coarse.unknowns)).sum() == coarse.unknowns[0] * 32
 
 
 def test_a_half_space_and_a_layer_from_first_touch_are_the_same_paths_as_from_the_mean_plane():

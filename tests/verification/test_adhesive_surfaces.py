@@ -220,12 +220,6 @@ def test_long_waves_of_a_surface_are_those_that_nodes_carry():
 
 
 def test_what_surfaces_do_not_have_is_refused():
-    law = cs.NormalCohesiveZone(work_of_separation=WORK, normal_length=5.0)
-    scene = cs.Scene(
-        cs.HalfSpace(MODULUS), cs.Sphere(radius=RADIUS, length=850.0), law, cs.approaches([-4.0, 4.0], 1.0)
-    )
-    with refused("increments", "requested or adaptive"):
-        cs.simulate(scene, points=64, increments=cs.Nested([4.0]))
     sheared = cs.CohesiveZone(work_of_separation=WORK, work_ratio=1.0, normal_length=5.0, tangential_length=5.0)
     body = cs.HalfSpace(MODULUS, 0.3)
     with refused("effects", "surfaces are not modelled"):

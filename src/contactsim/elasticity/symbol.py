@@ -54,8 +54,8 @@ class Symbol(Protocol):
         """Return the symbol, with its wavenumbers in one row, at some of them."""
         ...
 
-    def coarser(self, count: int) -> Symbol:
-        """Return the symbol on a line of fewer points, an even number, with `count` wavenumbers."""
+    def coarser(self, places: Array, shortest: Array) -> Symbol:
+        """Return the symbol on a coarser grid: some of its waves (m,), the shortest of them (m,) uncoupled."""
         ...
 
 
@@ -98,9 +98,9 @@ class NormalSymbol:
         """Return the symbol, with its wavenumbers in one row, at some of them."""
         return NormalSymbol(self.diagonal[:, selection])
 
-    def coarser(self, count: int) -> NormalSymbol:
-        """Return the symbol on a line of fewer points, an even number, with `count` wavenumbers."""
-        return self.modes(slice(0, count))
+    def coarser(self, places: Array, shortest: Array) -> NormalSymbol:
+        """Return the symbol on a coarser grid: some of its waves (m,)."""
+        return self.modes(places)
 
     def mirrored(self) -> NormalSymbol:
         """Return the symbol of the same body upside down."""
@@ -170,13 +170,10 @@ class CoupledSymbol:
         """Return the symbol at some of the wavenumbers."""
         return CoupledSymbol(self.diagonal[:, selection], self.coupling[selection])
 
-    def coarser(self, count: int) -> CoupledSymbol:
-        """Return the symbol on a line of fewer points, an even number, with `count` wavenumbers.
-
-        The last of them is not coupled.
-        """
-        part = self.modes(slice(0, count))
-        return CoupledSymbol(part.diagonal, np.where(np.arange(count) < count - 1, part.coupling, 0.0))
+    def coarser(self, places: Array, shortest: Array) -> CoupledSymbol:
+        """Return the symbol on a coarser grid: some of its waves (m,), the shortest of them (m,) uncoupled."""
+        part = self.modes(places)
+        return CoupledSymbol(part.diagonal, np.where(shortest, 0.0, part.coupling))
 
     def mirrored(self) -> CoupledSymbol:
         """Return the symbol of the same body upside down: the coupling changes sign."""

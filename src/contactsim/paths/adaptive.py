@@ -54,7 +54,7 @@ class Adaptive:
     least: float | None = None
     most: float | None = None
     fold_width: float = FOLD_WIDTH
-    follows_surfaces = True
+    needs_period = False
 
     def __post_init__(self) -> None:
         for name in ("error", "least", "most", "fold_width"):

@@ -13,7 +13,6 @@ from contactsim.paths.options import Setup
 from contactsim.paths.record import simulate_path
 from contactsim.paths.requested import Requested
 from contactsim.paths.reuse import Point, Reuse
-from contactsim.traits import Trait
 
 
 class CohesiveDriver:
@@ -51,8 +50,8 @@ class CohesiveDriver:
 
 
 def _check_increments(setup: Setup) -> None:
-    """Raise InputError for nested grids on a surface."""
+    """Raise InputError for nested grids of heights that do not repeat."""
     increments = setup.options.increments or Requested()
-    if Trait.SURFACE in setup.scene.traits and not increments.follows_surfaces:
+    if increments.needs_period and not setup.scene.repeats:
         kind = type(increments).__name__.lower()
-        raise InputError("increments", kind, "requested or adaptive: grids are not nested on surfaces")
+        raise InputError("increments", kind, "requested or adaptive, as the heights do not repeat")

@@ -18,8 +18,8 @@ class Increments(Protocol):
     """A way to choose the increments of a path."""
 
     @property
-    def follows_surfaces(self) -> bool:
-        """True where paths over surfaces can be followed, too."""
+    def needs_period(self) -> bool:
+        """True where only heights that repeat can be followed."""
         ...
 
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:

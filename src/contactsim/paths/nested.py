@@ -38,7 +38,7 @@ class Nested:
     full_grid_at
         Values (nm or GPa) of the steps whose states are solved on the full grid.
     coarse_ratio, intermediate_ratio
-        Points of the full grid over those of the coarse and of the intermediate grid; powers of two.
+        Points along a side of the full grid over those of the coarse and of the intermediate grid; powers of two.
     coarse_tolerance, intermediate_tolerance
         Tolerances on these grids, in parts of the laws' strength.
 
@@ -53,7 +53,7 @@ class Nested:
     intermediate_ratio: int = 4
     coarse_tolerance: float = 1e-3
     intermediate_tolerance: float = 1e-4
-    follows_surfaces = False
+    needs_period = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "full_grid_at", read_numbers("full_grid_at", self.full_grid_at, least=0))
@@ -89,10 +89,11 @@ class Nested:
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:
         """Yield the states at all steps, in order."""
-        size, counter = problem.grid.size, problem.counter
-        self.check(size, steps, solver)
-        coarse_problem = coarsen(problem, size // self.coarse_ratio, self.coarse_tolerance)
-        middle_problem = coarsen(problem, size // self.intermediate_ratio, self.intermediate_tolerance)
+        counter = problem.counter
+        for points in problem.grid.shape:
+            self.check(points, steps, solver)
+        coarse_problem = coarsen(problem, self.coarse_ratio, self.coarse_tolerance)
+        middle_problem = coarsen(problem, self.intermediate_ratio, self.intermediate_tolerance)
         path = Continuation(coarse_problem, solver, divides=False)
         middle_grid, full_grid = FinerGrid(middle_problem, solver), FinerGrid(problem, solver)
         coarse, middle = (np.zeros(level.unknowns, complex) for level in (coarse_problem, middle_problem))
@@ -100,12 +101,13 @@ class Nested:
             before = counter.transforms
             state = path.advance(step)
             if state.status is Status.CONVERGED:
-                refined = middle_grid.refine(state, middle + prolong(middle_problem, state.displacement - coarse))
+                change = prolong(middle_problem, coarse_problem.grid, state.displacement - coarse)
+                refined = middle_grid.refine(state, middle + change)
                 if refined.status is Status.CONVERGED:
                     coarse, middle = state.displacement, refined.displacement
                 state = refined
             if state.status is Status.CONVERGED and self._needs_full_grid(step):
-                state = full_grid.refine(state, prolong(problem, state.displacement))
+                state = full_grid.refine(state, prolong(problem, middle_problem.grid, state.displacement))
             yield replace(state, transforms=counter.transforms - before)
 
     def _needs_full_grid(self, step: LoadStep) -> bool:

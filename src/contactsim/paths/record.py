@@ -131,7 +131,8 @@ def _state_numbers(scene: Scene, state: PathState, reader: StateReader) -> dict[
 def _state_fields(problem: CohesiveProblem, state: PathState, keep_fields: bool) -> dict[str, Array]:
     """Return histograms and, if kept, gap, traction and displacement by component, each (n,), on the whole grid."""
     if state.points < problem.heights.size:
-        state = replace(state, problem=problem, displacement=prolong(problem, state.displacement), solution=None)
+        displacement = prolong(problem, state.problem.grid, state.displacement)
+        state = replace(state, problem=problem, displacement=displacement, solution=None)
     gap, traction = map(problem.on_heights, state.fields())
     fields = histograms(problem, gap, traction)
     if keep_fields:

@@ -31,7 +31,7 @@ class Requested:
     """
 
     fold_width: float = FOLD_WIDTH
-    follows_surfaces = True
+    needs_period = False
 
     def __post_init__(self) -> None:
         if not is_positive(self.fold_width):

@@ -83,21 +83,31 @@ class LineReader:
 
 
 class SurfaceReader:
-    """Numbers of states on a surface; problem: on the full grid."""
+    """Numbers of states on a surface, and what they need of its heights, which is found once for each grid.
+
+    Parameters
+    ----------
+    problem
+        The problem on the full grid.
+    """
 
     def __init__(self, problem: CohesiveProblem) -> None:
+        self._area = float(np.prod(problem.heights.lengths))
+        self._squares: dict[int, Array] = {}
+
+    def _local_squares(self, problem: CohesiveProblem) -> Array:
+        """Return the local squares of the slopes at the heights' points of a problem, (n,)."""
         grid = problem.heights
-        self._area = float(np.prod(grid.lengths))
-        self._squares = (
-            STATISTICS[problem.heights_grid is None]
-            .local_squares(problem.on_heights(problem.shape[0]).reshape(grid.shape), grid.spacing)
-            .ravel()
-        )
+        if grid.size not in self._squares:
+            heights = problem.on_heights(problem.shape[0]).reshape(grid.shape)
+            squares = STATISTICS[problem.heights_grid is None].local_squares(heights, grid.spacing)
+            self._squares[grid.size] = squares.ravel()
+        return self._squares[grid.size]
 
     def numbers(self, problem: CohesiveProblem, displacement: Array, gap: Array, traction: Array) -> dict[str, float]:
         """Return the numbers of a state; see `StateReader`."""
         numbers = surface_observables(problem, gap, traction)
-        return numbers | gradients(self._squares, problem, gap, traction)
+        return numbers | gradients(self._local_squares(problem), problem, gap, traction)
 
     def is_complete(self, numbers: dict[str, float]) -> bool:
         """Return True for the numbers of a state in which every gap is closed."""
