@@ -9,6 +9,7 @@ PUBLIC = {
     "characterise": "characterisation",
     "contact_stiffness": "paths.contact_stiffness",
     "conductance": "observables.conductance",
+    "partial_slip": "paths.partial_slip",
     "find_patches": "observables.patches",
     "simulate": "simulation",
     "estimate_cost": "simulation",
