@@ -22,6 +22,7 @@ from contactsim.evaluation.effects import map_settings
 from contactsim.evaluation.identification import settings as identification
 from contactsim.evaluation.identification.admission import Limits
 from contactsim.evaluation.robustness.survey import ROBUSTNESS_KEYS
+from contactsim.evaluation.work_precision import prices
 from contactsim.evaluation.work_precision.case_config import CASE_KEYS, KEPT_TIERS
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
@@ -196,6 +197,7 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "gallery",
         "accuracy",
         "overview",
+        "price_of_accuracy",
         "export_baselines",
     }
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", USER_PAGES, re.MULTILINE)
@@ -251,6 +253,7 @@ TABLES = [
         map_settings.PANEL_KEYS,
     ),
     *(identification.KEYS, identification.RANGE_KEYS, identification.RUN_KEYS, keys_of(Limits)),
+    prices.KEYS,
     *((KEPT_TIERS,), CLAIM_KEYS, FITTED, CASE_KEYS, SETTING_KEYS, PATH_KEYS, SLIDE_KEYS, LAW_KEYS),
     *(keys for _, _, keys in ERROR_RUNS.values()),
     *sampling.RANGES.values(),

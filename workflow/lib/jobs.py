@@ -19,7 +19,7 @@ from contactsim.evaluation.calibration import measurement, validation
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.effects import survey as effect_survey
 from contactsim.evaluation.robustness import survey as hazard_survey
-from contactsim.evaluation.work_precision import case_config, cases
+from contactsim.evaluation.work_precision import case_config, cases, prices
 from contactsim.provenance import canonical
 from contactsim.study.plan import Plan
 from contactsim.study.run import Run
@@ -173,6 +173,24 @@ class EvaluationJobs:
         """Return what the figure of all cases depends on."""
         overview, cases = _present(self.products.overview), self.products.cases
         return canonical(case_config.overview_figure_job(overview, cases, self.products.plan.tier))
+
+    def price_params(self, wildcards: Wildcards) -> str:
+        """Return what the prices of accuracy of a scene depend on."""
+        return canonical(prices.price_job(_present(self.products.prices), wildcards.scene))
+
+    def price_files(self, folder: str, ending: str) -> list[Path]:
+        """Return the files of all priced scenes, in a folder and with an ending."""
+        scenes = _present(self.products.prices).scenes
+        return [self.products.results / folder / f"{scene}.{ending}" for scene in scenes]
+
+    def compared_cases(self) -> list[Path]:
+        """Return the tables at equal error of the cases that priced scenes name."""
+        cases = prices.prices_figure_job(_present(self.products.prices), self.products.plan.tier)["cases"]
+        return [self.products.results / f"figures/accuracy_{case}_at_equal_error.csv" for case in cases.values()]
+
+    def prices_figure_params(self, wildcards: Wildcards) -> str:
+        """Return what the figure of the prices of accuracy depends on."""
+        return canonical(prices.prices_figure_job(_present(self.products.prices), self.products.plan.tier))
 
     def hazard_params(self, wildcards: Wildcards) -> str:
         """Return what the survey of a hazard depends on."""

@@ -15,6 +15,7 @@ from contactsim.evaluation.identification import settings as identification_sett
 from contactsim.evaluation.robustness import survey
 from contactsim.evaluation.work_precision import case_config
 from contactsim.evaluation.work_precision.cases import Case
+from contactsim.evaluation.work_precision.prices import Prices, read_prices
 from contactsim.study.plan import Plan
 
 
@@ -34,6 +35,8 @@ class Products:
         The survey of robustness.
     effects
         The costs of effects.
+    prices
+        Scenes solved to smaller and smaller errors.
     trials
         Scenes drawn at random and solved to an accuracy.
     maps
@@ -49,6 +52,7 @@ class Products:
     cases: dict[str, Case]
     hazards: survey.Robustness | None
     effects: effect_cost.EffectCosts | None
+    prices: Prices | None
     trials: sampling.Trials | None
     maps: map_settings.EffectMaps | None
     overview: FigureSettings | None
@@ -84,6 +88,7 @@ class Products:
             cases,
             hazards=survey.read_robustness(config, plan),
             effects=effect_cost.read_variants(config, plan.seed, plan.overrides["effects"], plan.tier),
+            prices=read_prices(config, plan, cases),
             trials=sampling.read_trials(config, plan.overrides["trials"], plan.tier),
             maps=map_settings.read_maps(config, plan.overrides["effect_maps"], plan.tier),
             overview=case_config.read_overview(config) if cases else None,
@@ -105,7 +110,9 @@ class Products:
         """Return the settings of the figures that evaluate the package, by section of the report and by name."""
         cases: dict[str, FigureSettings] = {f"accuracy_{name}": case.settings for name, case in self.cases.items()}
         return {
-            "accuracy": cases | _present(trials=self.trials, overview=self.overview),
+            "accuracy": _present(price_of_accuracy=self.prices)
+            | cases
+            | _present(trials=self.trials, overview=self.overview),
             "stability": _present(stability=self.hazards),
             "effects": _present(effects=self.effects, effect_maps=self.maps),
             "identification": _present(identification=self.identification),

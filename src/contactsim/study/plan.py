@@ -39,7 +39,7 @@ def boolean(value: object) -> bool:
     return value
 
 
-OVERRIDES = ("stability", "effects", "trials", "effect_maps", "identification")
+OVERRIDES = ("stability", "effects", "trials", "effect_maps", "identification", "price_of_accuracy")
 """Files beside tiers.yaml whose keys a tier can override."""
 CONFIG_FILES = ("config", "tiers", "accuracy", "overview", *OVERRIDES)
 """Files of a config beside the chapters."""

@@ -26,6 +26,8 @@ STAGES: dict[str, tuple[str, ...]] = {
     "work_precision": ("contactsim.evaluation.work_precision.cases",),
     "export_baselines": ("contactsim.evaluation.work_precision.baselines",),
     "work_precision_figure": ("contactsim.figures.diagnostics.accuracy",),
+    "price": ("contactsim.evaluation.work_precision.prices",),
+    "price_figure": ("contactsim.figures.diagnostics.prices",),
     "overview_figure": ("contactsim.figures.diagnostics.overview",),
     "measure_scaling": ("contactsim.evaluation.calibration.measurement",),
     "fit_scaling": ("contactsim.evaluation.calibration.fit",),

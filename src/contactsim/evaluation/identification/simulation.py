@@ -75,6 +75,11 @@ class UntilReattached:
     increments: Increments
     slips: int
 
+    @property
+    def needs_period(self) -> bool:
+        """True where the other way needs heights that repeat."""
+        return self.increments.needs_period
+
     def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
         """Check as the other way does."""
         self.increments.check(points, steps, solver)

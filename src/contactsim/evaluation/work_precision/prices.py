@@ -1,0 +1,178 @@
+"""What accuracy costs: one scene of each kind, solved to smaller and smaller errors.
+
+Runs that would take too long are forecast alone. Times are told in transforms of 4096 points, so that the same runs are
+solved on every machine.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contactsim import dataset
+from contactsim.error_control.control import solve_to_error
+from contactsim.error_control.forecast import UNIT_POINTS, forecast_setup, forecast_to_error, transform_seconds
+from contactsim.error_control.relations import FILE
+from contactsim.error_control.stepwise import has_relations
+from contactsim.errors import InputError
+from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
+from contactsim.evaluation.work_precision.cases import Case
+from contactsim.paths.options import Setup
+from contactsim.provenance import digest
+from contactsim.solvers.registry import solver_module
+from contactsim.study.plan import Plan
+from contactsim.study.reading import Key, choice, listed, mapping, positive, read, text
+from contactsim.study.scenes import build_setup
+from contactsim.study.stages import computing_stage_digest, stage_digest
+from contactsim.study.tier_overrides import tiered
+
+NAME = "price_of_accuracy"
+"""Name of the figure and of its file of settings."""
+KEYS = FIGURE_KEYS | {
+    "errors": Key(listed(positive), "a list of relative errors, the largest first"),
+    "limit": Key(positive, "transforms of 4096 points, above which a run is forecast and not solved"),
+    "scenes": Key(mapping, "a mapping from names to a title, a study and a case of accuracy.yaml"),
+}
+GROWTH = 4.0
+"""Cost of a run over that of the one before it, where costs are not forecast."""
+
+
+@dataclass(frozen=True)
+class PricedScene:
+    """One kind of scene.
+
+    Parameters
+    ----------
+    title
+        Words for the kind.
+    run
+        Settings of the first run of its study.
+    thesis_points
+        Points of the thesis; None where it has no such scene.
+    case
+        Case of the work-precision study that compares solvers on it; None without one.
+    """
+
+    title: str
+    run: Mapping[str, Any]
+    thesis_points: int | None
+    case: str | None
+
+    @property
+    def setup(self) -> Setup:
+        """Scene and options."""
+        return build_setup(self.run)
+
+
+@dataclass(frozen=True)
+class Prices(FigureSettings):
+    """The errors asked for, the longest runs, and the scenes by name."""
+
+    errors: Sequence[float]
+    limit: float
+    scenes: Mapping[str, PricedScene]
+
+
+def read_prices(folder: str | Path, plan: Plan, cases: Mapping[str, Case]) -> Prices | None:
+    """Return the settings of price_of_accuracy.yaml at the plan's tier; None without that file."""
+    source = tiered(Path(folder) / f"{NAME}.yaml", plan.overrides[NAME], plan.tier)
+    if source is None:
+        return None
+    section, file = source
+    settings = read(section, KEYS, file)
+    keys = {
+        "title": Key(text, "a line of text"),
+        "study": Key(choice(tuple(plan.studies)), "the name of a study"),
+        "case": Key(choice(tuple(cases)), f"one of {', '.join(cases)}", None),
+    }
+    scenes = {}
+    for name, scene in settings["scenes"].items():
+        own = read(scene, keys, file, f"scenes.{name}")
+        study = plan.studies[own["study"]]
+        run = study.runs()[0]
+        scenes[name] = PricedScene(own["title"], run.settings, study.settings["thesis_points"], own["case"])
+    return Prices(**settings | {"scenes": scenes})
+
+
+def price_job(prices: Prices, name: str) -> dict[str, Any]:
+    """Return what the prices of a scene depend on."""
+    scene = prices.scenes[name]
+    module = solver_module(scene.run["solver"]["kind"])
+    source = digest(computing_stage_digest("price", module), FILE.read_text(encoding="utf-8"))
+    return {"settings": asdict(scene) | {"errors": prices.errors, "limit": prices.limit}, "source": source}
+
+
+def prices_figure_job(prices: Prices, tier: str) -> dict[str, Any]:
+    """Return what the figure of all scenes depends on."""
+    return {
+        "settings": prices.layout,
+        "titles": {name: scene.title for name, scene in prices.scenes.items()},
+        "cases": {name: scene.case for name, scene in prices.scenes.items() if scene.case},
+        "tier": tier,
+        "source": stage_digest("price_figure"),
+        "data": digest([price_job(prices, name) for name in prices.scenes]),
+    }
+
+
+def measure_price(settings: Mapping[str, Any]) -> tuple[xr.Dataset, dict[str, Any]]:
+    """Solve a scene to all errors, the largest first, as long as that is not too long.
+
+    Parameters
+    ----------
+    settings
+        Of `price_job`.
+
+    Returns
+    -------
+    data : xarray.Dataset
+        For each error asked for: what was forecast, and the error, grid and work of what was solved; reproducible.
+    costs : dict
+        CPU seconds of each run that was solved, and of one transform of 4096 points.
+    """
+    scene = PricedScene(*(settings[name] for name in ("title", "run", "thesis_points", "case")))
+    setup, limit = scene.setup, settings["limit"]
+    is_forecast, rows, last = has_relations(setup.scene), [], 0.0
+    seconds: list[float] = []
+    for error in sorted(settings["errors"], reverse=True):
+        units = _predicted_units(setup, error) if is_forecast else np.nan
+        row = {"predicted_units": units}
+        if (units if is_forecast else GROWTH * last) <= limit:
+            if not seconds:
+                solve_to_error(setup, error)  # compiles the kernels
+            begin = time.process_time()
+            result = solve_to_error(setup, error)
+            seconds.append(time.process_time() - begin)
+            last = result.work * result.last.size / UNIT_POINTS
+            row |= {
+                "predicted_error": max(float(values.max()) for values in result.errors.values()),
+                "accuracy_reached": int(result.met),
+                "points": result.last.points,
+                "work": result.work * result.last.size,
+            }
+        rows.append({"predicted_error": np.nan, "accuracy_reached": -1, "points": -1, "work": np.nan} | row)
+    values = {name: ("requested_error", [row[name] for row in rows]) for name in rows[0]}
+    data = xr.Dataset(values, {"requested_error": sorted(settings["errors"], reverse=True)})
+    data = data.assign(dict(zip(("thesis_error", "thesis_units"), _price_of_thesis(scene), strict=True)))
+    return dataset.describe(data), {"seconds": seconds, "transform_seconds": transform_seconds()}
+
+
+def _predicted_units(setup: Setup, error: float) -> float:
+    """Return the time of a run to an error; NaN for an error that no affordable grid reaches."""
+    try:
+        return forecast_to_error(setup, error).units
+    except InputError:
+        return np.nan
+
+
+def _price_of_thesis(scene: PricedScene) -> tuple[float, float]:
+    """Return expected error and units of time on the thesis's grid, by our solver; NaN where it is not forecast."""
+    if scene.thesis_points is None or not has_relations(scene.setup.scene):
+        return np.nan, np.nan
+    forecast = forecast_setup(scene.setup.with_options(points=scene.thesis_points))
+    return max(forecast.errors.values()), forecast.units

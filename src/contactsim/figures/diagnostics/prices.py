@@ -1,0 +1,154 @@
+"""What accuracy costs: one panel, a line for each kind of scene."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+
+from contactsim import dataset
+from contactsim.figures import style
+from contactsim.figures.layout import empty_figure, save
+
+LOOKS = {
+    "cylinder": ("o", style.WHOLE),
+    "sphere": ("o", style.CONTACT),
+    "rough_line": ("s", style.WHOLE),
+    "layer": ("D", style.WHOLE),
+    "rough_surface": ("s", style.CONTACT),
+    "adhesive_asperity": ("^", style.PAIRS),
+    "adhesive_sphere": ("v", style.PAIRS),
+    "rough_adhesive": ("P", style.PAIRS),
+    "sliding": ("X", style.PURPLE),
+}
+"""Marker and colour of each kind: red for lines and blue for surfaces at a hard wall, green with adhesion, violet with
+friction."""
+OTHER_LOOK = ("h", style.BROWN)
+METHODS = ("verlet", "damped_verlet")
+"""The method of the thesis, at a hard wall and with cohesive laws."""
+LEVEL = 0.01
+"""Error near which methods are compared."""
+TIMES = {1.0: "1 s", 60.0: "1 min", 3600.0: "1 h"}
+"""Times at which there are lines."""
+TICKS = (0.1, 0.01, 1e-3, 1e-4)
+"""Errors with a label."""
+LABEL_PLACE, HIGHEST_LABEL = 0.77, 0.97
+"""Where labels begin, and the highest of them, over width and height of the panel."""
+LABEL_GAP = 0.045
+"""Least distance of labels, over the height of the panel."""
+
+
+LABEL_ROOM = 0.42
+"""Room right of the smallest error for labels, over the width of all errors, both as logarithms."""
+
+
+@mpl.rc_context(style.RC_PARAMS)
+def write_prices(plan: Mapping[str, Any], files: Mapping[str, Sequence[str]], targets: Mapping[str, str]) -> None:
+    """Plot all scenes and write the files.
+
+    Parameters
+    ----------
+    plan : of `contactsim.evaluation.work_precision.prices.prices_figure_job`
+    files : data and costs of all scenes, in the order of the plan; equal, of the cases that compare solvers
+    targets : png, pdf and csv
+    """
+    factors = {name: method_factor(pd.read_csv(path)) for name, path in zip(plan["cases"], files["equal"], strict=True)}
+    tables = [
+        price_table(data, costs).assign(scene=name, factor=factors.get(name, np.nan))
+        for name, data, costs in zip(plan["titles"], files["data"], files["costs"], strict=True)
+    ]
+    table = pd.concat(tables, ignore_index=True)
+    solved = table[table.accuracy_reached >= 0]
+    footer = (
+        f"{plan['tier']} tier · {len(solved)} runs solved, {int((solved.accuracy_reached == 1).sum())} within the error"
+    )
+    figure, (panel,) = empty_figure(plan["settings"] | {"panels": 1}, footer)
+    plot_prices(panel, table, plan["titles"])
+    save(figure, table, targets)
+
+
+def price_table(data: str, costs: str) -> pd.DataFrame:
+    """Return one row an error asked for: seconds, forecast seconds, and those on the grid of the thesis."""
+    values, spent = dataset.load_dataset(data), json.loads(Path(costs).read_text())
+    table = values.to_dataframe().reset_index()
+    solved = table.accuracy_reached >= 0
+    table["seconds"] = np.nan
+    table.loc[solved, "seconds"] = spent["seconds"]
+    unit = spent["transform_seconds"]
+    return table.assign(predicted_seconds=table.predicted_units * unit, thesis_seconds=table.thesis_units * unit)
+
+
+def method_factor(equal: pd.DataFrame) -> float:
+    """Return the time of the method of the thesis over ours, at the error of the tolerance nearest to 1 %; else NaN."""
+    rows = equal[equal.solver.isin(METHODS) & (equal.knob == "tolerance") & equal.seconds.notna()]
+    if not len(rows):
+        return np.nan
+    return float(rows.seconds.iloc[int(np.abs(np.log(rows.error / LEVEL)).argmin())])
+
+
+def plot_prices(axes: Axes, table: pd.DataFrame, titles: Mapping[str, str]) -> None:
+    """Plot the scenes: forecast and solved, the thesis's grid, and a label with the factor of its method."""
+    least, most = table.requested_error.min(), table.requested_error.max()
+    ends = {}
+    for name, rows in table.groupby("scene", sort=False):
+        marker, colour = LOOKS.get(str(name), OTHER_LOOK)
+        axes.plot(rows.requested_error, rows.predicted_seconds, color=colour, lw=1.0)
+        for reached, face in ((1, colour), (0, "white")):
+            part = rows[rows.accuracy_reached == reached]
+            axes.plot(part.requested_error, part.seconds, ls="", marker=marker, ms=5, color=colour, mfc=face)
+        first = rows.iloc[0]
+        axes.plot(first.thesis_error, first.thesis_seconds, marker="x", ms=7, mew=1.6, color=colour, ls="")
+        seconds = rows.predicted_seconds.fillna(rows.seconds)
+        last = seconds.last_valid_index()
+        if last is not None:
+            factor = f" (× {first.factor:.2g})" if np.isfinite(first.factor) else ""
+            ends[titles[str(name)] + factor] = rows.requested_error[last], seconds[last], marker, colour
+    axes.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="CPU time on one core (s)")
+    axes.set_xlim(most * 1.3, least * (least / most) ** LABEL_ROOM)
+    ticks = [value for value in TICKS if least * 0.99 <= value <= most * 1.01]
+    axes.set_xticks(ticks, [f"{100 * value:g} %" for value in ticks])
+    axes.minorticks_off()
+    axes.tick_params(right=False, top=False)
+    _add_times(axes)
+    _add_labels(axes, ends)
+
+
+def _add_times(axes: Axes) -> None:
+    """Draw lines at a second, a minute and an hour, as far as the panel reaches, and name them on the right."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high)
+    for value, text in TIMES.items():
+        if low < value < high:
+            axes.axhline(value, color=style.LIGHT_GREY, lw=0.6, ls=":", zorder=0)
+            axes.text(1.01, value, text, transform=axes.get_yaxis_transform(), fontsize=8, va="center")
+
+
+def _add_labels(axes: Axes, ends: Mapping[str, tuple[float, float, str, str]]) -> None:
+    """Write a label beside the end of each line, in the order of their ends and apart from each other."""
+    low, high = np.log(axes.get_ylim())
+    order = sorted(ends, key=lambda text: ends[text][1])
+    places: list[float] = []
+    for text in order:
+        place = float((np.log(ends[text][1]) - low) / (high - low))
+        places.append(max(place, places[-1] + LABEL_GAP) if places else place)
+    excess = max(places[-1] - HIGHEST_LABEL, 0.0) if places else 0.0
+    for text, place in zip(order, places, strict=True):
+        error, seconds, marker, colour = ends[text]
+        look: dict[str, Any] = {"color": colour, "transform": axes.transAxes, "clip_on": False}
+        axes.plot(LABEL_PLACE - 0.015, place - excess, marker=marker, ms=4, ls="", **look)
+        axes.annotate(
+            text,
+            (error, seconds),
+            (LABEL_PLACE, place - excess),
+            textcoords=axes.transAxes,
+            fontsize=7.5,
+            color=colour,
+            va="center",
+            arrowprops={"arrowstyle": "-", "lw": 0.4, "color": colour, "shrinkA": 8, "shrinkB": 2, "relpos": (0, 0.5)},
+        )

@@ -1,0 +1,94 @@
+"""What accuracy costs: what is solved and what is forecast, and the figure."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from contactsim import dataset
+from contactsim.evaluation.work_precision import case_config
+from contactsim.evaluation.work_precision.prices import measure_price, price_job, prices_figure_job, read_prices
+from contactsim.figures.diagnostics import prices as price_figure
+from contactsim.study.plan import Plan
+from support.cases import refused
+from support.places import ROOT
+
+PLAN = Plan.read(ROOT / "config", "quick")
+CASES = case_config.read_cases(ROOT / "config", PLAN)
+PRICES = read_prices(ROOT / "config", PLAN, CASES)
+
+
+def measure(name, **changes):
+    """Measure a scene of the quick tier with other errors or another limit."""
+    settings = json.loads(json.dumps(price_job(PRICES, name)["settings"]))
+    return measure_price(settings | changes)
+
+
+@pytest.fixture(scope="module")
+def cylinder():
+    return measure("cylinder", errors=[0.03, 0.1, 0.01], limit=1e6)
+
+
+def test_a_scene_is_solved_to_each_error_the_largest_first(cylinder):
+    data, spent = cylinder
+    assert data.requested_error.values.tolist() == [0.1, 0.03, 0.01]
+    assert len(spent["seconds"]) == 3
+    reached = data.accuracy_reached.values == 1
+    assert reached.any()
+    assert np.all(data.predicted_error.values[reached] <= data.requested_error.values[reached])
+    assert np.all(np.diff(data.predicted_units.values) > 0)
+    assert float(data.thesis_error) > 0
+
+
+def test_what_would_take_too_long_is_forecast_and_not_solved():
+    data, spent = measure("rough_line", errors=[0.1, 0.01], limit=1.0)
+    assert spent["seconds"] == []
+    assert set(data.accuracy_reached.values) == {-1}
+    assert np.all(data.predicted_units.values > 1)
+
+
+def test_a_scene_whose_costs_are_not_known_is_solved_until_one_run_takes_too_long():
+    data, spent = measure("adhesive_sphere", errors=[0.3, 0.1], limit=1.0)
+    assert len(spent["seconds"]) == 1
+    assert np.isnan(data.predicted_units.values).all()
+    assert np.isnan(data.thesis_error)
+
+
+def test_the_figure_shows_what_was_solved_and_forecast_and_the_factor_of_the_method_of_the_thesis(cylinder, tmp_path):
+    told = prices_figure_job(PRICES, "quick")
+    told |= {"titles": {"cylinder": "cylinder"}, "cases": {"cylinder": "cylinder"}}
+    files = {"data": [str(tmp_path / "a.nc")], "costs": [str(tmp_path / "a.json")], "equal": [str(tmp_path / "a.csv")]}
+    data, spent = cylinder
+    dataset.write(dataset.stamp(data, "prices", {}, "source"), files["data"][0])
+    (tmp_path / "a.json").write_text(json.dumps(spent))
+    equal = {"knob": ["tolerance"] * 3, "error": [0.1, 0.01, 0.01], "solver": ["verlet", "verlet", "polonsky_keer"]}
+    pd.DataFrame(equal | {"work": [1.0, 2.0, 3.0], "seconds": [10.0, 20.0, 5.0]}).to_csv(files["equal"][0], index=False)
+    targets = {kind: str(tmp_path / f"prices.{kind}") for kind in ("png", "pdf", "csv")}
+    price_figure.write_prices(told, files, targets)
+    shown = pd.read_csv(targets["csv"])
+    assert shown.seconds.notna().all()
+    assert set(shown.factor) == {20.0}
+    assert (tmp_path / "prices.png").stat().st_size > 10_000
+
+
+def test_without_the_method_of_the_thesis_there_is_no_factor():
+    equal = pd.DataFrame({"knob": ["tolerance"], "error": [0.1], "solver": ["polonsky_keer"], "seconds": [2.0]})
+    assert np.isnan(price_figure.method_factor(equal))
+
+
+def test_the_figure_needs_its_file_and_refuses_what_is_not_known(tmp_path):
+    plan = Plan.read(ROOT / "config", "standard")
+    assert read_prices(tmp_path, plan, CASES) is None
+    text = (ROOT / "config/price_of_accuracy.yaml").read_text()
+    for old, new, key, allowed in (
+        ("study: smooth_line", "study: cylinders", "study", "the name of a study"),
+        ("case: cylinder", "case: nothing", "case", "one of"),
+        ("limit: 2.0e+5", "limit: 0", "limit", "transforms of 4096 points"),
+        ("errors: [0.1, ", "errors: [-0.1, ", "errors", "a list of relative errors"),
+    ):
+        (tmp_path / "price_of_accuracy.yaml").write_text(text.replace(old, new))
+        with refused(key, allowed):
+            read_prices(tmp_path, plan, CASES)
