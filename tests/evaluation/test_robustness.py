@@ -29,13 +29,14 @@ from contactsim.evaluation.robustness.survey import (
     robustness_job,
     survey_hazard,
 )
+from contactsim.figures.diagnostics.robustness import robustness
 from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, short_reason, stability, supported
 from contactsim.figures.layout import write_figure
 from contactsim.solvers.base import State
 from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
 from contactsim.variables import RESULTS
-from support.cases import ALL, ON_SURFACES
+from support.cases import ALL, ON_SURFACES, refused
 from support.places import ROOT
 
 ON_PATHS = ("newton", "mass_weighted_verlet", "energy_minimisation")
@@ -194,6 +195,19 @@ def test_a_bad_setting_is_refused_with_file_key_value_and_what_is_allowed(change
     assert allowed in str(caught.value)
 
 
+@pytest.mark.parametrize(("count", "families"), [(0, ["grids"]), (2, ["grids", "grids too"])])
+def test_every_hazard_is_in_one_family(count, families):
+    hazards = {name: list(own) for name, own in SETTINGS["families"]["hazards"].items()}
+    own = next(name for name, family in hazards.items() if "ridges" in family)
+    hazards[own] = [hazard for hazard in hazards[own] if hazard != "ridges"]
+    if count:
+        hazards |= {name: ["ridges"] for name in families}
+    changed = SETTINGS | {"families": SETTINGS["families"] | {"hazards": hazards}}
+    with refused("families.hazards", "every hazard in one family") as caught:
+        read_robustness_section(changed, "stability.yaml")
+    assert str(caught.value.value) == f"ridges in {count} families"
+
+
 def test_a_missing_setting_is_refused():
     with pytest.raises(InputError, match="severities"):
         read_robustness_section(
@@ -314,6 +328,33 @@ def test_the_map_colours_its_cells_by_outcome_and_counts_what_must_not_occur(dra
         outcomes = supported(data.sel(hazard=hazard)).outcome.values
         wanted = [to_rgba(list(COLOURS.values())[value]) for value in outcomes.ravel()]
         assert np.allclose(mesh.to_rgba(mesh.get_array()).reshape(-1, 4), wanted)
+
+
+FAMILIES = {"loads": ["tension", "nearly_full_rough"], "spikes": ["low_spike"], "slides": ["fine_lattice"]}
+
+
+def test_a_family_shows_its_worst_outcome_by_the_default_solver_and_how_often_there_is_no_answer(drawn):
+    data = dataset.load_dataset(drawn / "stability.nc")
+    axes = Figure().subplots()
+    table = robustness(data, axes, FAMILIES)
+    assert len(table) == 9
+    assert set(table.solver) == {"active_set"}
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["loads (2)", "spikes (1)"]
+    worst = axes.collections[0].get_array().reshape(2, 3)
+    assert set(worst[0].tolist()) == {Outcome.REFUSED.value[0]}  # tension
+    assert worst[1].max() < Outcome.REFUSED.value[0]
+    assert [text.get_text() for text in axes.texts] == ["1", "1", "1"]
+    assert axes.get_title(loc="left") == "9 cases, 0 wrong"
+
+
+@pytest.mark.parametrize("outcome", [Outcome.WRONG, Outcome.NON_FINITE])
+def test_one_wrong_answer_is_seen_in_its_family_and_counted(drawn, outcome):
+    data = dataset.load_dataset(drawn / "stability.nc")
+    data["outcome"].loc[{"hazard": "low_spike", "solver": "active_set", "severity": 20.0}] = outcome.value[0]
+    axes = Figure().subplots()
+    robustness(data, axes, FAMILIES)
+    assert axes.collections[0].get_array().reshape(2, 3)[1, 1] == Outcome.WRONG.value[0]
+    assert axes.get_title(loc="left") == "9 cases, 1 wrong"
 
 
 def test_the_map_says_why_a_case_was_refused(drawn):

@@ -205,6 +205,10 @@ class EvaluationJobs:
         """Return what the dataset of all hazards depends on."""
         return canonical(hazard_survey.robustness_job(_present(self.products.hazards), self.products.plan))
 
+    def families_figure_params(self, wildcards: Wildcards) -> str:
+        """Return what the figure of the families of hazards depends on."""
+        return canonical(hazard_survey.families_figure_job(_present(self.products.hazards), self.products.plan))
+
     def robustness_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all hazards depends on."""
         return canonical(hazard_survey.robustness_figure_job(_present(self.products.hazards), self.products.plan))

@@ -113,7 +113,7 @@ class Products:
             "accuracy": _present(price_of_accuracy=self.prices)
             | cases
             | _present(trials=self.trials, overview=self.overview),
-            "stability": _present(stability=self.hazards),
+            "stability": _present(robustness=self.hazards and self.hazards.families, stability=self.hazards),
             "effects": _present(effects=self.effects, effect_maps=self.maps),
             "identification": _present(identification=self.identification),
         }

@@ -32,3 +32,17 @@ if PRODUCTS.hazards:
         group: group_on_cluster(workflow, "figures")
         message: f"stability: {RESULTS}/figures/stability.png"
         script: "../scripts/draw_figure.py"
+
+
+    rule robustness:
+        input:
+            data=[RESULTS / "datasets/stability.nc"],
+        output:
+            png=RESULTS / "figures/robustness.png",
+            pdf=RESULTS / "figures/robustness.pdf",
+            csv=RESULTS / "figures/robustness.csv",
+        log: RESULTS / "logs/figures/robustness.log"
+        params: plan=EVALUATION_JOBS.families_figure_params
+        group: group_on_cluster(workflow, "figures")
+        message: f"robustness: {RESULTS}/figures/robustness.png"
+        script: "../scripts/draw_figure.py"

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.errors import InputError
+from contactsim.errors import InputError, Words
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.evaluation.robustness import path_cases, wall_path_cases
 from contactsim.evaluation.robustness.judge import judge
@@ -43,16 +43,26 @@ ROBUSTNESS_KEYS = FIGURE_KEYS | {
     "severities": Key(_severities, "a rising list of numbers from 0 to 100"),
     "solvers": Key(mapping, f"a mapping from solvers, of {', '.join(SOLVERS)}, to their options"),
     "hazards": Key(listed(choice(HAZARDS)), f"a list from {', '.join(HAZARDS)}", list(HAZARDS)),
+    "families": Key(mapping, "title, caption, size and hazards of the figure of families"),
 }
+FAMILY_KEYS = FIGURE_KEYS | {"hazards": Key(mapping, "a mapping from the name of a family to a list of its hazards")}
+
+
+@dataclass(frozen=True)
+class Families(FigureSettings):
+    """The figure of families: hazards by the name of their family."""
+
+    hazards: Mapping[str, Sequence[str]]
 
 
 @dataclass(frozen=True)
 class Robustness(FigureSettings):
-    """The survey: severities from 0 to 100, options by the solver's name, and names of hazards."""
+    """The survey: severities from 0 to 100, options by the solver's name, names of hazards, and their families."""
 
     severities: Sequence[float]
     solvers: Mapping[str, Mapping[str, Any]]
     hazards: Sequence[str]
+    families: Families
 
 
 def read_robustness_section(section: object, file: object) -> Robustness:
@@ -70,7 +80,21 @@ def read_robustness_section(section: object, file: object) -> Robustness:
         options_by_solver[name] = options
     if not options_by_solver:
         raise InputError("solvers", {}, f"at least one of {', '.join(SOLVERS)}", file)
-    return Robustness(**settings | {"solvers": options_by_solver})
+    families = _read_families(settings["families"], file)
+    return Robustness(**settings | {"solvers": options_by_solver, "families": families})
+
+
+def _read_families(section: Mapping[str, Any], file: object) -> Families:
+    """Return the figure of families; every hazard is in one of them."""
+    settings = read(section, FAMILY_KEYS, file, "families")
+    names = {name: Key(listed(choice(HAZARDS)), f"a list from {', '.join(HAZARDS)}") for name in settings["hazards"]}
+    hazards = read(settings["hazards"], names, file, "families.hazards")
+    listed_ones = [hazard for family in hazards.values() for hazard in family]
+    for hazard in HAZARDS:
+        if listed_ones.count(hazard) != 1:
+            value = Words(f"{hazard} in {listed_ones.count(hazard)} families")
+            raise InputError("families.hazards", value, "every hazard in one family", file)
+    return Families(**settings | {"hazards": hazards})
 
 
 def read_robustness(folder: str | Path, plan: Plan) -> Robustness | None:
@@ -91,17 +115,26 @@ def robustness_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
     }
 
 
+def families_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
+    """Return what the figure of families depends on, in the form of `Plan.figure_settings`."""
+    families = robustness.families
+    return _figure_job("robustness", families, 1, {"families": families.hazards}, robustness_job(robustness, plan))
+
+
 def robustness_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
     """Return what the figure of all hazards depends on, in the form of `Plan.figure_settings`."""
-    layout = {"panels": 2, "rows": 1, "select": {}, "reference": {}, "law": None, "film": None}
-    module = "contactsim.figures.diagnostics.stability"
-    return {
-        "name": "stability",
-        "module": module,
-        "settings": robustness.layout | layout,
-        "source": stage_digest("figure", module),
-        "data": digest(robustness_job(robustness, plan)),
-    }
+    return _figure_job("stability", robustness, 2, {}, robustness_job(robustness, plan))
+
+
+def _figure_job(
+    name: str, figure: FigureSettings, panels: int, reference: Mapping[str, Any], data: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return what a figure of the survey depends on: its name, which is that of its function, and its data."""
+    layout = {"panels": panels, "rows": 1, "select": {}, "reference": reference, "law": None, "film": None}
+    module = f"contactsim.figures.diagnostics.{name}"
+    settings = figure.layout | layout
+    source = stage_digest("figure", module)
+    return {"name": name, "module": module, "settings": settings, "source": source, "data": digest(data)}
 
 
 def hazard_job(robustness: Robustness, hazard: str) -> dict[str, Any]:
