@@ -1,6 +1,6 @@
-"""Measure the cost of effects: one scene with more and more of them, each variant alone.
+"""Measure the cost of effects: one scene with all of them, and with some left out.
 
-Unknowns, transforms and the status of every step are reproducible; seconds and memory are kept apart.
+Unknowns, loads, transforms and the status of every step are reproducible; seconds and memory are kept apart.
 """
 
 from __future__ import annotations
@@ -15,8 +15,11 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.contact.scene import RIGID, Scene
 from contactsim.errors import InputError, Words
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
+from contactsim.grid import Array
+from contactsim.interface.cohesive_zone import UncoupledCohesiveZone
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
@@ -27,12 +30,15 @@ from contactsim.study.scenes import build_setup
 from contactsim.study.stages import computing_stage_digest, stage_digest
 from contactsim.study.study import Study
 from contactsim.study.tier_overrides import overlaid, tiered
+from contactsim.traits import Trait
 
 KEYS = FIGURE_KEYS | {
     "repeats": Key(whole(1), "how often each variant is timed, 1 or more", 1),
     "scene": Key(mapping, "keys of a study that all variants share"),
     "variants": Key(mapping, "a mapping from names to a title and the keys of a study that a variant adds"),
 }
+LOAD_SHARE = 0.5
+"""Load at which contact lengths are compared, over the final load of the first variant."""
 
 
 @dataclass(frozen=True)
@@ -120,11 +126,12 @@ def measure_effects(job: CostJob) -> tuple[xr.Dataset, dict[str, dict[str, float
     Returns
     -------
     data : xarray.Dataset
-        Unknowns, transforms, steps and unconverged steps, dimension (variant); reproducible.
+        Effects, unknowns, transforms, steps, unconverged steps, largest pull and contact length at a load, dimension
+        (variant); reproducible.
     costs : dict
         CPU seconds and peak megabytes by variant.
     """
-    rows, costs = [], {}
+    rows, costs, load = [], {}, 0.0
     for variant in job.variants:
         setup = variant.setup
         runs = [follow_path(setup) for _ in range(job.repeats)]
@@ -135,17 +142,45 @@ def measure_effects(job: CostJob) -> tuple[xr.Dataset, dict[str, dict[str, float
         finally:
             tracemalloc.stop()
         data = runs[0]
+        curve = _load_curve(data)
+        load = load or LOAD_SHARE * curve[0][-1]
         rows.append(
             {
                 "variant": variant.name,
                 "components": " ".join(setup.scene.components),
+                **effects_of(setup.scene),
                 "unknowns": setup.points * len(setup.scene.exerted),
                 "transforms": float(data.transforms.sum()),
                 "unconverged": int((~is_solved(data.status)).sum()),
                 "steps": data.status.size,
+                "largest_pull": max(-curve[0].min(), 0.0),
+                "contact_length_at_load": float(np.interp(load, *curve)),
             }
         )
         costs[variant.name] = {"seconds": min(float(run.seconds.sum()) for run in runs), "megabytes": peak}
     columns = {name: ("variant", np.array([row[name] for row in rows])) for name in rows[0] if name != "variant"}
     data = xr.Dataset(columns, {"variant": [row["variant"] for row in rows]})
     return dataset.describe(data), costs
+
+
+def effects_of(scene: Scene) -> dict[str, int]:
+    """Return which effects a scene has, 1 or 0."""
+    uncoupled = len(scene.components) < 2 or any(isinstance(law, UncoupledCohesiveZone) for law in scene.laws)
+    return {
+        "has_adhesion": int(Trait.SMOOTH in scene.traits),
+        "has_friction": int("t" in scene.exerted),
+        "has_coupling": int(not uncoupled),
+        "has_second_body": int(scene.lower.elasticity is not RIGID and scene.upper.elasticity is not RIGID),
+        "has_height": int(Trait.LAYER in scene.traits),
+    }
+
+
+def _load_curve(data: xr.Dataset) -> tuple[Array, Array]:
+    """Return loads, N/m, and contact lengths, nm, from the largest pull on, where the load rises."""
+    length = float(data.length)
+    if "line_load" in data:
+        loads, lengths = data.line_load.values, data.contact_length.values
+    else:
+        loads, lengths = data.mean_pressure.values * length, data.relative_contact_area_subgrid.values * length
+    begin = int(np.argmin(loads))
+    return loads[begin:], lengths[begin:]

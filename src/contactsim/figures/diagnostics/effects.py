@@ -1,4 +1,4 @@
-"""Cost of effects: one bar a scene, one panel a kind of cost."""
+"""Effects that a scene has and lacks, what they cost, and what leaving them out changes."""
 
 from __future__ import annotations
 
@@ -16,17 +16,25 @@ from contactsim import dataset
 from contactsim.figures import style
 from contactsim.figures.layout import empty_figure, save
 
-COSTS = {
-    "unknowns": "unknowns of an increment",
-    "transforms": "transforms of the path",
-    "seconds": "CPU seconds, one thread",
-    "megabytes": "peak of arrays (MB)",
+EFFECTS = {
+    "has_adhesion": "adhe-\nsion",
+    "has_friction": "fric-\ntion",
+    "has_coupling": "coup-\nling",
+    "has_second_body": "second\nbody",
+    "has_height": "finite\nheight",
 }
+"""Columns of the table, with their heads."""
+CHANGES = {"largest_pull": ("largest pull", style.WHOLE), "contact_length_at_load": ("contact length", style.CONTACT)}
+"""Numbers whose change is shown, with label and colour."""
+WIDTHS = (1.1, 0.9, 1.1)
+"""Widths of the panels."""
+BAR, SIDE = 0.56, 11
+"""Height of a bar, over that of a row, and side of a square, points."""
 
 
 @mpl.rc_context(style.RC_PARAMS)
 def write_effects(plan: Mapping[str, Any], data: str, costs: str, targets: Mapping[str, str]) -> None:
-    """Plot the cost of scenes with more and more effects, and write the files.
+    """Plot scenes with some of the effects, and write the files.
 
     Parameters
     ----------
@@ -38,21 +46,64 @@ def write_effects(plan: Mapping[str, Any], data: str, costs: str, targets: Mappi
     spent = pd.DataFrame(json.loads(Path(costs).read_text())).T.loc[scenes.variant.values].reset_index(drop=True)
     table = pd.concat([scenes.to_dataframe().reset_index(), spent], axis=1)
     table.insert(1, "title", [plan["titles"][name] for name in scenes.variant.values])
+    table["cost"] = table.transforms / table.transforms[0]
+    for name in CHANGES:
+        table[f"{name}_change"] = table[name] / table[name][0] - 1
     unconverged, steps = int(table.unconverged.sum()), int(table.steps.sum())
-    sample = f"{plan['tier']} tier · {int(table.unknowns.min())} points"
-    footer = f"{sample} · {unconverged} of {steps} increments unconverged · best of {plan['repeats']} runs"
-    figure, panels = empty_figure(plan["settings"] | {"panels": len(COSTS)}, footer)
-    for panel, (name, label) in zip(panels, COSTS.items(), strict=True):
-        plot_bars(panel, table[name], label, table.title if panel is panels[0] else pd.Series([], dtype=str))
+    seconds = f"CPU time {table.seconds.min():.2g} to {table.seconds.max():.2g} s, best of {plan['repeats']} runs"
+    footer = (
+        f"{plan['tier']} tier · {int(table.unknowns.min())} points · {unconverged} of {steps} increments unconverged"
+    )
+    layout = plan["settings"] | {"panels": len(WIDTHS)}
+    figure, panels = empty_figure(layout, f"{footer} · {seconds}", widths=WIDTHS)
+    plot_effects(panels[0], table)
+    plot_costs(panels[1], table)
+    plot_changes(panels[2], table)
     save(figure, table, targets)
 
 
-def plot_bars(axes: Axes, values: pd.Series, label: str, names: pd.Series) -> None:
-    """Plot one bar a scene with its value beside it; names: of the scenes, none where another panel has them."""
-    places = np.arange(len(values))[::-1]
-    axes.barh(places, values, color=style.WHOLE, height=0.6)
-    axes.set(xlabel=label, yticks=places, yticklabels=names)
-    axes.set_xlim(0, 1.28 * values.max())
-    for place, value in zip(places, values, strict=True):
-        axes.text(value, place, f" {value:.3g}" if value < 1e3 else f" {value:,.0f}", va="center", fontsize=7)
-    axes.tick_params(axis="y", length=0)
+def plot_effects(axes: Axes, table: pd.DataFrame) -> None:
+    """Draw a square for each scene and effect, filled where the scene has it."""
+    for column, name in enumerate(EFFECTS):
+        for value, face in ((1, style.EXACT), (0, "white")):
+            rows = np.flatnonzero(table[name] == value)
+            axes.plot(np.full(rows.size, column), rows, "s", ms=SIDE, mfc=face, mec=style.LIGHT_GREY)
+    axes.set_yticks(range(len(table)), table.title)
+    axes.set_xticks(range(len(EFFECTS)), EFFECTS.values())
+    axes.tick_params(axis="x", labelsize=7.5)
+    axes.tick_params(length=0, labeltop=True, labelbottom=False, top=False, right=False)
+    axes.set(xlim=(-0.6, len(EFFECTS) - 0.4), ylim=(len(table) - 0.4, -0.6))
+    axes.spines[:].set_visible(False)
+
+
+def plot_costs(axes: Axes, table: pd.DataFrame) -> None:
+    """Plot the cost of each scene over that of the first."""
+    axes.barh(range(len(table)), table.cost, color=style.GREY, height=BAR)
+    for row, cost in enumerate(table.cost):
+        axes.text(cost, row, f" {cost:.2f}", va="center", fontsize=8)
+    axes.set(xlim=(0, 1.25 * table.cost.max()), xlabel="cost over that of all effects")
+    _share_rows(axes, len(table))
+
+
+def plot_changes(axes: Axes, table: pd.DataFrame) -> None:
+    """Plot the change of each number against the first scene, in per cent."""
+    height = BAR / len(CHANGES)
+    for place, (name, (label, colour)) in enumerate(CHANGES.items()):
+        changes = 100 * table[f"{name}_change"].to_numpy()[1:]
+        rows = np.arange(1, len(table)) + (place - (len(CHANGES) - 1) / 2) * height
+        axes.barh(rows, changes, color=colour, height=0.86 * height, label=label)
+        for row, change in zip(rows, changes, strict=True):
+            side = "left" if change >= 0 else "right"
+            axes.text(change, row, f" {change:.1f} % ", va="center", ha=side, fontsize=6.5)
+    axes.axvline(0, **style.ZERO)
+    axes.margins(x=0.3)
+    axes.set(xlabel="change by leaving out (%)")
+    axes.legend(loc="upper left")
+    _share_rows(axes, len(table))
+
+
+def _share_rows(axes: Axes, rows: int) -> None:
+    """Give a panel the rows of the table, without their names."""
+    axes.set(ylim=(rows - 0.4, -0.6), yticks=[])
+    axes.tick_params(top=False, right=False)
+    axes.spines[["top", "right", "left"]].set_visible(False)
