@@ -199,6 +199,7 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "overview",
         "price_of_accuracy",
         "robustness",
+        "effects",
         "export_baselines",
     }
     commands = re.findall(r"(?:^make|`make|snakemake --cores 2) (\w+)", USER_PAGES, re.MULTILINE)
