@@ -32,6 +32,9 @@ MAX_HALVINGS = 8
 MAX_TOLERANCE = 3e-3
 """Largest tolerance on paths whose steps are divided. Less exact states predict the next one so badly that more steps
 are divided, and a path takes several times the work."""
+VAIN_STEPS = 2
+"""Newton steps that have not led to a solution, from which on it is taken to lie beyond the end of the branch. It is then
+not sought again on the way there."""
 MAX_RESTLESS = 2
 """Motions that do not come to rest, after which a step has no state."""
 MAX_FAILURES = 3
@@ -221,7 +224,7 @@ class Continuation:
                 state = self.continue_to(goal)
                 iterations += state.iterations
                 flowed = not self.is_on_branch(state)
-                if state.status is Status.MAX_ITERATIONS and state.iterations >= 2:
+                if state.status is Status.MAX_ITERATIONS and state.iterations >= VAIN_STEPS:
                     beyond.add(goal.value)
             if flowed:
                 if not (increment and locates):
@@ -236,7 +239,9 @@ class Continuation:
                     continue
             if state.is_stable:
                 jumps += [jump for jump in [self.accept(goal, state, flowed)] if jump]
-                locates = locates and not flowed
+                if flowed:
+                    locates = False
+                    beyond.clear()
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False
                 continue
