@@ -33,8 +33,8 @@ MAX_TOLERANCE = 3e-3
 """Largest tolerance on paths whose steps are divided. Less exact states predict the next one so badly that more steps
 are divided, and a path takes several times the work."""
 VAIN_STEPS = 2
-"""Newton steps that have not led to a solution, from which on it is taken to lie beyond the end of the branch. It is then
-not sought again on the way there."""
+"""Newton steps without a solution, from which on it is taken to lie beyond the end of the branch: it is not tried again
+before the next jump."""
 MAX_RESTLESS = 2
 """Motions that do not come to rest, after which a step has no state."""
 MAX_FAILURES = 3
