@@ -16,7 +16,7 @@ DOCS = Path(__file__).parent
 RESULTS = DOCS.parent / "results/standard"
 ENSEMBLES = {"lines": "rough_line", "surfaces": "rough_surface"}
 """Tables of docs/continuum.md, and the studies that they show."""
-PICTURES = ("overview", "trials", "effect_maps", "fig_3_2", "maps")
+PICTURES = ("price_of_accuracy", "robustness", "effects", "overview", "trials", "effect_maps", "fig_3_2", "maps")
 
 
 def between(text: str, name: str, new: str) -> str:

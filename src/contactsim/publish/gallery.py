@@ -24,13 +24,14 @@ from contactsim.analysis.deciding import deciding_text
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.code_digest.modules import source_digest
 from contactsim.provenance import digest
+from contactsim.publish.pictures import reduce_colours
 from contactsim.study.plan import Plan
 
 VERDICTS = (REPRODUCED, CONDITION, DEPENDS, NOT_REPRODUCED, NOT_DECIDABLE)
 COLUMNS = 3
 """Pictures side by side."""
-WIDTH, COLOURS = 760, 128
-"""Width of a small picture in pixels, and number of its colours."""
+WIDTH = 1200
+"""Width of a picture in pixels."""
 FIGURE_LABELS = re.compile(r"(Fig|Table)s?\.? ((?:\d\.\d+[a-d]?(?:, | and )?)+)")
 """Figures and tables in the source of a statement."""
 
@@ -198,4 +199,4 @@ def write_thumbnail(source: Path, target: Path, width: int = WIDTH) -> None:
     with Image.open(source) as picture:
         height = round(picture.height * width / picture.width)
         scaled = picture.convert("RGB").resize((width, height), Image.Resampling.LANCZOS)
-        scaled.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
+        reduce_colours(scaled, picture).save(target, optimize=True)

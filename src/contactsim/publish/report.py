@@ -35,14 +35,15 @@ from contactsim.figures.sketch import plot_sketch
 from contactsim.provenance import digest, versions
 from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, Entry, duration_text, figures_in_source
+from contactsim.publish.pictures import reduce_colours
 from contactsim.study.plan import Plan
 from contactsim.study.scenes import build_setup
 
 TEMPLATE, STAGES = Path(__file__).with_name("report.html"), Path(__file__).with_name("stages.svg")
 SKETCH = (4.6, 2.9), 160
 """Size in inches and dots an inch of a sketch."""
-COLOURS, PIXEL_RATIO = 256, 2
-"""Colours of a picture on the page, and its pixels for each pixel of the page, along one side."""
+PIXEL_RATIO = 2
+"""Pixels of a picture for each pixel of the page, along one side."""
 SECTION_POINTS = 2000
 """Points of a drawn section of a surface."""
 MARKS = dict(zip(VERDICTS, ("yes", "condition", "depends", "no", "open"), strict=True))
@@ -91,7 +92,13 @@ def report_settings(plan: Plan, others: Mapping[str, Mapping[str, FigureSettings
     titles = {group: {name: _titled(figure) for name, figure in figures.items()} for group, figures in others.items()}
     texts = [file.read_text(encoding="utf-8") for file in (TEMPLATE, STAGES)]
     source = digest(source_digest("contactsim.publish.report"), *texts)
-    settings = {"tier": plan.tier, "others": titles, "order": list(titles), "data": digest(data), "source": source}
+    settings = {
+        "tier": plan.tier,
+        "others": titles,
+        "order": {group: list(figures) for group, figures in titles.items()},
+        "data": digest(data),
+        "source": source,
+    }
     tools = {name: metadata.version(name) for name in ("snakemake", "matplotlib", "pandas")}
     return settings | {"versions": {"Python": platform.python_version()} | versions() | tools}
 
@@ -235,17 +242,15 @@ def _embedded(source: Path | io.BytesIO) -> Picture:
     """Return a picture for the page, reduced to few colours."""
     file = io.BytesIO()
     with Image.open(source) as picture:
-        few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-        few.save(file, format="png")
+        reduce_colours(picture.convert("RGB"), picture).save(file, format="png")
         width, height = picture.width // PIXEL_RATIO, picture.height // PIXEL_RATIO
     return Picture("data:image/png;base64," + base64.b64encode(file.getvalue()).decode(), width, height)
 
 
 def _others(settings: Mapping, folder: Path) -> dict[str, list[dict]]:
     """Return the figures that belong to no chapter, by group."""
-    groups = {group: settings["others"][group] for group in settings["order"]}
     return {
-        group: [{"name": name, "picture": _picture(folder, name), **figures[name]} for name in sorted(figures)]
-        for group, figures in groups.items()
-        if figures
+        group: [{"name": name, "picture": _picture(folder, name), **settings["others"][group][name]} for name in names]
+        for group, names in settings["order"].items()
+        if names
     }
