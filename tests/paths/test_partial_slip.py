@@ -84,6 +84,46 @@ def test_poissons_ratio_makes_the_stick_area_shift_unevenly_and_the_misfit_tells
     assert misfits[0] < 1e-5 < misfits[1] < misfits[2] < 0.15
 
 
+@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3, 0.5])
+def test_ridges_on_a_surface_are_sheared_as_a_line_across_and_more_easily_along(poisson_ratio):
+    profile = 2 * np.cos(2 * np.pi * np.arange(32) / 32)
+    line = shear(press(profile, 0.05), 0.5)
+    for plane, factor in ((profile + np.zeros((32, 1)), 1.0), (profile[:, None] + np.zeros(32), 1 - poisson_ratio)):
+        sheared = shear(press(plane, 0.05), 0.5, poisson_ratio=poisson_ratio)
+        assert sheared.shift * factor == pytest.approx(line.shift, rel=1e-4)
+        assert sheared.misfit < 1e-4
+        assert sheared.slip_angle < 1e-2
+
+
+def test_on_a_round_contact_slip_is_not_everywhere_against_the_traction():
+    x = (np.arange(64) + 0.5) / 64 - 0.5
+    result = press(-(x[:, None] ** 2 + x**2) / 2, 0.003, spacing=1 / 64)
+    angles = [shear(result, 0.5, poisson_ratio=ratio).slip_angle for ratio in (0.0, 0.3, 0.5)]
+    assert angles[0] < 0.1 < angles[1] < angles[2] < 20
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_without_contact_nothing_moves(periodic):
+    heights = rough(64)
+    apart = cs.press(heights, spacing=1.0, contact_modulus=1.0, approach=-2 * heights.max(), periodic=periodic)
+    sheared = cs.partial_slip(apart, shear_traction=0.0, friction_coefficient=FRICTION)
+    assert (sheared.shift, sheared.relative_stick_area, sheared.relative_slip_area) == (0.0, 0.0, 0.0)
+    assert np.isnan(sheared.misfit)
+
+
+def test_in_full_contact_only_the_mean_is_displaced():
+    sheared = cs.partial_slip(press(rough(64), 100.0), shear_traction=20.0, friction_coefficient=FRICTION)
+    assert sheared.relative_stick_area == 1
+    assert sheared.shift == 0 and np.isnan(sheared.misfit)
+    assert sheared.traction == pytest.approx(20.0)
+
+
+def test_a_state_pressed_to_a_loose_tolerance_gives_the_same_traction():
+    heights = surface(32)
+    loose, tight = (shear(press(heights, 0.05, tolerance=value), 1e-3, poisson_ratio=0.0) for value in (1e-3, 1e-9))
+    assert loose.traction == pytest.approx(tight.traction, abs=1e-3 * tight.traction.max())
+
+
 def test_a_small_shear_meets_the_stiffness_of_the_contact():
     result = press(rough(256), 0.05)
     sheared = shear(result, 1e-4)

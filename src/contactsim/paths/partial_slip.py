@@ -7,7 +7,7 @@ smaller one at which the contact is the stick area,
 
 Within the stick area both states differ by a rigid approach, so q shifts it as a whole, and around it q is μp. This is
 exact on lines, and on surfaces where Poisson's ratio is zero. Elsewhere the tractions do not shift all points of the
-stick area alike, and also displace them across the shear. The misfit tells by how much.
+stick area alike, and slip is not everywhere against the traction. Two numbers tell by how much.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
+from contactsim.contact.scene import Scene
 from contactsim.elasticity.base import check_poisson_ratio
 from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positive
 from contactsim.grid import Array, Grid
@@ -41,13 +42,15 @@ class PartialSlip:
     stick, slip
         Points in contact that stick and that slip, bool, of the same shape.
     shift
-        Distance by which one body has moved along the other far away, in the unit of length: relative to the same place
-        as the approach.
+        Distance by which one body has moved along the other far away, in the unit of length, measured where the
+        approach is. Where heights repeat, the mean displacement is not in it.
     misfit
-        Rms difference between the shift and the tangential displacement of the points that stick, over the shift: the
-        error of the theory and of the solutions. NaN on a free half-space and without stick or shift.
+        How unevenly the points that stick are displaced: rms difference from the shift, over the shift. NaN on a free
+        half-space, and where nothing sticks or is shifted.
+    slip_angle
+        Rms angle between slip and traction where points slip, degrees; by Coulomb's law it is zero. NaN likewise.
     status
-        Status of the pressure of the stick area.
+        Status of both pressures.
     """
 
     traction: Array = field(repr=False)
@@ -55,6 +58,7 @@ class PartialSlip:
     slip: Array = field(repr=False)
     shift: float
     misfit: float
+    slip_angle: float
     status: Status
 
     @property
@@ -84,8 +88,7 @@ def partial_slip(
     Parameters
     ----------
     result : Result
-        A state on a half-space, from `contactsim.press`. Tractions are differences of pressures: press with a tolerance
-        like the one here.
+        A state on a half-space, from `contactsim.press`.
     shear_traction : float
         Tangential load along x over the length or area of the heights, 0 up to the friction coefficient times the mean
         pressure, at which all slides.
@@ -94,14 +97,16 @@ def partial_slip(
     poisson_ratio : float, optional
         Poisson's ratio of both bodies, required of a surface, above -1 and at most 0.5. On lines nothing depends on it.
     tolerance : float
-        Gap in contact and overlap outside, in grid steps.
+        Gap in contact and overlap outside, in grid steps. Tractions are small differences of two pressures, which are
+        both solved to it, by the default solver.
     threads : int
         Threads of the transforms.
 
     Returns
     -------
     PartialSlip
-        Tangential traction, points that stick and slip, and shift.
+        Tangential traction, points that stick and slip, and shift. On a free half-space the shift is that of contacts
+        which are alike in all directions, such as round ones.
 
     Raises
     ------
@@ -110,31 +115,44 @@ def partial_slip(
 
     References
     ----------
-    M. Ciavarella, J. Appl. Mech. 65, 998 (1998); J. Jäger, Arch. Appl. Mech. 68, 159 (1998).
+    M. Ciavarella, J. Appl. Mech. 65, 998 (1998); J. Jäger, J. Tribology 120, 677 (1998).
     """
     ratio = _shift_ratio(result, poisson_ratio)
     if not is_positive(friction_coefficient):
         raise InputError("friction_coefficient", friction_coefficient, POSITIVE)
     sliding = friction_coefficient * result.mean_pressure
     if not is_number(shear_traction) or not 0 <= shear_traction <= sliding * (1 + ROUNDING):
-        allowed = f"0 up to {sliding:g}, the friction coefficient times the mean pressure: there all slides"
+        allowed = f"from 0 to {sliding:g}, the friction coefficient times the mean pressure, at which all slides"
         raise InputError("shear_traction", shear_traction, allowed)
-    assert result.scene is not None
-    step = load_step(None, max(result.mean_pressure - shear_traction / friction_coefficient, 0.0), "load")
-    scene = replace(result.scene, path=LoadPath((step,)))
-    heights = scene.upper.surface.heights(result.pressure.shape[-1])
-    inner = solve(default_solver(scene), *pose_hard_wall(scene, step, heights, tolerance, threads))
-    traction = friction_coefficient * (result.pressure - inner.pressure)
-    stick = inner.contact & result.contact
-    shift = ratio * friction_coefficient * (result.approach - inner.approach)
-    misfit = np.nan
+    scene = result.scene
+    assert scene is not None
+    pressures = result.mean_pressure, max(result.mean_pressure - shear_traction / friction_coefficient, 0.0)
+    outer, inner = (_press_again(scene, result, pressure, tolerance, threads) for pressure in pressures)
+    status = next((one.status for one in (outer, inner) if not one.status.solved), Status.CONVERGED)
+    traction = friction_coefficient * np.clip(outer.pressure - inner.pressure, 0.0, outer.pressure)
+    stick = inner.contact & outer.contact
+    slip = outer.contact & ~stick
+    approach = outer.approach - inner.approach if outer.contact.any() else 0.0
+    if abs(approach) <= ROUNDING * abs(outer.approach):  # in full contact only the mean is displaced
+        approach = 0.0
+    shift, misfit, slip_angle = ratio * friction_coefficient * approach, np.nan, np.nan
     if Trait.HALF_SPACE in scene.traits and stick.any() and shift:
-        displacements = _displacements(
-            Grid(traction.shape, scene.lengths, threads), scene.contact_modulus, poisson_ratio or 0.0, traction
-        )
-        along, across = (part[stick] for part in displacements)
-        misfit = float(np.sqrt(np.mean((along - shift) ** 2 + across**2)) / shift)
-    return PartialSlip(traction, stick, result.contact & ~stick, shift, misfit, inner.status)
+        grid = Grid(traction.shape, scene.lengths, threads)
+        along, across = _displacements(grid, scene.contact_modulus, poisson_ratio or 0.0, traction)
+        shift = float(along[stick].mean())
+        misfit = float(np.sqrt(np.mean((along - shift)[stick] ** 2 + across[stick] ** 2)) / shift)
+        if slip.any():
+            angles = np.arctan2(across[slip], shift - along[slip])
+            slip_angle = float(np.degrees(np.sqrt(np.mean(angles**2))))
+    return PartialSlip(traction, stick, slip, shift, misfit, slip_angle, status)
+
+
+def _press_again(scene: Scene, result: Result, pressure: float, tolerance: float, threads: int) -> Result:
+    """Return the heights of a result, pressed at another mean pressure or to another tolerance."""
+    step = load_step(None, pressure, "load")
+    again = replace(scene, path=LoadPath((step,)))
+    heights = scene.upper.surface.heights(result.pressure.shape[-1])
+    return solve(default_solver(again), *pose_hard_wall(again, step, heights, tolerance, threads))
 
 
 def _shift_ratio(result: Result, poisson_ratio: float | None) -> float:
