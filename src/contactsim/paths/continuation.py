@@ -29,12 +29,12 @@ BOND_LENGTH = 3.0
 """Gaps, in the laws' length, over which sites of a lattice hold each other."""
 MAX_HALVINGS = 8
 """Largest number of times that a step, or a part of it, is halved."""
-MAX_TOLERANCE = 3e-3
+MAX_DIVIDED_TOLERANCE = 3e-3
 """Largest tolerance on paths whose steps are divided. Less exact states predict the next one so badly that more steps
 are divided, and a path takes several times the work."""
-VAIN_STEPS = 2
-"""Newton steps without a solution, from which on it is taken to lie beyond the end of the branch: it is not tried again
-before the next jump."""
+FAILED_STEPS = 2
+"""Newton steps without a solution, from which on a goal is taken to lie beyond the end of the branch: it is not tried
+again before the next jump."""
 MAX_RESTLESS = 2
 """Motions that do not come to rest, after which a step has no state."""
 MAX_FAILURES = 3
@@ -68,7 +68,7 @@ class Continuation:
     ) -> None:
         self._divides = divides and solver.uses_guess
         if self._divides:
-            problem = replace(problem, tolerance=min(problem.tolerance, MAX_TOLERANCE))
+            problem = replace(problem, tolerance=min(problem.tolerance, MAX_DIVIDED_TOLERANCE))
         self.problem, self.solver = problem, fit_solver(solver, problem)
         self.history = History(max_amplification)
         self.displacement = np.zeros(problem.unknowns, complex)
@@ -224,7 +224,7 @@ class Continuation:
                 state = self.continue_to(goal)
                 iterations += state.iterations
                 flowed = not self.is_on_branch(state)
-                if state.status is Status.MAX_ITERATIONS and state.iterations >= VAIN_STEPS:
+                if state.status is Status.MAX_ITERATIONS and state.iterations >= FAILED_STEPS:
                     beyond.add(goal.value)
             if flowed:
                 if not (increment and locates):

@@ -29,10 +29,14 @@ the work of its path. Least traction of a loaded patch, over the laws' strength.
 CALM_RATIO = 0.25
 """Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate. In
 contact with a hard wall a surface moves by the step itself, and by this more."""
-BALANCED_CHANGE, BALANCED_STEP, BALANCED_ENERGY = 2.0, 2.0, 1 / 8
-"""A flow whose energy balances passes no jump if it moves the surface at most by the step, by this many steps more, and
-by the laws' length more. Longest such step, over the laws' length. Largest energy that is missing, over the product of
-the step and the change of the traction: so much a trapezoidal rule may miss of the work along a smooth path."""
+BALANCED_CHANGE = 2.0
+"""Largest distance that a flow without a jump moves the surface beyond the step, over the step; it is at most the laws'
+length."""
+BALANCED_STEP = 2.0
+"""Longest step whose energy is balanced, over the laws' length."""
+BALANCED_ENERGY = 1 / 8
+"""Largest difference of work and energy, over the product of the step and the change of the traction: the error that a
+trapezoidal rule may have along a smooth path."""
 SLIP_RATIO = 250.0
 """Ratio of a surface's speed to the driving speed below which sliding over a lattice is smooth."""
 ROUNDING = 1e-9
@@ -148,7 +152,7 @@ class JumpCriterion:
         return distance > smooth
 
     def is_minor(self, before: Side, after: Side) -> bool:
-        """Return True if there is no jump worth locating on a step: none at all, or that of one contact among many.
+        """Return True if a step holds no jump that needs locating: none at all, or that of one contact among many.
 
         On approach alone, and for steps no longer than the laws' length, or twice that where the energy balances.
         Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not
@@ -174,9 +178,10 @@ class JumpCriterion:
         return state.largest_change <= ratio * increment or patches > MANY_PATCHES[len(self.problem.grid.shape)]
 
     def _is_balanced(self, before: Side, after: Side, increment: float) -> bool:
-        """Return True if a flow of few steps releases no energy: a jump does, which the work of the load lacks.
+        """Return True if the work of the load over a short step equals the change of energy.
 
-        The work is that of a trapezoidal rule. On a smooth path it misses less, the less the traction changes.
+        A jump releases energy, and then they differ. The work is that of a trapezoidal rule, whose error on a smooth
+        path is small where the traction changes little.
         """
         problem, length = self.problem, self.problem.interaction_range
         (start, first), (end, last) = before, after

@@ -18,6 +18,8 @@ from contactsim.solvers.cohesive.base import CohesiveSolver
 class Requested:
     """Every increment of the path as requested.
 
+    States are solved to a tolerance of 3e-3 or less: others predict the next one badly.
+
     Parameters
     ----------
     fold_width

@@ -89,10 +89,10 @@ def _read_families(section: Mapping[str, Any], file: object) -> Families:
     settings = read(section, FAMILY_KEYS, file, "families")
     names = {name: Key(listed(choice(HAZARDS)), f"a list from {', '.join(HAZARDS)}") for name in settings["hazards"]}
     hazards = read(settings["hazards"], names, file, "families.hazards")
-    listed_ones = [hazard for family in hazards.values() for hazard in family]
+    hazard_names = [hazard for family in hazards.values() for hazard in family]
     for hazard in HAZARDS:
-        if listed_ones.count(hazard) != 1:
-            value = Words(f"{hazard} in {listed_ones.count(hazard)} families")
+        if hazard_names.count(hazard) != 1:
+            value = Words(f"{hazard} in {hazard_names.count(hazard)} families")
             raise InputError("families.hazards", value, "every hazard in one family", file)
     return Families(**settings | {"hazards": hazards})
 

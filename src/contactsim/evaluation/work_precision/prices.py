@@ -1,6 +1,6 @@
 """What accuracy costs: one scene of each kind, solved to smaller and smaller errors.
 
-Runs that would take too long are forecast alone. Times are told in transforms of 4096 points, so that the same runs are
+Runs that would take too long are forecast alone. Times are counted in transforms of 4096 points, so that the same are
 solved on every machine.
 """
 
@@ -137,12 +137,12 @@ def measure_price(settings: Mapping[str, Any]) -> tuple[xr.Dataset, dict[str, An
     """
     scene = PricedScene(*(settings[name] for name in ("title", "run", "thesis_points", "case")))
     setup, limit = scene.setup, settings["limit"]
-    is_forecast, rows, last = has_relations(setup.scene), [], 0.0
+    has_forecast, rows, last = has_relations(setup.scene), [], 0.0
     seconds: list[float] = []
     for error in sorted(settings["errors"], reverse=True):
-        units = _predicted_units(setup, error) if is_forecast else np.nan
+        units = _predicted_units(setup, error) if has_forecast else np.nan
         row = {"predicted_units": units}
-        if (units if is_forecast else GROWTH * last) <= limit:
+        if (units if has_forecast else GROWTH * last) <= limit:
             if not seconds:
                 solve_to_error(setup, error)  # compiles the kernels
             begin = time.process_time()

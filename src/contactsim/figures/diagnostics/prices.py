@@ -32,8 +32,10 @@ friction."""
 OTHER_LOOK = ("h", style.BROWN)
 METHODS = ("verlet", "damped_verlet")
 """The method of the thesis, at a hard wall and with cohesive laws."""
-LEVEL = 0.01
-"""Error near which methods are compared."""
+LEVEL, LEVEL_RATIO = 0.01, 5.0
+"""Error near which methods are compared, and how far from it at most."""
+FORECAST: Any = (0, (4, 3))
+"""Line of forecasts beyond the last run that was solved."""
 TIMES = {1.0: "1 s", 60.0: "1 min", 3600.0: "1 h"}
 """Times at which there are lines."""
 TICKS = (0.1, 0.01, 1e-3, 1e-4)
@@ -68,6 +70,8 @@ def write_prices(plan: Mapping[str, Any], files: Mapping[str, Sequence[str]], ta
     footer = (
         f"{plan['tier']} tier · {len(solved)} runs solved, {int((solved.accuracy_reached == 1).sum())} within the error"
     )
+    ratio = (solved.seconds / solved.predicted_seconds).median()
+    footer += f" · {ratio:.2g} times the forecast (median)" if np.isfinite(ratio) else ""
     figure, (panel,) = empty_figure(plan["settings"] | {"panels": 1}, footer)
     plot_prices(panel, table, plan["titles"])
     save(figure, table, targets)
@@ -87,9 +91,10 @@ def price_table(data: str, costs: str) -> pd.DataFrame:
 def method_factor(equal: pd.DataFrame) -> float:
     """Return the time of the method of the thesis over ours, at the error of the tolerance nearest to 1 %; else NaN."""
     rows = equal[equal.solver.isin(METHODS) & (equal.knob == "tolerance") & equal.seconds.notna()]
-    if not len(rows):
+    distances = np.abs(np.log(rows.error / LEVEL)).to_numpy()
+    if not (distances <= np.log(LEVEL_RATIO)).any():
         return np.nan
-    return float(rows.seconds.iloc[int(np.abs(np.log(rows.error / LEVEL)).argmin())])
+    return float(rows.seconds.iloc[int(distances.argmin())])
 
 
 def plot_prices(axes: Axes, table: pd.DataFrame, titles: Mapping[str, str]) -> None:
@@ -98,12 +103,15 @@ def plot_prices(axes: Axes, table: pd.DataFrame, titles: Mapping[str, str]) -> N
     ends = {}
     for name, rows in table.groupby("scene", sort=False):
         marker, colour = LOOKS.get(str(name), OTHER_LOOK)
-        axes.plot(rows.requested_error, rows.predicted_seconds, color=colour, lw=1.0)
+        place = int(np.flatnonzero(rows.accuracy_reached >= 0).max(initial=0))
+        for part, line in ((rows.iloc[: place + 1], "-"), (rows.iloc[place:], FORECAST)):
+            axes.plot(part.requested_error, part.predicted_seconds, color=colour, lw=1.0, ls=line)
         for reached, face in ((1, colour), (0, "white")):
             part = rows[rows.accuracy_reached == reached]
             axes.plot(part.requested_error, part.seconds, ls="", marker=marker, ms=5, color=colour, mfc=face)
         first = rows.iloc[0]
-        axes.plot(first.thesis_error, first.thesis_seconds, marker="x", ms=7, mew=1.6, color=colour, ls="")
+        for symbol, size in (("x", 11), (marker, 4)):
+            axes.plot(first.thesis_error, first.thesis_seconds, marker=symbol, ms=size, color=colour, ls="")
         seconds = rows.predicted_seconds.fillna(rows.seconds)
         last = seconds.last_valid_index()
         if last is not None:

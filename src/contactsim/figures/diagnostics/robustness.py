@@ -26,7 +26,7 @@ WORDS = {
     Outcome.WRONG: "wrong",
 }
 """What colours mean; an answer that is not finite is wrong."""
-HONEST = [outcome.value[0] for outcome in (Outcome.REFUSED, Outcome.FAILED)]
+WITHOUT_ANSWER = [outcome.value[0] for outcome in (Outcome.REFUSED, Outcome.FAILED)]
 """Outcomes without an answer, whose number of cases is written."""
 TICKS = 6
 """Largest number of labels along the severity."""
@@ -45,7 +45,7 @@ def robustness(data: xr.Dataset, axes: Axes, families: Mapping[str, Sequence[str
     shown = [name for name in families if name in set(table.family)]
     severities = data.severity.values
     worst = table.pivot_table("outcome", "family", "severity", "max").loc[shown, severities]
-    missed = table[table.outcome.isin(HONEST)].groupby(["family", "severity"]).size().to_dict()
+    missed = table[table.outcome.isin(WITHOUT_ANSWER)].groupby(["family", "severity"]).size().to_dict()
     colours = ListedColormap([COLOURS[outcome] for outcome in WORDS])
     look: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(WORDS) - 0.5, "edgecolors": "white", "lw": 0.6}
     axes.pcolormesh(np.arange(severities.size + 1), np.arange(len(shown) + 1), worst.values, **look)
@@ -80,7 +80,7 @@ def outcome_table(data: xr.Dataset, families: Mapping[str, Sequence[str]]) -> pd
 
 
 def _add_legend(axes: Axes, table: pd.DataFrame) -> None:
-    """Add the outcomes with their numbers of cases below the map."""
+    """Add the outcomes with their numbers of cases."""
     handles = [
         Patch(
             facecolor=COLOURS[outcome],

@@ -36,7 +36,7 @@ MAX_RESIDUAL = 0.1
 radius: it is farther away, and the end of its branch is sooner found by a flow."""
 MAX_STALL = 0.5
 """Largest ratio of the residual to that of the Newton step before, from the second on, if a state is sought within the
-trust radius. Newton's method that converges reduces it much more; beyond the end of a branch it wanders."""
+trust radius. An iteration that converges reduces it more; beyond the end of a branch there is no state to reach."""
 MAX_SHARED_ITERATIONS = 5
 """A preconditioner is made anew after a linear solve with more iterations than this."""
 STEP_DIVISIONS = 1, 3
