@@ -118,7 +118,8 @@ def robustness_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
 def families_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:
     """Return what the figure of families depends on, in the form of `Plan.figure_settings`."""
     families = robustness.families
-    return _figure_job("robustness", families, 1, {"families": families.hazards}, robustness_job(robustness, plan))
+    pairs = [[name, list(hazards)] for name, hazards in families.hazards.items()]  # JSON sorts a mapping by its keys
+    return _figure_job("robustness", families, 1, {"families": pairs}, robustness_job(robustness, plan))
 
 
 def robustness_figure_job(robustness: Robustness, plan: Plan) -> dict[str, Any]:

@@ -32,17 +32,17 @@ TICKS = 6
 """Largest number of labels along the severity."""
 
 
-def robustness(data: xr.Dataset, axes: Axes, families: Mapping[str, Sequence[str]]) -> pd.DataFrame:
+def robustness(data: xr.Dataset, axes: Axes, families: Sequence[tuple[str, Sequence[str]]]) -> pd.DataFrame:
     """Map the worst outcome of each family of hazards at each severity.
 
     Parameters
     ----------
     data : of `contactsim.evaluation.robustness.survey.merge_surveys`
     axes : to plot on
-    families : hazards by the name of their family
+    families : name and hazards of each family
     """
-    table = outcome_table(data, families)
-    shown = [name for name in families if name in set(table.family)]
+    table = outcome_table(data, dict(families))
+    shown = [name for name, _ in families if name in set(table.family)]
     severities = data.severity.values
     worst = table.pivot_table("outcome", "family", "severity", "max").loc[shown, severities]
     missed = table[table.outcome.isin(WITHOUT_ANSWER)].groupby(["family", "severity"]).size().to_dict()
