@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -10,7 +11,13 @@ import pytest
 
 from contactsim import dataset
 from contactsim.evaluation.work_precision import case_config
-from contactsim.evaluation.work_precision.prices import measure_price, price_job, prices_figure_job, read_prices
+from contactsim.evaluation.work_precision.prices import (
+    PriceJob,
+    measure_price,
+    price_job,
+    prices_figure_job,
+    read_prices,
+)
 from contactsim.figures.diagnostics import prices as price_figure
 from contactsim.study.plan import Plan
 from support.cases import refused
@@ -24,15 +31,20 @@ PRICES = read_prices(ROOT / "config", PLAN, CASES)
 def measure(name, **changes):
     """Measure a scene of the quick tier with other errors or another limit."""
     settings = json.loads(json.dumps(price_job(PRICES, name)["settings"]))
-    return measure_price(settings | changes)
+    return measure_price(replace(PriceJob.from_settings(settings), **changes))
 
 
 @pytest.fixture(scope="module")
 def cylinder():
-    return measure("cylinder", errors=[0.03, 0.1, 0.01], limit=1e6)
+    return measure("cylinder", errors=[0.1, 0.03, 0.01], limit=1e6)
 
 
-def test_a_scene_is_solved_to_each_error_the_largest_first(cylinder):
+def test_errors_are_asked_for_from_the_largest_on():
+    job = price_job(replace(PRICES, errors=[0.01, 0.1, 0.03]), "cylinder")
+    assert job["settings"]["errors"] == [0.1, 0.03, 0.01]
+
+
+def test_a_scene_is_solved_to_each_error(cylinder):
     data, spent = cylinder
     assert data.requested_error.values.tolist() == [0.1, 0.03, 0.01]
     assert len(spent["seconds"]) == 3
@@ -85,9 +97,10 @@ def test_the_figure_needs_its_file_and_refuses_what_is_not_known(tmp_path):
     text = (ROOT / "config/price_of_accuracy.yaml").read_text()
     for old, new, key, allowed in (
         ("study: smooth_line", "study: cylinders", "study", "the name of a study"),
-        ("case: cylinder", "case: nothing", "case", "one of"),
+        ("case: cylinder", "case: nothing", "case", "a case of accuracy.yaml"),
         ("limit: 2.0e+5", "limit: 0", "limit", "transforms of 4096 points"),
         ("errors: [0.1, ", "errors: [-0.1, ", "errors", "a list of relative errors"),
+        ("errors: [0.1, ", "errors: [5.0, ", "errors", "below 1"),
     ):
         (tmp_path / "price_of_accuracy.yaml").write_text(text.replace(old, new))
         with refused(key, allowed):

@@ -205,13 +205,14 @@ class EvaluationJobs:
         """Return what the dataset of all hazards depends on."""
         return canonical(hazard_survey.robustness_job(_present(self.products.hazards), self.products.plan))
 
-    def families_figure_params(self, wildcards: Wildcards) -> str:
-        """Return what the figure of the families of hazards depends on."""
-        return canonical(hazard_survey.families_figure_job(_present(self.products.hazards), self.products.plan))
+    def survey_figure_params(self, figure: str) -> ByWildcards:
+        """Return a function for what a figure of all hazards depends on."""
 
-    def robustness_figure_params(self, wildcards: Wildcards) -> str:
-        """Return what the figure of all hazards depends on."""
-        return canonical(hazard_survey.robustness_figure_job(_present(self.products.hazards), self.products.plan))
+        def params(wildcards: Wildcards) -> str:
+            hazards = _present(self.products.hazards)
+            return canonical(hazard_survey.FIGURE_JOBS[figure](hazards, self.products.plan))
+
+        return params
 
     def effects_params(self, wildcards: Wildcards) -> str:
         """Return what the measured costs of effects depend on."""

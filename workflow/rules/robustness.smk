@@ -1,4 +1,4 @@
-# Robustness: one job for each hazard with every solver, one dataset, one figure.
+# Robustness: one job for each hazard with every solver, one dataset, two figures.
 if PRODUCTS.hazards:
 
     rule survey_hazard:
@@ -20,29 +20,17 @@ if PRODUCTS.hazards:
         script: "../scripts/gather_hazards.py"
 
 
-    rule stability:
-        input:
-            data=[RESULTS / "datasets/stability.nc"],
-        output:
-            png=RESULTS / "figures/stability.png",
-            pdf=RESULTS / "figures/stability.pdf",
-            csv=RESULTS / "figures/stability.csv",
-        log: RESULTS / "logs/figures/stability.log"
-        params: plan=EVALUATION_JOBS.robustness_figure_params
-        group: group_on_cluster(workflow, "figures")
-        message: f"stability: {RESULTS}/figures/stability.png"
-        script: "../scripts/draw_figure.py"
-
-
-    rule robustness:
-        input:
-            data=[RESULTS / "datasets/stability.nc"],
-        output:
-            png=RESULTS / "figures/robustness.png",
-            pdf=RESULTS / "figures/robustness.pdf",
-            csv=RESULTS / "figures/robustness.csv",
-        log: RESULTS / "logs/figures/robustness.log"
-        params: plan=EVALUATION_JOBS.families_figure_params
-        group: group_on_cluster(workflow, "figures")
-        message: f"robustness: {RESULTS}/figures/robustness.png"
-        script: "../scripts/draw_figure.py"
+    for _figure in ("robustness", "stability"):
+        rule:
+            name: _figure
+            input:
+                data=[RESULTS / "datasets/stability.nc"],
+            output:
+                png=RESULTS / f"figures/{_figure}.png",
+                pdf=RESULTS / f"figures/{_figure}.pdf",
+                csv=RESULTS / f"figures/{_figure}.csv",
+            log: RESULTS / f"logs/figures/{_figure}.log"
+            params: plan=EVALUATION_JOBS.survey_figure_params(_figure)
+            group: group_on_cluster(workflow, "figures")
+            message: f"{_figure}: {RESULTS}/figures/{_figure}.png"
+            script: "../scripts/draw_figure.py"

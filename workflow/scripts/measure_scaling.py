@@ -3,13 +3,13 @@
 import json
 
 from job import open_job
-from threadpoolctl import threadpool_limits
 
 from contactsim.evaluation.calibration.measurement import ScalingJob, measure_scaling
 from contactsim.files import write_text
+from contactsim.threads import limit_threads
 
 seal = open_job(snakemake)
-with threadpool_limits(1, "blas"):  # snakemake lets a job have as many as it keeps from others
+with limit_threads(1):  # snakemake lets a job have as many as it keeps from others
     table = measure_scaling(ScalingJob.from_settings(json.loads(snakemake.params.plan)))
 write_text(table.to_csv(index=False), snakemake.output[0])
 seal()

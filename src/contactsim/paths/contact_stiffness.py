@@ -7,9 +7,8 @@ import numpy as np
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
-from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.solvers.base import Result, solve
+from contactsim.solvers.base import Result, pressed_scene, solve
 from contactsim.solvers.registry import default_solver
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
@@ -45,14 +44,12 @@ def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int =
     InputError
         For a result that did not converge or has no scene.
     """
-    if not isinstance(result, Result) or result.scene is None or not result.status.solved:
-        raise InputError("result", result, "a converged result of `contactsim.press`")
-    contact = result.contact
+    scene, contact = pressed_scene(result), result.contact
     if not contact.any():
         return 0.0
-    if contact.all() and Trait.HALF_SPACE in result.scene.traits:
+    if contact.all() and Trait.HALF_SPACE in scene.traits:
         return np.inf
-    punch = _punch(result.scene, contact)
+    punch = _punch(scene, contact)
     step = punch.path.steps[0]
     heights = punch.upper.surface.heights(contact.shape[-1])
     problem, scale = pose_hard_wall(punch, step, heights, 1.0, threads)

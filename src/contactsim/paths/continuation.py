@@ -25,8 +25,6 @@ from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-BOND_LENGTH = 3.0
-"""Gaps, in the laws' length, over which sites of a lattice hold each other."""
 MAX_HALVINGS = 8
 """Largest number of times that a step, or a part of it, is halved."""
 MAX_DIVIDED_TOLERANCE = 3e-3
@@ -143,16 +141,12 @@ class Continuation:
     def is_on_branch(self, state: Equilibrium) -> bool:
         """Return True if a state found by continuation is on the branch.
 
-        It must lie where it is predicted. Over a lattice it must not have slipped by half a cell or more, because
+        It must lie where it is predicted. Over a lattice it must not have slipped by more than half a cell, because
         states a cell apart are alike, and a prediction that is off by a cell finds the wrong one.
         """
         if not (state.is_stable and state.largest_change <= self.trust_radius):
             return False
-        if self.current is None or not self.jumps.has_lattice:
-            return True
-        close = state.gap[0] <= BOND_LENGTH * self.problem.interaction_range
-        slip = np.abs(state.gap[1, close] - self.current[1].gap[1, close]).max(initial=0.0)
-        return bool(slip <= self.problem.lattice_constant / 2)
+        return self.current is None or not self.jumps.slips_half_a_cell(self.current[1], state)
 
     def continue_to(self, step: LoadStep) -> Equilibrium:
         """Return the state at a step that the solver finds near its prediction."""
@@ -230,7 +224,8 @@ class Continuation:
                 if not (increment and locates):
                     state = self.flow_to(goal)
                     iterations += state.iterations
-                    locates = not self._is_minor(goal, state)
+                    last = self.current if state.is_stable else None
+                    locates = last is None or not self.jumps.is_minor(last, (goal, state))
                     restless += state.status is Status.NO_REST
                     if restless == MAX_RESTLESS:
                         return state, tuple(jumps), iterations
@@ -256,7 +251,3 @@ class Continuation:
             return 0.0
         increment = step.value - parameter
         return increment if self.jumps.may_hide_in(step, abs(increment)) else 0.0
-
-    def _is_minor(self, step: LoadStep, state: Equilibrium) -> bool:
-        """Return True if the flow to a state passed no jump worth locating."""
-        return self.current is not None and state.is_stable and self.jumps.is_minor(self.current, (step, state))

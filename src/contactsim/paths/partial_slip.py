@@ -20,9 +20,11 @@ from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Scene
 from contactsim.elasticity.base import check_poisson_ratio
+from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.shear import shear_displacements
 from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positive
 from contactsim.grid import Array, Grid
-from contactsim.solvers.base import Result, solve
+from contactsim.solvers.base import Result, pressed_scene, solve
 from contactsim.solvers.registry import default_solver
 from contactsim.status import Status
 from contactsim.traits import Trait
@@ -97,8 +99,8 @@ def partial_slip(
     poisson_ratio : float, optional
         Poisson's ratio of both bodies, required of a surface, above -1 and at most 0.5. On lines nothing depends on it.
     tolerance : float
-        Gap in contact and overlap outside, in grid steps. Tractions are small differences of two pressures, which are
-        both solved to it, by the default solver.
+        Gap in contact and overlap outside, in grid steps. Tractions are small differences of two pressures: a result
+        that is less exact is solved once more. The solver is the default one.
     threads : int
         Threads of the transforms.
 
@@ -117,71 +119,65 @@ def partial_slip(
     ----------
     M. Ciavarella, J. Appl. Mech. 65, 998 (1998); J. Jäger, J. Tribology 120, 677 (1998).
     """
-    ratio = _shift_ratio(result, poisson_ratio)
+    scene = pressed_scene(result)
+    _check_bodies(scene, poisson_ratio)
     if not is_positive(friction_coefficient):
         raise InputError("friction_coefficient", friction_coefficient, POSITIVE)
     sliding = friction_coefficient * result.mean_pressure
     if not is_number(shear_traction) or not 0 <= shear_traction <= sliding * (1 + ROUNDING):
         allowed = f"from 0 to {sliding:g}, the friction coefficient times the mean pressure, at which all slides"
         raise InputError("shear_traction", shear_traction, allowed)
-    scene = result.scene
-    assert scene is not None
-    pressures = result.mean_pressure, max(result.mean_pressure - shear_traction / friction_coefficient, 0.0)
-    outer, inner = (_press_again(scene, result, pressure, tolerance, threads) for pressure in pressures)
-    status = next((one.status for one in (outer, inner) if not one.status.solved), Status.CONVERGED)
+    inner_pressure = max(result.mean_pressure - shear_traction / friction_coefficient, 0.0)
+    inner = _press(scene, result, inner_pressure, tolerance, threads)
+    is_exact = result.record.certificate.met(tolerance)
+    outer = result if is_exact else _press(scene, result, result.mean_pressure, tolerance, threads)
     traction = friction_coefficient * np.clip(outer.pressure - inner.pressure, 0.0, outer.pressure)
     stick = inner.contact & outer.contact
     slip = outer.contact & ~stick
-    approach = outer.approach - inner.approach if outer.contact.any() else 0.0
-    if abs(approach) <= ROUNDING * abs(outer.approach):  # in full contact only the mean is displaced
-        approach = 0.0
-    shift, misfit, slip_angle = ratio * friction_coefficient * approach, np.nan, np.nan
+    shift = friction_coefficient * _shift_ratio(scene, poisson_ratio) * _change_of_approach(outer, inner)
+    motion = shift, np.nan, np.nan
     if Trait.HALF_SPACE in scene.traits and stick.any() and shift:
-        grid = Grid(traction.shape, scene.lengths, threads)
-        along, across = _displacements(grid, scene.contact_modulus, poisson_ratio or 0.0, traction)
-        shift = float(along[stick].mean())
-        misfit = float(np.sqrt(np.mean((along - shift)[stick] ** 2 + across[stick] ** 2)) / shift)
-        if slip.any():
-            angles = np.arctan2(across[slip], shift - along[slip])
-            slip_angle = float(np.degrees(np.sqrt(np.mean(angles**2))))
-    return PartialSlip(traction, stick, slip, shift, misfit, slip_angle, status)
+        body, grid = HalfSpace(scene.contact_modulus, poisson_ratio), Grid(traction.shape, scene.lengths, threads)
+        motion = _read_motion(shear_displacements(body, grid, traction), stick, slip)
+    status = next((state.status for state in (outer, inner) if not state.status.solved), Status.CONVERGED)
+    return PartialSlip(traction, stick, slip, *motion, status)
 
 
-def _press_again(scene: Scene, result: Result, pressure: float, tolerance: float, threads: int) -> Result:
-    """Return the heights of a result, pressed at another mean pressure or to another tolerance."""
+def _check_bodies(scene: Scene, poisson_ratio: float | None) -> None:
+    """Raise an InputError for a layer, and for a surface without a Poisson's ratio."""
+    if not {Trait.HALF_SPACE, Trait.FREE} & scene.traits:
+        raise InputError("result", Words("one of a layer"), "one of a half-space, which is alike along and across")
+    if poisson_ratio is not None:
+        check_poisson_ratio(poisson_ratio)
+    elif Trait.SURFACE in scene.traits:
+        raise InputError("poisson_ratio", poisson_ratio, "a number, above -1 and at most 0.5, of a surface")
+
+
+def _press(scene: Scene, result: Result, pressure: float, tolerance: float, threads: int) -> Result:
+    """Return the heights of a result, pressed at a mean pressure."""
     step = load_step(None, pressure, "load")
     again = replace(scene, path=LoadPath((step,)))
     heights = scene.upper.surface.heights(result.pressure.shape[-1])
     return solve(default_solver(again), *pose_hard_wall(again, step, heights, tolerance, threads))
 
 
-def _shift_ratio(result: Result, poisson_ratio: float | None) -> float:
-    """Return the ratio of tangential to normal displacements of the bodies of a result."""
-    if not isinstance(result, Result) or result.scene is None or not result.status.solved:
-        raise InputError("result", result, "a converged result of `contactsim.press`")
-    if not {Trait.HALF_SPACE, Trait.FREE} & result.scene.traits:
-        raise InputError("result", Words("one of a layer"), "one of a half-space, which is alike along and across")
-    if poisson_ratio is None:
-        if Trait.SURFACE in result.scene.traits:
-            raise InputError("poisson_ratio", poisson_ratio, "a number, above -1 and at most 0.5, of a surface")
-        return 1.0
-    check_poisson_ratio(poisson_ratio)
-    if Trait.LINE in result.scene.traits:
+def _shift_ratio(scene: Scene, poisson_ratio: float | None) -> float:
+    """Return the ratio of tangential to normal displacements, on a surface the mean over all directions of waves."""
+    if Trait.LINE in scene.traits or poisson_ratio is None:
         return 1.0
     return (2 - poisson_ratio) / (2 * (1 - poisson_ratio))
 
 
-def _displacements(grid: Grid, contact_modulus: float, poisson_ratio: float, traction: Array) -> tuple[Array, Array]:
-    """Return the displacements along and across a shear of two half-spaces, relative to each other, without means."""
-    wavenumber = grid.wavenumber
-    compliance = np.divide(2.0, contact_modulus * wavenumber, out=np.zeros_like(wavenumber), where=wavenumber > 0)
-    sheared = compliance * grid.forward(traction)
-    if len(grid.shape) == 1:
-        return grid.backward(sheared), np.zeros_like(traction)
-    angle = np.arctan2(
-        np.fft.fftfreq(grid.shape[0], grid.spacing[0])[:, None], np.fft.rfftfreq(grid.shape[1], grid.spacing[1])
-    )
-    softening = 1 / (1 - poisson_ratio)
-    along = softening * (1 - poisson_ratio * np.cos(angle) ** 2) * sheared
-    across = -softening * poisson_ratio * np.sin(angle) * np.cos(angle) * sheared
-    return grid.backward(along), grid.backward(across)
+def _change_of_approach(outer: Result, inner: Result) -> float:
+    """Return the difference of two approaches; zero without contact, and in full contact, where only means differ."""
+    change = outer.approach - inner.approach
+    return change if outer.contact.any() and abs(change) > ROUNDING * abs(outer.approach) else 0.0
+
+
+def _read_motion(displacements: tuple[Array, Array], stick: Array, slip: Array) -> tuple[float, float, float]:
+    """Return shift, misfit and slip angle from the displacements along and across the shear."""
+    along, across = displacements
+    shift = float(along[stick].mean())
+    misfit = float(np.sqrt(np.mean((along[stick] - shift) ** 2 + across[stick] ** 2)) / shift)
+    angles = np.arctan2(across[slip], shift - along[slip])
+    return shift, misfit, float(np.degrees(np.sqrt(np.mean(angles**2)))) if slip.any() else np.nan

@@ -21,7 +21,7 @@ from contactsim.observables.adhesion import OPENINGS, PULLS, histograms
 from contactsim.observables.load_curve import join_folds
 from contactsim.observables.sliding import join_slips, slide_observables
 from contactsim.paths.increments import Increments
-from contactsim.paths.jumps import approach_of, fold_numbers, slip_numbers
+from contactsim.paths.jump_numbers import approach_of, fold_numbers, slip_numbers
 from contactsim.paths.state import PathState
 from contactsim.paths.state_numbers import STATE_READERS, StateReader
 from contactsim.solvers.cohesive.base import CohesiveSolver

@@ -124,6 +124,13 @@ class Result:
         return float(self.pressure.mean())
 
 
+def pressed_scene(result: object) -> Scene:
+    """Return the scene of a result; raise an InputError for one that did not converge or has no scene."""
+    if not isinstance(result, Result) or result.scene is None or not result.status.solved:
+        raise InputError("result", result, "a converged result of `contactsim.press`")
+    return result.scene
+
+
 def check_solver(solver: Solver, scene: Scene) -> None:
     """Raise a `InputError` if an object is no solver, or if a scene has a trait that the solver does not accept."""
     if isinstance(solver, type) or not hasattr(solver, "accepts"):  # a user's argument may be anything

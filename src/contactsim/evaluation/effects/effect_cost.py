@@ -15,11 +15,11 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.contact.scene import RIGID, Scene
+from contactsim.contact.scene import Scene
+from contactsim.contact.simplification import simplify
 from contactsim.errors import InputError, Words
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.grid import Array
-from contactsim.interface.cohesive_zone import UncoupledCohesiveZone
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
@@ -37,6 +37,8 @@ KEYS = FIGURE_KEYS | {
     "scene": Key(mapping, "keys of a study that all variants share"),
     "variants": Key(mapping, "a mapping from names to a title and the keys of a study that a variant adds"),
 }
+NEGLECTED = ("friction", "coupling", "second_body", "height")
+"""Effects of a scene beside adhesion: it has those whose neglect changes it."""
 LOAD_SHARE = 0.5
 """Load at which contact lengths are compared, over the final load of the first variant."""
 
@@ -165,14 +167,8 @@ def measure_effects(job: CostJob) -> tuple[xr.Dataset, dict[str, dict[str, float
 
 def effects_of(scene: Scene) -> dict[str, int]:
     """Return which effects a scene has, 1 or 0."""
-    uncoupled = len(scene.components) < 2 or any(isinstance(law, UncoupledCohesiveZone) for law in scene.laws)
-    return {
-        "has_adhesion": int(Trait.SMOOTH in scene.traits),
-        "has_friction": int("t" in scene.exerted),
-        "has_coupling": int(not uncoupled),
-        "has_second_body": int(scene.lower.elasticity is not RIGID and scene.upper.elasticity is not RIGID),
-        "has_height": int(Trait.LAYER in scene.traits),
-    }
+    neglected = {f"has_{name}": int(simplify(scene, [name]) != scene) for name in NEGLECTED}
+    return {"has_adhesion": int(Trait.SMOOTH in scene.traits)} | neglected
 
 
 def _load_curve(data: xr.Dataset) -> tuple[Array, Array]:

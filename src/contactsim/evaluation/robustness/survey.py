@@ -138,6 +138,10 @@ def _figure_job(
     return {"name": name, "module": module, "settings": settings, "source": source, "data": digest(data)}
 
 
+FIGURE_JOBS = {"robustness": families_figure_job, "stability": robustness_figure_job}
+"""What the figures of the survey depend on, by their names."""
+
+
 def hazard_job(robustness: Robustness, hazard: str) -> dict[str, Any]:
     """Return what the survey of one hazard depends on."""
     modules = [

@@ -26,6 +26,7 @@ from contactsim.evaluation.work_precision.cases import Case
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
+from contactsim.study.keys import ACCURACY_KEYS
 from contactsim.study.plan import Plan
 from contactsim.study.reading import Key, choice, listed, mapping, positive, read, text
 from contactsim.study.scenes import build_setup
@@ -35,7 +36,7 @@ from contactsim.study.tier_overrides import tiered
 NAME = "price_of_accuracy"
 """Name of the figure and of its file of settings."""
 KEYS = FIGURE_KEYS | {
-    "errors": Key(listed(positive), "a list of relative errors, the largest first"),
+    "errors": Key(listed(ACCURACY_KEYS["error"].kind), "a list of relative errors, above 0 and below 1"),
     "limit": Key(positive, "transforms of 4096 points, above which a run is forecast and not solved"),
     "scenes": Key(mapping, "a mapping from names to a title, a study and a case of accuracy.yaml"),
 }
@@ -71,6 +72,20 @@ class PricedScene:
 
 
 @dataclass(frozen=True)
+class PriceJob:
+    """The measurement of one scene: the errors asked for, the largest first, and the longest run that is solved."""
+
+    scene: PricedScene
+    errors: Sequence[float]
+    limit: float
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any]) -> PriceJob:
+        """Return the job from its JSON, the settings of `price_job`."""
+        return cls(PricedScene(**settings["scene"]), settings["errors"], settings["limit"])
+
+
+@dataclass(frozen=True)
 class Prices(FigureSettings):
     """The errors asked for, the longest runs, and the scenes by name."""
 
@@ -89,14 +104,14 @@ def read_prices(folder: str | Path, plan: Plan, cases: Mapping[str, Case]) -> Pr
     keys = {
         "title": Key(text, "a line of text"),
         "study": Key(choice(tuple(plan.studies)), "the name of a study"),
-        "case": Key(choice(tuple(cases)), f"one of {', '.join(cases)}", None),
+        "case": Key(choice(tuple(cases)), f"a case of accuracy.yaml, which has {', '.join(cases) or 'none'}", None),
     }
     scenes = {}
     for name, scene in settings["scenes"].items():
-        own = read(scene, keys, file, f"scenes.{name}")
-        study = plan.studies[own["study"]]
-        run = study.runs()[0]
-        scenes[name] = PricedScene(own["title"], run.settings, study.settings["thesis_points"], own["case"])
+        keyed = read(scene, keys, file, f"scenes.{name}")
+        study = plan.studies[keyed["study"]]
+        run = study.runs()[0].settings
+        scenes[name] = PricedScene(keyed["title"], run, study.settings["thesis_points"], keyed["case"])
     return Prices(**settings | {"scenes": scenes})
 
 
@@ -105,7 +120,8 @@ def price_job(prices: Prices, name: str) -> dict[str, Any]:
     scene = prices.scenes[name]
     module = solver_module(scene.run["solver"]["kind"])
     source = digest(computing_stage_digest("price", module), FILE.read_text(encoding="utf-8"))
-    return {"settings": asdict(scene) | {"errors": prices.errors, "limit": prices.limit}, "source": source}
+    job = PriceJob(scene, sorted(prices.errors, reverse=True), prices.limit)
+    return {"settings": asdict(job), "source": source}
 
 
 def prices_figure_job(prices: Prices, tier: str) -> dict[str, Any]:
@@ -120,13 +136,8 @@ def prices_figure_job(prices: Prices, tier: str) -> dict[str, Any]:
     }
 
 
-def measure_price(settings: Mapping[str, Any]) -> tuple[xr.Dataset, dict[str, Any]]:
+def measure_price(job: PriceJob) -> tuple[xr.Dataset, dict[str, Any]]:
     """Solve a scene to all errors, the largest first, as long as that is not too long.
-
-    Parameters
-    ----------
-    settings
-        Of `price_job`.
 
     Returns
     -------
@@ -135,14 +146,13 @@ def measure_price(settings: Mapping[str, Any]) -> tuple[xr.Dataset, dict[str, An
     costs : dict
         CPU seconds of each run that was solved, and of one transform of 4096 points.
     """
-    scene = PricedScene(*(settings[name] for name in ("title", "run", "thesis_points", "case")))
-    setup, limit = scene.setup, settings["limit"]
+    setup = job.scene.setup
     has_forecast, rows, last = has_relations(setup.scene), [], 0.0
     seconds: list[float] = []
-    for error in sorted(settings["errors"], reverse=True):
+    for error in job.errors:
         units = _predicted_units(setup, error) if has_forecast else np.nan
         row = {"predicted_units": units}
-        if (units if has_forecast else GROWTH * last) <= limit:
+        if (units if has_forecast else GROWTH * last) <= job.limit:
             if not seconds:
                 solve_to_error(setup, error)  # compiles the kernels
             begin = time.process_time()
@@ -157,8 +167,8 @@ def measure_price(settings: Mapping[str, Any]) -> tuple[xr.Dataset, dict[str, An
             }
         rows.append({"predicted_error": np.nan, "accuracy_reached": -1, "points": -1, "work": np.nan} | row)
     values = {name: ("requested_error", [row[name] for row in rows]) for name in rows[0]}
-    data = xr.Dataset(values, {"requested_error": sorted(settings["errors"], reverse=True)})
-    data = data.assign(dict(zip(("thesis_error", "thesis_units"), _price_of_thesis(scene), strict=True)))
+    data = xr.Dataset(values, {"requested_error": list(job.errors)})
+    data = data.assign(dict(zip(("thesis_error", "thesis_units"), _price_of_thesis(job.scene), strict=True)))
     return dataset.describe(data), {"seconds": seconds, "transform_seconds": transform_seconds()}
 
 
@@ -172,7 +182,8 @@ def _predicted_units(setup: Setup, error: float) -> float:
 
 def _price_of_thesis(scene: PricedScene) -> tuple[float, float]:
     """Return expected error and units of time on the thesis's grid, by our solver; NaN where it is not forecast."""
-    if scene.thesis_points is None or not has_relations(scene.setup.scene):
+    setup = scene.setup
+    if scene.thesis_points is None or not has_relations(setup.scene):
         return np.nan, np.nan
-    forecast = forecast_setup(scene.setup.with_options(points=scene.thesis_points))
+    forecast = forecast_setup(setup.with_options(points=scene.thesis_points))
     return max(forecast.errors.values()), forecast.units

@@ -44,8 +44,6 @@ LABEL_PLACE, HIGHEST_LABEL = 0.77, 0.97
 """Where labels begin, and the highest of them, over width and height of the panel."""
 LABEL_GAP = 0.045
 """Least distance of labels, over the height of the panel."""
-
-
 LABEL_ROOM = 0.42
 """Room right of the smallest error for labels, over the width of all errors, both as logarithms."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from itertools import groupby
 from typing import Any
 
@@ -46,7 +47,8 @@ def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     height = max(sum(block.solver.size + HEAD_HEIGHT for block in own) for own in panels)
     for panel, own in zip(axes, panels, strict=True):
         _plot_blocks(panel, own, height)
-    _add_legend(axes[0], np.concatenate([block.outcome.values.ravel() for block in blocks]))
+    outcomes = np.concatenate([block.outcome.values.ravel() for block in blocks])
+    add_outcome_legend(axes[0], {outcome: outcome.value[1] for outcome in Outcome}, outcomes)
     names = {outcome.value[0]: outcome.name.lower() for outcome in Outcome}
     table = data[["outcome", "transforms", "reason"]].to_dataframe().reset_index()
     return table.assign(outcome=table.outcome.map(names))
@@ -58,16 +60,16 @@ def supported(data: xr.Dataset) -> xr.Dataset:
     return data.isel(solver=solvers) if solvers.any() else data
 
 
-def _add_legend(axes: Axes, cells: np.ndarray) -> None:
-    """Add the outcomes with their numbers of cells."""
+def add_outcome_legend(axes: Axes, words: Mapping[Outcome, str], outcomes: np.ndarray) -> None:
+    """Add outcomes in words, with how often each is among the outcomes of all cells."""
     handles = [
         Patch(
             facecolor=COLOURS[outcome],
             edgecolor=style.LIGHT_GREY,
             lw=0.4,
-            label=f"{outcome.value[1]}: {int((cells == outcome.value[0]).sum())}",
+            label=f"{text}: {int((outcomes == outcome.value[0]).sum())}",
         )
-        for outcome in Outcome
+        for outcome, text in words.items()
     ]
     axes.figure.legend(handles=handles, loc="outside upper right", ncols=3)
 
