@@ -16,7 +16,9 @@ OLDEST_PYTHON = "3.11"
 HEAD = """# Licences
 
 Packages of [environment.txt](../environment.txt), each with the licence that it states of itself. contactsim has its
-own, [MIT](../LICENSE), and contains none of these packages. `python docs/renew_environment.py` makes this page again.
+own, [MIT](../LICENSE), and contains none of these packages. The page of the report contains two scripts, Panzoom (MIT)
+and sortable (Unlicense), with [their licences](../src/contactsim/publish/page/vendor/LICENSES.txt).
+`python docs/renew_environment.py` makes this page again.
 
 | package | version | licence |
 |---|---|---|

@@ -20,6 +20,7 @@ from contactsim.figures.diagnostics.claims import write_claims
 from contactsim.figures.layout import write_figure
 from contactsim.files import write_text
 from contactsim.study.execute import RunFiles
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
 from contactsim.study.run import Run
@@ -65,7 +66,7 @@ def assess_claims(plan: Plan, chapter: str) -> None:
     """Write the claims of one chapter, in a process of its own."""
     studies = plan.claims_studies(chapter)
     data = {study: dataset.load_dataset(plan.results / f"datasets/{chapter}_{study}.nc") for study in studies}
-    targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in ("png", "pdf", "csv")}
+    targets = {kind: f"{plan.results}/claims/{chapter}.{kind}" for kind in PICTURE_ENDINGS}
     for study in plan.claims_costs(chapter):
         data[study] = costs.with_costs(data[study], costs.read_costs(plan.results / f"costs/{chapter}_{study}.csv"))
     settings = json.loads(json.dumps(plan.claims_settings(chapter)))

@@ -11,6 +11,7 @@ import pytest
 from contactsim import dataset
 from contactsim.evaluation.effects import effect_cost
 from contactsim.figures.diagnostics.effects import write_effects
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from support.places import ROOT
 
 QUICK = {"repeats": 1, "scene": {"points": 256, "path": {"increment": 0.25}, "tolerance": 1e-6}}
@@ -59,7 +60,7 @@ def test_the_figure_compares_every_scene_with_the_first(measured, tmp_path):
     data, spent = measured
     dataset.write(dataset.stamp(data, "effects", {}, "source"), tmp_path / "effects.nc")
     (tmp_path / "effects.json").write_text(json.dumps(spent))
-    targets = {kind: str(tmp_path / f"effects.{kind}") for kind in ("png", "pdf", "csv")}
+    targets = {kind: str(tmp_path / f"effects.{kind}") for kind in PICTURE_ENDINGS}
     plan = effect_cost.effects_figure_job(COSTS, "quick")
     write_effects(plan, str(tmp_path / "effects.nc"), str(tmp_path / "effects.json"), targets)
     shown = pd.read_csv(targets["csv"])

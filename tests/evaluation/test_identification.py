@@ -20,6 +20,7 @@ from contactsim.evaluation.identification.sampling import CandidateRanges, draw_
 from contactsim.evaluation.identification.simulation import DOUBLED, simulate_candidate, with_grid_change
 from contactsim.figures.diagnostics.identification import write_identification
 from contactsim.status import Status
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
 from support.places import ROOT
 
@@ -198,7 +199,7 @@ def test_the_change_on_a_coarser_grid_at_one_approach_stands_for_all(judged):
 
 def test_the_figure_shows_all_candidates_and_writes_the_shares(judged, tmp_path):
     own, _, table = judged
-    targets = {ending: tmp_path / f"identification.{ending}" for ending in ("png", "pdf", "csv")}
+    targets = {ending: tmp_path / f"identification.{ending}" for ending in PICTURE_ENDINGS}
     write_identification(identification.figure_job(own, "quick"), table, targets)
     assert all(file.stat().st_size > 0 for file in targets.values())
     assert pd.read_csv(targets["csv"]).claim.tolist() == list(own.claims)

@@ -19,6 +19,7 @@ from contactsim.evaluation.work_precision.prices import (
     read_prices,
 )
 from contactsim.figures.diagnostics import prices as price_figure
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
 from support.cases import refused
 from support.places import ROOT
@@ -78,7 +79,7 @@ def test_the_figure_shows_what_was_solved_and_forecast_and_the_factor_of_the_met
     (tmp_path / "a.json").write_text(json.dumps(spent))
     equal = {"knob": ["tolerance"] * 3, "error": [0.1, 0.01, 0.01], "solver": ["verlet", "verlet", "polonsky_keer"]}
     pd.DataFrame(equal | {"work": [1.0, 2.0, 3.0], "seconds": [10.0, 20.0, 5.0]}).to_csv(files["equal"][0], index=False)
-    targets = {kind: str(tmp_path / f"prices.{kind}") for kind in ("png", "pdf", "csv")}
+    targets = {kind: str(tmp_path / f"prices.{kind}") for kind in PICTURE_ENDINGS}
     price_figure.write_prices(told, files, targets)
     shown = pd.read_csv(targets["csv"])
     assert shown.seconds.notna().all()

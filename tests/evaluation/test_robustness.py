@@ -34,6 +34,7 @@ from contactsim.figures.diagnostics.stability import COLOURS, footer, refusals, 
 from contactsim.figures.layout import write_figure
 from contactsim.solvers.base import State
 from contactsim.solvers.registry import make_solver
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
 from contactsim.variables import RESULTS
 from support.cases import ALL, ON_SURFACES, refused
@@ -264,7 +265,7 @@ def drawn(tmp_path_factory):
     job = robustness_job(settings, plan)
     data = dataset.stamp(merge_surveys(parts), job["settings"]["title"], job["settings"], job["source"])
     dataset.write(data, folder / "stability.nc")
-    targets = {kind: f"{folder}/stability.{kind}" for kind in ("png", "pdf", "csv")}
+    targets = {kind: f"{folder}/stability.{kind}" for kind in PICTURE_ENDINGS}
     data = dataset.load_dataset(folder / "stability.nc")
     write_figure(json.loads(json.dumps(robustness_figure_job(settings, plan))), [data], [], targets)
     return folder

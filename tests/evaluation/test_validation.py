@@ -20,6 +20,7 @@ from contactsim.figures.diagnostics import effect_maps as map_figure
 from contactsim.figures.diagnostics import overview
 from contactsim.figures.diagnostics import trials as trial_figure
 from contactsim.provenance import canonical
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
 from contactsim.study.tier_overrides import tiered
 from contactsim.variables import RESULTS
@@ -81,7 +82,7 @@ def test_the_figure_of_trials_tells_how_many_met_what_was_asked(tried, tmp_path)
         (tmp_path / f"{name}.json").write_text(json.dumps(spent))
         data.append(str(tmp_path / f"{name}.nc"))
         costs.append(str(tmp_path / f"{name}.json"))
-    targets = {kind: str(tmp_path / f"trials.{kind}") for kind in ("png", "pdf", "csv")} | {"data": tmp_path / "all.nc"}
+    targets = {kind: str(tmp_path / f"trials.{kind}") for kind in PICTURE_ENDINGS} | {"data": tmp_path / "all.nc"}
     plan = validation.trials_figure_job(SETTINGS, "quick")
     trial_figure.write_trials(plan, data, costs, targets)
     table = pd.read_csv(targets["csv"])
@@ -176,7 +177,7 @@ def test_the_maps_are_drawn_with_their_conditions_and_their_numbers_kept(tmp_pat
         data = dataset.describe(survey.map_dataset(one, np.linspace(1e-4, 0.9, int(np.prod(shape))).reshape(shape)))
         files.append(str(tmp_path / f"{name}.nc"))
         dataset.write(dataset.stamp(data, name, {}, "source"), files[-1])
-    targets = {kind: str(tmp_path / f"maps.{kind}") for kind in ("png", "pdf", "csv")}
+    targets = {kind: str(tmp_path / f"maps.{kind}") for kind in PICTURE_ENDINGS}
     map_figure.write_effect_maps(survey.maps_figure_job(settings, "quick"), files, targets)
     assert set(pd.read_csv(targets["csv"])["map"]) == set(settings.maps)
 
@@ -195,7 +196,7 @@ def test_the_overview_shows_every_case_and_leaves_ensembles_out(tmp_path):
         rows |= {"work": [1.0, 2.0, 3.0], "seconds": [0.1, 0.2, 0.3], "unconverged": [0.0] * 3, "own": [True] * 3}
         tables.append(str(tmp_path / f"{name}.csv"))
         pd.DataFrame(rows).to_csv(tables[-1], index=False)
-    targets = {kind: str(tmp_path / f"overview.{kind}") for kind in ("png", "pdf", "csv")}
+    targets = {kind: str(tmp_path / f"overview.{kind}") for kind in PICTURE_ENDINGS}
     overview.write_overview(told, tables, targets)
     shown = pd.read_csv(targets["csv"])
     assert set(shown.case) == set(cases)

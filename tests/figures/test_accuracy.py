@@ -15,6 +15,7 @@ from contactsim.figures import style
 from contactsim.figures.diagnostics import accuracy
 from contactsim.figures.diagnostics.accuracy_footer import footer_text
 from contactsim.figures.layout import empty_figure
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from support.prices import LOADS, PATH_REFERENCE, REFERENCE, job, path_job, path_study, study
 
 MARKS = {
@@ -103,7 +104,7 @@ def render(folder, plan=PLAN, jobs=JOBS, members=3, baselines=()):
     measured = [name for name in plan["jobs"] if name not in plan["kept"]]
     files = {kind: [folder / f"{name}.{end}" for name in measured] for kind, end in (("data", "nc"), ("costs", "json"))}
     files |= {"study": folder / "study.nc", "study_costs": folder / "costs.csv", "baselines": list(baselines)}
-    targets = {kind: folder / f"shown.{kind}" for kind in ("png", "pdf", "csv")}
+    targets = {kind: folder / f"shown.{kind}" for kind in PICTURE_ENDINGS}
     accuracy.write_accuracy(plan, files, targets | {"equal_error": folder / "equal.csv"})
     return pd.read_csv(folder / "shown.csv"), pd.read_csv(folder / "equal.csv")
 

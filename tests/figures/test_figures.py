@@ -22,6 +22,7 @@ from contactsim.figures import ch3, ch5, layout, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
 from contactsim.reference import hard_wall
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.law_table import tabulate_law
 from contactsim.study.plan import Plan
 from contactsim.study.quantity_names import quantities
@@ -110,7 +111,7 @@ def test_a_short_footer_has_grids_and_members_of_all_studies_and_no_errors(made,
     monkeypatch.setattr(layout, "empty_figure", lambda own, text, rows: footers.append(text) or empty(own, text, rows))
     data = rough(made, "rough_line", "rough_surface", "line_resolution", "surface_resolution")
     costs = [pd.DataFrame({"seconds": [1.0, 1.5]})] * 4
-    layout.write_figure(plan, data, costs, {kind: tmp_path / f"ratio.{kind}" for kind in ("png", "pdf", "csv")})
+    layout.write_figure(plan, data, costs, {kind: tmp_path / f"ratio.{kind}" for kind in PICTURE_ENDINGS})
     for part in ("rough line: ", "surface resolution: ", "3 members", "unconverged", "studies solved in 10 CPU s"):
         assert part in footers[0]
     assert "error" not in footers[0]
@@ -124,7 +125,7 @@ def test_a_footer_tells_of_the_loads_shown_and_of_no_others(made, tmp_path, monk
     assert plan["settings"]["select"] == {"contact_ratio": [0.05, 0.25]}
     empty = layout.empty_figure
     monkeypatch.setattr(layout, "empty_figure", lambda own, text, rows: footers.append(text) or empty(own, text, rows))
-    targets = {kind: tmp_path / f"table.{kind}" for kind in ("png", "pdf", "csv")}
+    targets = {kind: tmp_path / f"table.{kind}" for kind in PICTURE_ENDINGS}
     names = ("ch3_smooth_line", "ch3_smooth_surface")
     costs = [pd.read_csv(made / f"results/quick/costs/{name}.csv") for name in names]
     other = dataset.load_dataset(made / f"results/quick/datasets/{names[1]}.nc")

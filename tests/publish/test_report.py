@@ -5,67 +5,33 @@ from __future__ import annotations
 import html
 import json
 import re
-import shutil
-import subprocess
 
 import numpy as np
 import pandas as pd
 import pytest
-from PIL import Image
+from matplotlib.figure import Figure
 
 from contactsim import dataset
 from contactsim.analysis.rounding import number_cells
 from contactsim.analysis.verdict import CONDITION, NOT_REPRODUCED
 from contactsim.evaluation.robustness.survey import read_robustness
+from contactsim.figures.vector import write_vector
 from contactsim.publish import report
 from contactsim.publish.gallery import VERDICTS
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
+from support.browser import CHROMIUM, browser
 from support.places import ROOT
 
 pytestmark = pytest.mark.slow
 
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-QUIET = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
---disable-component-update --disable-sync --hide-scrollbars --virtual-time-budget=20000""".split()
-OWN = re.compile(r"//([\w.-]+\.)?(google|googleapis|gstatic)\.com|^chrome")
-"""What Chromium asks for by itself."""
-PROBE = """
-<script>
-addEventListener("load", () => {
-  const shown = image => image.complete && image.naturalWidth > 0 && image.clientWidth > 100;
-  const links = [...document.querySelectorAll("a")].map(link => link.getAttribute("href"));
-  const missing = links.filter(link => !document.getElementById(link.slice(1)));
-  const link = document.querySelector('a[href="#study-indentation"]');
-  const study = document.getElementById("study-indentation");
-  const closed = !study.open;
-  link.click();
-  const opened = closed && study.open;
-  document.querySelectorAll("details").forEach(one => one.open = true);
-  document.querySelector("[data-show=no]").click();
-  const rows = [...document.querySelectorAll("#statements tr[class]")].filter(row => row.clientHeight > 0);
-  const figure = document.querySelector("figure img");
-  figure.click();
-  const full = figure.clientWidth;
-  figure.click();
-  document.querySelector('a[href="#fig_4_7"]').click();
-  const place = document.getElementById("fig_4_7").getBoundingClientRect().top;
-  const asked = performance.getEntriesByType("resource").map(one => one.name).filter(name => !name.startsWith("data:"));
-  const found = {
-    width: innerWidth, page: document.documentElement.scrollWidth, missing, full, opened, place, asked,
-    errors: window.told,
-    images: document.images.length, unseen: [...document.images].filter(image => !shown(image)).map(one => one.alt),
-    rows: rows.map(row => row.className),
-    captions: [...document.querySelectorAll("figcaption")].map(caption => caption.clientHeight),
-  };
-  document.body.innerHTML = "";
-  document.body.append(Object.assign(document.createElement("pre"), {id: "found", textContent: JSON.stringify(found)}));
-});
-</script>
-"""
-LISTEN = """
-<script>window.told = []; addEventListener("error", event => window.told.push(String(event.message)), true);
-addEventListener("unhandledrejection", event => window.told.push(String(event.reason)));
-for (const kind of ["error", "warn"]) console[kind] = text => window.told.push(String(text));</script>
+HELPERS = """
+const wait = async test => {
+  for (let count = 0; count < 200 && !test(); count++) await new Promise(done => setTimeout(done, 25));
+  return test();
+};
+const rows = () => [...document.querySelectorAll("#statements tbody tr")].filter(row => row.clientHeight > 0);
+const column = name => [...document.querySelectorAll("#statements thead th")].find(one => one.textContent === name);
 """
 
 
@@ -78,7 +44,10 @@ def plan():
 def page(made, plan):
     """The page of the quick tier, with a stand-in for the map of stability."""
     folder = made / plan.results
-    Image.fromarray(np.arange(40000, dtype=np.uint8).reshape(100, 400)).save(folder / "figures/stability.png")
+    figure = Figure(figsize=(6, 3))
+    figure.subplots().plot([0, 1], [0, 1])
+    figure.savefig(folder / "figures/stability.png")
+    write_vector(figure, folder / "figures/stability.svg")
     return report.page_text(report.collect_results(plan, json.loads(json.dumps(report_settings(plan))), folder))
 
 
@@ -104,7 +73,7 @@ def test_every_figure_and_study_stands_on_the_page_with_its_command(page, plan):
 
 def test_every_statement_stands_there_once_with_its_verdict_value_and_errors(page, every):
     table = page[page.index('id="statements"') : page.index("</table>", page.index('id="statements"'))]
-    rows = re.findall(r'<tr class="row-(\w+)">(.*?)</tr>', table, re.DOTALL)
+    rows = re.findall(r'<tr id="[^"]+" class="row-(\w+)[^"]*">(.*?)</tr>', table, re.DOTALL)
     assert len(rows) == len(every) > 100
     for (mark, text), claim in zip(rows, every.to_dict("records"), strict=True):
         assert mark == report.ROW_MARKS[claim["verdict"]]
@@ -139,10 +108,11 @@ def test_a_study_tells_its_cost_its_unconverged_solutions_and_its_settings(page,
 
 
 def test_the_page_needs_nothing_but_itself_and_its_links_lead_somewhere(page):
-    used = re.findall(r'(?:src|href)="([^"]*)"', page)
-    assert all(one.startswith(("#", "data:")) for one in used)
+    assert all(one.startswith("data:") for one in re.findall(r'src="([^"]*)"', page))
+    used = re.findall(r'href="([^"]*)"', page)
+    assert not [one for one in used if ":" in one and not one.startswith("data:")]
     assert not re.search(r"@import|url\(|fetch\(|XMLHttpRequest", re.sub(r'"data:[^"]*"', "", page))
-    places = re.findall(r'id="([^"]+)"', page)
+    places = re.findall(r' id="([^"]+)"', page)
     assert len(places) == len(set(places))
     assert {one[1:] for one in used if one.startswith("#")} <= set(places)
 
@@ -152,30 +122,131 @@ def test_other_settings_have_another_digest(plan):
     assert report_settings(Plan.read(ROOT / "config", "standard"))["data"] != report_settings(plan)["data"]
 
 
-@pytest.mark.skipif(BROWSER is None, reason="needs Chromium")
-@pytest.mark.parametrize("width", [1400, 500])
-def test_a_browser_shows_all_of_it_without_errors_or_requests(page, every, tmp_path, width):
-    text = page.replace("<head>", "<head>" + LISTEN, 1).replace("</body>", PROBE + "</body>", 1)
-    (tmp_path / "page.html").write_text(text, encoding="utf-8")
-    log = tmp_path / "net.json"
-    options = [f"--user-data-dir={tmp_path / 'user'}", f"--window-size={width},900", f"--log-net-log={log}"]
-    command = [BROWSER, *QUIET, *options, "--dump-dom", (tmp_path / "page.html").as_uri()]
-    told = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
-    found = json.loads(html.unescape(re.search(r'<pre id="found">(.*?)</pre>', told, re.DOTALL)[1]))
-    assert found["errors"] == []
-    assert found["missing"] == []
-    assert found["unseen"] == []
-    assert found["images"] == page.count("<img ")
-    assert found["width"] == width
-    assert found["page"] <= width, "nothing but tables scrolls sideways"
-    assert found["full"] == width
-    assert found["rows"] == ["row-no"] * int((every.verdict == NOT_REPRODUCED).sum())
-    assert all(height > 0 for height in found["captions"])
-    assert found["opened"]
-    assert -5 < found["place"] < 100, "a link leads to its figure"
-    assert found["asked"] == []
-    urls = re.findall(r'"url":"(\w+://[^"/]*)', log.read_text(encoding="utf-8"))
-    assert {url for url in urls if not OWN.search(url)} <= {"file://"}
+@pytest.fixture(scope="module")
+def shown(page, made, plan, tmp_path_factory):
+    """The page in a browser, as the file that lies in the folder of results."""
+    if CHROMIUM is None:
+        pytest.skip("needs Chromium")
+    file = made / plan.results / "report.html"
+    file.write_text(page, encoding="utf-8")
+    with browser(tmp_path_factory.mktemp("browser")) as window:
+
+        def open_page(**size):
+            window.open(file.as_uri(), **size)
+            window.evaluate(f"globalThis.eval({json.dumps(HELPERS)}.replaceAll('const ', 'var '))")
+            return window
+
+        yield open_page
+
+
+@pytest.mark.parametrize(("width", "dark"), [(1400, False), (400, True)])
+def test_a_browser_shows_all_of_it_without_errors_or_requests(shown, width, dark):
+    window = shown(width=width, dark=dark)
+    script = """
+        document.querySelectorAll("details").forEach(one => { one.open = true; });
+        const seen = image => image.complete && image.naturalWidth > 0 && image.clientWidth > 100;
+        const images = [...document.querySelectorAll("main img")];
+        await wait(() => images.every(seen));
+        return {
+            page: document.documentElement.scrollWidth,
+            unseen: images.filter(image => !seen(image)).map(one => one.alt),
+            theme: document.documentElement.dataset.theme,
+            captions: [...document.querySelectorAll("figcaption")].filter(one => one.clientHeight === 0).length,
+        };
+    """
+    found = window.evaluate(script)
+    assert found == {"page": width, "unseen": [], "theme": "dark" if dark else "light", "captions": 0}
+    assert {url.partition(":")[0] for url in window.requests} <= {"file", "data", "blob"}
+    assert sum(url.startswith("file") for url in window.requests) == 1
+    assert window.errors == []
+
+
+def test_statements_are_filtered_and_sorted(shown, every):
+    window = shown(width=1400)
+    script = "document.querySelector('[data-show=no]').click(); return rows().map(row => row.className.trim());"
+    assert window.evaluate(script) == ["row-no"] * int((every.verdict == NOT_REPRODUCED).sum())
+    script = """
+        document.querySelector('[data-show=""]').click();
+        column("found").click();
+        await wait(() => column("found").hasAttribute("aria-sort"));
+        await new Promise(done => setTimeout(done, 100));
+        return rows().map(row => row.cells[5].dataset.sort).filter(text => text !== "").map(Number);
+    """
+    values = window.evaluate(script)
+    assert values == sorted(every.value.dropna(), reverse=True)
+    assert window.errors == []
+
+
+@pytest.mark.parametrize("width", [1400, 400])
+def test_the_search_leads_to_a_statement_even_if_it_is_filtered_out(shown, every, width):
+    window = shown(width=width)
+    claim = every[(every.verdict != NOT_REPRODUCED) & (every.chapter == "ch4")].iloc[0]
+    script = f"""
+        document.querySelector("[data-show=no]").click();
+        const field = document.getElementById("search");
+        field.value = {json.dumps(claim.statement.upper())};
+        field.dispatchEvent(new Event("input"));
+        const link = document.querySelector("#hits a[href='#{claim.chapter}-{claim.claim}']");
+        link.click();
+        const row = document.getElementById("{claim.chapter}-{claim.claim}");
+        await wait(() => row.clientHeight > 0);
+        const box = row.getBoundingClientRect();
+        return box.top < innerHeight && box.bottom > 0;
+    """
+    assert window.evaluate(script)
+    assert window.evaluate("field = document.getElementById('search'); field.value = 'no such words';"
+                           "field.dispatchEvent(new Event('input'));"
+                           "return document.getElementById('found').textContent;") == "0 found"  # fmt: skip
+
+
+@pytest.mark.parametrize("width", [1400, 400])
+def test_a_figure_tells_values_with_errors_and_zooms(shown, made, plan, width):
+    window = shown(width=width)
+    script = """
+        const image = document.querySelector("img[data-name=fig_3_2]");
+        image.scrollIntoView({block: "center"});
+        await wait(() => image.src.startsWith("blob:"));
+        const point = shown.get(image).curves.map((curve, index) => [curve, index])
+            .find(([curve]) => curve.y[0].includes("±"))[0];
+        const frame = pictureFrame(image, shown.get(image).size);
+        return [frame.left + frame.scale * point.places[0][0], frame.top + frame.scale * point.places[0][1]];
+    """
+    place = window.evaluate(script)
+    window.move(*place)
+    told = window.evaluate("await wait(() => !tip.hidden); return tip.textContent;")
+    table = pd.read_csv(made / plan.results / "figures/fig_3_2.csv")
+    areas = {f"{value:.4g} ± " for value in table.filter(regex="relative_contact_area.*_mean").to_numpy().ravel()}
+    assert any(text in told for text in areas), told
+    script = """
+        document.querySelector("img[data-name=fig_3_2]").click();
+        await wait(() => document.getElementById("large").open);
+        const large = document.querySelector("dialog img");
+        await wait(() => large.complete);
+        return large.getBoundingClientRect().width;
+    """
+    before = window.evaluate(script)
+    window.turn_wheel(width / 2, 400, -300)
+    grown = (
+        "const large = document.querySelector('dialog img'); const size = () => large.getBoundingClientRect().width;"
+    )
+    assert window.evaluate(grown + f"await wait(() => size() > 1.2 * {before}); return size();") > 1.2 * before
+    window.evaluate("document.getElementById('back').click();")
+    assert window.evaluate("return document.getElementById('large').open;") is False
+    assert window.errors == []
+
+
+def test_links_lead_to_the_files_of_figures_and_datasets(page, made, plan):
+    files = {one for one in re.findall(r'href="([^"#]+)"', page) if not one.startswith("data:")}
+    assert {f"figures/fig_3_2.{ending}" for ending in PICTURE_ENDINGS} <= files
+    assert "datasets/ch4_indentation.nc" in files
+    folder = made / plan.results
+    assert {one for one in files if not (folder / one).is_file()} == {
+        f"figures/stability.{kind}" for kind in ("csv", "pdf")
+    }
+
+
+def test_the_page_stays_small(page):
+    assert len(page.encode()) < 10e6
 
 
 def test_the_picture_of_the_stages_is_part_of_the_page(page):

@@ -16,6 +16,7 @@ from contactsim.evaluation.robustness import survey
 from contactsim.evaluation.work_precision import case_config
 from contactsim.evaluation.work_precision.cases import Case
 from contactsim.evaluation.work_precision.prices import Prices, read_prices
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
 
 
@@ -145,7 +146,7 @@ class Products:
     def figure_files(self, name: str) -> list[Path]:
         """Return the files of a figure: picture, document, numbers, and an animation where there is one."""
         figures = self.plan.figures
-        endings = figures[name].endings if name in figures else ("png", "pdf", "csv")
+        endings = figures[name].endings if name in figures else PICTURE_ENDINGS
         return [self.results / "figures" / f"{name}.{ending}" for ending in endings]
 
     def all_figures(self) -> list[Path]:
@@ -154,8 +155,8 @@ class Products:
 
     def all_claims(self) -> list[Path]:
         """Return the files of the verdicts on all chapters' claims."""
-        endings = (".csv", ".png", ".pdf")
-        return [self.results / "claims" / f"{chapter}{ending}" for chapter in self.plan.claims for ending in endings]
+        folder, chapters = self.results / "claims", self.plan.claims
+        return [folder / f"{chapter}.{ending}" for chapter in chapters for ending in PICTURE_ENDINGS]
 
     def study_files(self) -> list[Path]:
         """Return the datasets of all studies, each with its table of costs."""

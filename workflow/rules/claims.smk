@@ -8,6 +8,7 @@ rule assess_claims:
         csv=RESULTS / "claims/{chapter}.csv",
         png=RESULTS / "claims/{chapter}.png",
         pdf=RESULTS / "claims/{chapter}.pdf",
+        svg=RESULTS / "claims/{chapter}.svg",
     wildcard_constraints: chapter=r"ch\d+"
     log: RESULTS / "logs/claims/{chapter}.log"
     params: plan=RESULT_JOBS.claims_params

@@ -17,6 +17,7 @@ if PRODUCTS.maps:
         output:
             png=RESULTS / "figures/effect_maps.png",
             pdf=RESULTS / "figures/effect_maps.pdf",
+            svg=RESULTS / "figures/effect_maps.svg",
             csv=RESULTS / "figures/effect_maps.csv",
         log: RESULTS / "logs/figures/effect_maps.log"
         params: plan=EVALUATION_JOBS.maps_figure_params

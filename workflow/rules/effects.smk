@@ -20,6 +20,7 @@ if PRODUCTS.effects:
         output:
             png=RESULTS / "figures/effects.png",
             pdf=RESULTS / "figures/effects.pdf",
+            svg=RESULTS / "figures/effects.svg",
             csv=RESULTS / "figures/effects.csv",
         log: RESULTS / "logs/figures/effects.log"
         params: plan=EVALUATION_JOBS.effects_figure_params

@@ -10,8 +10,9 @@ for _name, _figure in PLAN.figures.items():
         output:
             png=RESULTS / f"figures/{_name}.png",
             pdf=RESULTS / f"figures/{_name}.pdf",
+            svg=RESULTS / f"figures/{_name}.svg",
             csv=RESULTS / f"figures/{_name}.csv",
-            **{ending: RESULTS / f"figures/{_name}.{ending}" for ending in _figure.endings[3:]},
+            **{ending: RESULTS / f"figures/{_name}.{ending}" for ending in _figure.endings[4:]},
         log: RESULTS / f"logs/figures/{_name}.log"
         params: plan=RESULT_JOBS.figure_params(_name)
         group: group_on_cluster(workflow, "figures")

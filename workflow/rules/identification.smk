@@ -33,6 +33,7 @@ if PRODUCTS.identification:
         output:
             png=RESULTS / "figures/identification.png",
             pdf=RESULTS / "figures/identification.pdf",
+            svg=RESULTS / "figures/identification.svg",
             csv=RESULTS / "figures/identification.csv",
         log: RESULTS / "logs/figures/identification.log"
         params: plan=CANDIDATE_JOBS.figure_params

@@ -22,6 +22,7 @@ if PRODUCTS.prices:
         output:
             png=RESULTS / "figures/price_of_accuracy.png",
             pdf=RESULTS / "figures/price_of_accuracy.pdf",
+            svg=RESULTS / "figures/price_of_accuracy.svg",
             csv=RESULTS / "figures/price_of_accuracy.csv",
         log: RESULTS / "logs/figures/price_of_accuracy.log"
         params: plan=EVALUATION_JOBS.prices_figure_params

@@ -28,6 +28,7 @@ if PRODUCTS.hazards:
             output:
                 png=RESULTS / f"figures/{_figure}.png",
                 pdf=RESULTS / f"figures/{_figure}.pdf",
+                svg=RESULTS / f"figures/{_figure}.svg",
                 csv=RESULTS / f"figures/{_figure}.csv",
             log: RESULTS / f"logs/figures/{_figure}.log"
             params: plan=EVALUATION_JOBS.survey_figure_params(_figure)

@@ -22,6 +22,7 @@ if PRODUCTS.trials:
             data=RESULTS / "datasets/trials.nc",
             png=RESULTS / "figures/trials.png",
             pdf=RESULTS / "figures/trials.pdf",
+            svg=RESULTS / "figures/trials.svg",
             csv=RESULTS / "figures/trials.csv",
         log: RESULTS / "logs/figures/trials.log"
         params: plan=EVALUATION_JOBS.trials_figure_params

@@ -22,6 +22,7 @@ rule draw_work_precision:
     output:
         png=RESULTS / "figures/accuracy_{case}.png",
         pdf=RESULTS / "figures/accuracy_{case}.pdf",
+        svg=RESULTS / "figures/accuracy_{case}.svg",
         csv=RESULTS / "figures/accuracy_{case}.csv",
         equal_error=RESULTS / "figures/accuracy_{case}_at_equal_error.csv",
     log: RESULTS / "logs/figures/accuracy_{case}.log"
@@ -49,6 +50,7 @@ if PRODUCTS.overview:
         output:
             png=RESULTS / "figures/overview.png",
             pdf=RESULTS / "figures/overview.pdf",
+            svg=RESULTS / "figures/overview.svg",
             csv=RESULTS / "figures/overview.csv",
         log: RESULTS / "logs/figures/overview.log"
         params: plan=EVALUATION_JOBS.overview_params

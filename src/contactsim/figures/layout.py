@@ -1,4 +1,4 @@
-"""Files of a figure: PNG and PDF with caption and footer, the numbers that it shows as CSV, and a film as GIF."""
+"""Files of a figure: PNG, PDF and SVG with caption and footer, the numbers that it shows as CSV, and a film as GIF."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 from contactsim.analysis.dataset_summary import dataset_summary, sources_summary
 from contactsim.analysis.ensemble import widen_interval
 from contactsim.figures import style
+from contactsim.figures.vector import write_vector
 from contactsim.files import write_atomically
 
 LINE_HEIGHT = 0.125
@@ -43,7 +44,7 @@ def write_figure(
     plan : what the figure depends on, of `Plan.figure_settings`
     data : the datasets that it shows, in the order of the arguments of its function
     costs : tables of costs of the same studies; none if the module of the figure has a function `footer`
-    targets : paths of the files: png, pdf, csv, and gif for a film
+    targets : paths of the files: png, pdf, svg, csv, and gif for a film
     """
     settings, module = plan["settings"], import_module(plan["module"])
     plot = getattr(module, plan["name"])
@@ -102,9 +103,10 @@ def empty_figure(
 
 
 def save(figure: Figure, table: pd.DataFrame, targets: Mapping[str, str]) -> None:
-    """Write a figure as PNG and PDF, and the numbers that it shows as CSV."""
+    """Write a figure as PNG, PDF and SVG, and the numbers that it shows as CSV."""
     write_atomically(targets["png"], figure.savefig)
     write_atomically(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
+    write_vector(figure, targets["svg"])
     write_atomically(targets["csv"], lambda path: table.to_csv(path, index=False))
 
 

@@ -25,6 +25,7 @@ FORMATS = {
     ".nc": "application/x-netcdf",
     ".csv": "text/csv",
     ".png": "image/png",
+    ".svg": "image/svg+xml",
     ".gif": "image/gif",
     ".pdf": "application/pdf",
     ".html": "text/html",

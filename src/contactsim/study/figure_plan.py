@@ -19,6 +19,8 @@ from contactsim.traits import Trait
 
 MAX_ROWS = 50
 """Most rows of axes."""
+PICTURE_ENDINGS = ("png", "pdf", "svg", "csv")
+"""Endings of the files of every figure: pictures, and the numbers that they show."""
 LEAST_WIDTH = 2.8
 """Inches that a panel needs for its labels and legend."""
 FIELDS = "fields"
@@ -61,7 +63,7 @@ class Figure:
     @property
     def endings(self) -> tuple[str, ...]:
         """Endings of its files."""
-        return ("png", "pdf", "csv") if self.settings["film"] is None else ("png", "pdf", "csv", "gif")
+        return PICTURE_ENDINGS if self.settings["film"] is None else (*PICTURE_ENDINGS, "gif")
 
     @property
     def studies(self) -> list[str]:

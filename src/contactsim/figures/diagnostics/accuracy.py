@@ -44,7 +44,7 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
     plan : of `contactsim.evaluation.work_precision.case_config.case_figure_job`
     files : data and costs of the measured jobs, in the order of the plan; baselines, the package's tables; study and
         study_costs, of the study
-    targets : png, pdf, csv, and equal_error for the comparison at equal error
+    targets : png, pdf, svg, csv, and equal_error for the comparison at equal error
     """
     settings, results = plan["settings"], read_results(plan, files)
     study = dataset.load_dataset(files["study"]).sel(plan["selection"])

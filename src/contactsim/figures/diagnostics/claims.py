@@ -62,7 +62,7 @@ def write_claims(
     verdicts : one row a claim, of `contactsim.analysis.claims.verdicts`
     chapter : its name, such as "ch3"
     data : the datasets of the studies by name
-    targets : paths of the files: csv, png and pdf
+    targets : paths of the files: csv, png, pdf and svg
     """
     title = f"Chapter {chapter.removeprefix('ch')}: what it states, and what was found"
     save(claims_figure(verdicts, title, footer_text(verdicts, data)), verdicts, targets)

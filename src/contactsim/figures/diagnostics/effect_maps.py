@@ -43,7 +43,7 @@ def write_effect_maps(plan: Mapping[str, Any], data: Sequence[str], targets: Map
     ----------
     plan : of `contactsim.evaluation.effects.survey.maps_figure_job`
     data : paths of the maps, in the order of their names
-    targets : png, pdf and csv
+    targets : png, pdf, svg and csv
     """
     maps = dict(zip(sorted(plan["titles"]), map(dataset.load_dataset, data), strict=True))
     cuts = plan["settings"]["panels"]

@@ -42,7 +42,7 @@ def write_effects(plan: Mapping[str, Any], data: str, costs: str, targets: Mappi
     ----------
     plan : tier, repeats, settings of the figure, and titles of the scenes by name
     data, costs : paths of the files of `contactsim.evaluation.effects.effect_cost.measure_effects`
-    targets : png, pdf and csv
+    targets : png, pdf, svg and csv
     """
     scenes = dataset.load_dataset(data)
     spent = pd.DataFrame(json.loads(Path(costs).read_text())).T.loc[scenes.variant.values].reset_index(drop=True)

@@ -39,7 +39,7 @@ def write_identification(plan: Mapping[str, Any], candidates: pd.DataFrame, targ
     ----------
     plan : of `contactsim.evaluation.identification.settings.figure_job`
     candidates : one row for each candidate and statement
-    targets : png, pdf and csv
+    targets : png, pdf, svg and csv
     """
     held = statements_held(candidates)
     figure, panels = empty_figure(plan["settings"] | {"panels": 2}, footer_text(plan["tier"], candidates), rows=2)

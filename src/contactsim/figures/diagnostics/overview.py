@@ -33,7 +33,7 @@ def write_overview(plan: Mapping[str, Any], paths: Sequence[str], targets: Mappi
     ----------
     plan : tier, settings of the figure, title and quantity of each case, and kept solvers of each case
     paths : of the CSV files of the cases' own figures, in the order of their names
-    targets : png, pdf and csv
+    targets : png, pdf, svg and csv
     """
     cases = {name: plan["cases"][name] for name in sorted(plan["cases"])}
     tables = {name: pd.read_csv(path) for name, path in zip(cases, paths, strict=True)}

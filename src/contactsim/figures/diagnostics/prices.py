@@ -56,7 +56,7 @@ def write_prices(plan: Mapping[str, Any], files: Mapping[str, Sequence[str]], ta
     ----------
     plan : of `contactsim.evaluation.work_precision.prices.prices_figure_job`
     files : data and costs of all scenes, in the order of the plan; equal, of the cases that compare solvers
-    targets : png, pdf and csv
+    targets : png, pdf, svg and csv
     """
     factors = {name: method_factor(pd.read_csv(path)) for name, path in zip(plan["cases"], files["equal"], strict=True)}
     tables = [

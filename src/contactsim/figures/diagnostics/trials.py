@@ -41,7 +41,7 @@ def write_trials(
     ----------
     plan : of `contactsim.evaluation.calibration.validation.trials_figure_job`
     data, costs : paths of the files of `contactsim.evaluation.calibration.validation.run_trial`, scene by scene
-    targets : data (netCDF), png, pdf and csv
+    targets : data (netCDF), png, pdf, svg and csv
     """
     trials = xr.concat([dataset.load_dataset(path) for path in data], "scene")
     dataset.write(dataset.stamp(trials, plan["settings"]["title"], plan, plan["data"]), targets["data"])

@@ -1,0 +1,66 @@
+"""Pictures of the page of a report, as parts of its file: figures, and sketches of scenes."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+from PIL import Image
+
+from contactsim.figures import style
+from contactsim.figures.sketch import plot_sketch
+from contactsim.publish.pictures import reduce_colours
+from contactsim.study.scenes import build_setup
+
+SKETCH = (4.6, 2.9), 160
+"""Size in inches and dots an inch of a sketch."""
+PIXEL_RATIO = 2
+"""Pixels of a picture for each pixel of the page, along one side."""
+SECTION_POINTS = 2000
+"""Points of a drawn section of a surface."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture of the page: its bytes as a data URL, its size on the page in pixels, and the packed vector picture."""
+
+    source: str
+    width: int
+    height: int
+    vector: str = ""
+
+
+def figure_picture(folder: Path, name: str) -> Picture:
+    """Return the picture of a figure, with its vector picture."""
+    vector = (folder / "figures" / f"{name}.svg").read_bytes()
+    packed = base64.b64encode(gzip.compress(vector, mtime=0)).decode()
+    return _embedded(folder / "figures" / f"{name}.png", packed)
+
+
+@mpl.rc_context(style.RC_PARAMS)
+def sketch_picture(run: dict) -> Picture:
+    """Return the sketch of a run's scene."""
+    size, dots = SKETCH
+    figure, file = Figure(figsize=size, layout="constrained"), io.BytesIO()
+    setup = build_setup(run)
+    scene = setup.scene
+    surface = scene.upper.surface
+    enough = max(SECTION_POINTS, 2 * (surface.modes or 0) + 2)  # of a large surface one section is drawn
+    points = setup.points
+    plot_sketch(scene, points if surface.points else min(points, enough), figure.subplots())
+    figure.savefig(file, format="png", dpi=dots)
+    return _embedded(file)
+
+
+def _embedded(source: Path | io.BytesIO, vector: str = "") -> Picture:
+    """Return a picture for the page, reduced to few colours; vector: the packed vector picture."""
+    file = io.BytesIO()
+    with Image.open(source) as picture:
+        reduce_colours(picture.convert("RGB"), picture).save(file, format="png")
+        width, height = picture.width // PIXEL_RATIO, picture.height // PIXEL_RATIO
+    return Picture("data:image/png;base64," + base64.b64encode(file.getvalue()).decode(), width, height, vector)
