@@ -14,15 +14,16 @@ help: $(READY)
 
 setup: $(READY)
 $(READY): environment.lock.txt pyproject.toml
-	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed")'
-	$(PYTHON) -m venv .venv
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r environment.lock.txt
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
-	touch $@
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed")'
+	@echo "Installing the packages into .venv: about a minute"
+	@$(PYTHON) -m venv .venv
+	@.venv/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r environment.lock.txt
+	@.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
 
 test: $(READY)
 	.venv/bin/python -m pytest --numprocesses $(CORES) --dist worksteal
 
 Makefile environment.lock.txt pyproject.toml: ;
 %: $(READY) FORCE
-	$(SNAKEMAKE) $(call quoted,$@) $(if $(tier_typed),--config $(call quoted,tier=$(tier_typed)))
+	@$(SNAKEMAKE) $(call quoted,$@) $(if $(tier_typed),--config $(call quoted,tier=$(tier_typed)))

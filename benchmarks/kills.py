@@ -45,7 +45,7 @@ def processes(mark: str) -> list[int]:
 
 def start(clone: Path, mark: str, log: Path) -> subprocess.Popen:
     """Begin to make everything."""
-    command = [".venv/bin/snakemake", "--cores", "2", "all", "--config", f"tier={TIER}"]
+    command = [".venv/bin/snakemake", "--cores", "2", "--logger-progress-full", "all", "--config", f"tier={TIER}"]
     with log.open("w") as file:
         return subprocess.Popen(
             command,

@@ -37,6 +37,7 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
         self.server: subprocess.Popen[bytes] | None = None
         self.control: socket.socket | None = None
         self.links: set[socket.socket] = set()
+        self.cancelled = False
         if sys.platform == "linux":  # elsewhere a fork of a process with these libraries is not safe
             self._start_server()
 
@@ -86,8 +87,8 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
             link.sendall(len(message).to_bytes(8, "big") + message)
             code = link.recv(1)
             self.links.remove(link)
-        if not code:
-            print("The job was killed, perhaps for want of memory", file=sys.stderr)
+        if not code and not self.cancelled:
+            self.logger.error("The job was killed, perhaps for want of memory")
         if code != b"\0":
             raise SpawnedJobError
 
@@ -98,6 +99,7 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
 
     def cancel(self) -> None:
         """End all jobs and the server."""
+        self.cancelled = True
         for link in list(self.links):
             link.shutdown(socket.SHUT_RDWR)
         super().cancel()

@@ -31,7 +31,7 @@ from contactsim.error_control.scaling import (
 from contactsim.error_control.solution import solve_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw_scene, read_trials
-from contactsim.evaluation.resources import summarise_jobs
+from contactsim.evaluation.resources import predict_other_job, predict_run, summarise_jobs
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.options import Setup
 from contactsim.solvers.registry import make_solver
@@ -328,11 +328,12 @@ def test_the_summary_of_jobs_ahead_says_what_is_unknown(tmp_path):
     wave = {"kind": "sinusoid", "length": 100.0, "amplitude": 0.1}
     plain = {name: value for name, value in LINE_SCENE.items() if name != "accuracy"}
     other = study(plain, surface=wave, points=64, tolerance=1e-3).runs()[0]
-    text = summarise_jobs([(known, "none.json"), (other, "none.json")], ["aggregate", "solve_trial"], 2)
+    runs = [predict_run(run, "none.json") for run in (known, other)]
+    text = summarise_jobs(runs, [predict_other_job(rule) for rule in ("aggregate", "solve_trial")], 2)
     assert "2 runs and 2 other jobs" in text
     assert "2 jobs of unknown time" in text
     (tmp_path / "costs.json").write_text('{"cpu_seconds_of_last_run": 7200}')
-    assert "about 2 h" in summarise_jobs([(other, tmp_path / "costs.json")], [], 1)
+    assert "about 2 h" in summarise_jobs([predict_run(other, tmp_path / "costs.json")], [], 1)
 
 
 def test_features_do_not_depend_on_units():

@@ -16,6 +16,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -182,7 +183,7 @@ class Project:
 
     def make(self, *targets: str, options: tuple[str, ...] = ()) -> list[str]:
         """Make targets, without fail; returns the jobs that this took."""
-        done = self.snakemake(*options, "--", *targets)
+        done = self.snakemake("--logger-progress-full", *options, "--", *targets)
         assert done.returncode == 0, done.stderr
         return jobs_in(done.stdout + done.stderr)
 
@@ -226,7 +227,7 @@ class Project:
         }
 
     @contextlib.contextmanager
-    def paused(self, at: str, *arguments: str) -> Iterator[Pause]:
+    def paused(self, at: str, *arguments: str, stderr: Any = subprocess.DEVNULL) -> Iterator[Pause]:
         """A snakemake of which one job has come to `at` and waits there; at the end nothing is left running."""
         signs = self.folder / "signs"
         signs.mkdir()
@@ -235,7 +236,7 @@ class Project:
             cwd=self.folder,
             env=self.environment(CONTACTSIM_TEST_AT=at, CONTACTSIM_TEST_PAUSE=str(signs)),
             stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
+            stderr=stderr,
             start_new_session=True,
         )
         try:

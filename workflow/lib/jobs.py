@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from products import Products
 from snakemake.iocontainers import Wildcards
 
+import snakemake_logger_plugin_progress
 from contactsim.evaluation.calibration import measurement, validation
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.effects import survey as effect_survey
@@ -97,17 +98,23 @@ class RunJobs:
 
         return files
 
-    def forecast(self, jobs: Iterable[Any], cores: int) -> str:
-        """Return in words how long jobs of Snakemake will take together."""
+    def predict(self, jobs: Iterable[Any], cores: int) -> str:
+        """Tell the logger how long each job of Snakemake will take; return in words how long all take together."""
         from contactsim.evaluation import resources
 
-        runs, rules = [], []
+        runs, others, predictions = [], [], {}
         for job in jobs:
             if job.rule.name != "simulate_member":
-                rules += [job.rule.name] if job.output else []
+                seconds = resources.predict_other_job(job.rule.name) if job.output else 0.0
+                others += [seconds] if job.output else []
             elif self.plan.twin(self.run(job.wildcards)) is None:
-                runs.append((self.run(job.wildcards), self.costs(job.wildcards)))
-        return resources.summarise_jobs(runs, rules, cores)
+                seconds = resources.predict_run(self.run(job.wildcards), self.costs(job.wildcards))
+                runs.append(seconds)
+            else:
+                seconds = resources.START_SECONDS
+            predictions[job.jobid] = job.rule.name, seconds
+        snakemake_logger_plugin_progress.predict(predictions)
+        return resources.summarise_jobs(runs, others, cores)
 
 
 @dataclass(frozen=True)

@@ -32,4 +32,4 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
 
 
 onstart:
-    print(RUN_JOBS.forecast(workflow.dag.needrun_jobs(), workflow.cores), file=sys.stderr)
+    print(RUN_JOBS.predict(workflow.dag.needrun_jobs(), workflow.cores), file=sys.stderr)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -23,6 +23,7 @@ OTHER_JOB_SECONDS = 2.5
 UNPREDICTED_RULES = (
     "solve_trial",
     "measure_work_precision",
+    "measure_price",
     "measure_scaling",
     "measure_effect_map",
     "measure_effects",
@@ -106,23 +107,30 @@ def is_short(run: Run, costs: str | Path | None) -> bool:
     return (predict_seconds(run, costs) or 0.0) <= MAX_SHORT_SECONDS
 
 
-def summarise_jobs(runs: Iterable[tuple[Run, str | Path]], rules: Iterable[str], cores: int) -> str:
+def predict_run(run: Run, costs: str | Path | None) -> float | None:
+    """Return the CPU seconds of a run's job with its start; None if they are not known."""
+    prediction = predict_seconds(run, costs)
+    return None if prediction is None else prediction + START_SECONDS
+
+
+def predict_other_job(rule: str) -> float | None:
+    """Return the CPU seconds of a job that is no run, by its rule; None if they are not known."""
+    return None if rule in UNPREDICTED_RULES else OTHER_JOB_SECONDS
+
+
+def summarise_jobs(runs: Sequence[float | None], others: Sequence[float | None], cores: int) -> str:
     """Return a sentence about the time that jobs will take together.
 
     Parameters
     ----------
-    runs : iterable of (Run, str or Path)
-        Runs, each with the file of its costs.
-    rules : iterable of str
-        The rule of each other job.
+    runs, others : sequence of float or None
+        CPU seconds of each run and of each other job, None if not known.
     cores : int
         Cores that share the jobs.
     """
-    predictions, rules = [predict_seconds(run, costs) for run, costs in runs], list(rules)
-    unknown = sum(seconds is None for seconds in predictions) + sum(rule in UNPREDICTED_RULES for rule in rules)
-    total = sum(seconds + START_SECONDS for seconds in predictions if seconds is not None)
-    total += OTHER_JOB_SECONDS * sum(rule not in UNPREDICTED_RULES for rule in rules)
-    text = f"Predicted for {len(predictions)} runs and {len(rules)} other jobs: "
+    known = [seconds for seconds in (*runs, *others) if seconds is not None]
+    total, unknown = sum(known), len(runs) + len(others) - len(known)
+    text = f"Predicted for {len(runs)} runs and {len(others)} other jobs: "
     text += f"about {_format_duration(total)} of CPU time, {_format_duration(total / cores)} on {cores} cores"
     return text + f", and {unknown} jobs of unknown time" * bool(unknown) + "."
 
