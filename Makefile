@@ -1,4 +1,4 @@
-# make fig_3_2 | make test | make setup | make help | make TARGET TIER=quick
+# make fig_3_2 | make test | make docs | make setup | make help | make TARGET TIER=quick
 PYTHON ?= python3
 CORES ?= 2
 READY := .venv/.ready
@@ -8,7 +8,7 @@ SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 quoted = '$(subst ','\'',$(1))'
 tier_typed = $(or $(value TIER),$(value tier))
 
-.PHONY: setup test help FORCE
+.PHONY: setup test docs help FORCE
 help: $(READY)
 	@$(SNAKEMAKE) --dry-run 2>.venv/help || { cat .venv/help >&2; exit 1; }
 
@@ -23,6 +23,10 @@ $(READY): environment.lock.txt pyproject.toml
 
 test: $(READY)
 	.venv/bin/python -m pytest --numprocesses $(CORES) --dist worksteal
+
+docs: $(READY)
+	@.venv/bin/python -m sphinx --quiet --fail-on-warning --keep-going --fresh-env docs site
+	@echo "site/index.html"
 
 Makefile environment.lock.txt pyproject.toml: ;
 %: $(READY) FORCE

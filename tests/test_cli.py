@@ -226,3 +226,74 @@ def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(
     assert (options.tolerance, options.points) == (1e-4, 256)
     assert dataset.load_dataset(scene_file.with_suffix(".nc")).attrs["settings"]
     assert commands.read_scene(str(scene_file)).seed == 7
+
+
+@pytest.mark.parametrize(
+    ("change", "places", "value"),
+    [
+        ("surface.amplitude=2.5", ["surface", "amplitude"], 2.5),
+        ("load={mean_pressure: [0.5]}", ["load", "values"], [0.5]),
+        ("solver.kind=polonsky_keer", ["solver", "kind"], "polonsky_keer"),
+    ],
+)
+def test_a_key_of_a_scene_file_is_changed_for_one_command(scene_file, change, places, value):
+    before = scene_file.read_text()
+    settings = commands.read_scene(str(scene_file), [change]).runs()[0].settings
+    for place in places:
+        settings = settings[place]
+    assert settings == value
+    assert scene_file.read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("points", ["--set", "KEY=VALUE"]),
+        ("=3", ["--set", "KEY=VALUE"]),
+        ("points.x=3", ["--set", "points"]),
+        ("points=[1", ["--set", "plain YAML"]),
+        ("pints=3", ["pints", "no such key"]),
+        ("tolerance=1e-4", ["tolerance", "1.0e-4"]),
+    ],
+)
+def test_a_change_that_means_nothing_is_refused_in_one_line(scene_file, change, words):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(["run", str(scene_file), "--set", change])
+    for word in words:
+        assert word in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("kind", sorted(file.stem for file in commands.TEMPLATES.glob("*.yaml")))
+def test_a_new_scene_file_can_be_explained_and_replaces_none(kind, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    np.savetxt("profile.csv", np.c_[np.arange(64.0), np.sin(np.arange(64.0))], delimiter=",", header="x [nm], z [nm]")
+    cli.main(["new", kind])
+    cli.main(["explain", f"{kind}.yaml"])
+    assert "points" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match="does not exist yet"):
+        cli.main(["new", kind])
+
+
+def test_the_kinds_of_new_scenes_are_listed_with_what_they_are(capsys):
+    cli.main(["new"])
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(list(commands.TEMPLATES.glob("*.yaml"))) >= 5
+    assert any(line.startswith("rough_line ") and "half-space" in line for line in lines)
+    with pytest.raises(SystemExit, match="rough_line"):
+        cli.main(["new", "rough_lines"])
+
+
+def test_a_study_of_many_runs_is_left_to_the_workflow(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    with pytest.raises(SystemExit, match="snakemake --cores 2 rough_line"):
+        cli.main(["run", "rough_line"])
+    with pytest.raises(SystemExit, match="change it in"):
+        cli.main(["explain", "rough_line", "--set", "points=64"])
+
+
+def test_the_version_is_told(capsys):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(["--version"])
+    assert caught.value.code == 0
+    assert capsys.readouterr().out == f"contactsim {contactsim.__version__}\n"

@@ -1,8 +1,9 @@
-"""The command line: `contactsim explain | run | press | estimate | compare | verify`.
+"""The command line: `contactsim new | explain | run | press | estimate | compare | verify`.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
-`full_model` and `fit_limits`, and may give `seed`. In place of a file, `explain` and `estimate` take the name of a
-study in ./config; without either, `estimate` predicts every figure there. `press` takes a file of measured heights.
+`full_model` and `fit_limits`, and may give `seed`. `new` writes one to begin with. `--set` changes its keys for one
+command. In place of a file, `explain`, `run` and `estimate` take the name of a study in ./config; without either,
+`estimate` predicts every figure there. `press` takes a file of measured heights.
 `compare` reads the CSV files of the figures in the results folder of ./config. `verify` reads every result there, or in
 the folder of a tier.
 """
@@ -13,7 +14,9 @@ import argparse
 import logging
 import sys
 from importlib import import_module
+from typing import Any
 
+import contactsim
 from contactsim.errors import InputError
 
 
@@ -24,28 +27,56 @@ def main(arguments: list[str] | None = None) -> None:
         description="Explain or simulate a scene, press measured heights, estimate costs, compare or verify results.",
     )
     parser.set_defaults(module="commands")
+    parser.add_argument("--version", action="version", version=f"contactsim {contactsim.__version__}")
     commands = parser.add_subparsers(required=True)
+    _add_scene_commands(commands)
+    _add_press(commands.add_parser("press", help="press measured heights on a half-space or layer"))
+    _add_result_commands(commands)
+    options = parser.parse_args(arguments)
+    logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
+    try:
+        getattr(import_module(f"contactsim.{options.module}"), options.command)(options)
+    except InputError as error:
+        as_typed = import_module("contactsim.study.as_typed").as_typed
+        sys.exit(f"Error: {as_typed(error)}")
+    except OSError as error:
+        sys.exit(f"Error: {error.filename}: {error.strerror}")
+
+
+def _add_scene_commands(commands: Any) -> None:
+    """Add the commands about a scene; commands: the place for them of argparse."""
+    new = commands.add_parser("new", help="write a scene file to begin with")
+    new.add_argument("kind", nargs="?", help="kind of scene; without it all kinds are listed")
+    new.add_argument("--output", metavar="FILE", help="file to write, default KIND.yaml")
+    new.set_defaults(command="write_new_scene")
     explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
     explain.add_argument("scene", help="a scene file, or a study in ./config")
     explain.add_argument("--tier", help="tier of the study, default that of ./config")
     explain.add_argument("--draw", metavar="FILE", help="draw the scene into this .png, .pdf or .svg file")
+    _add_set(explain)
     explain.set_defaults(command="explain_scene")
-    run = commands.add_parser("run", help="simulate a scene file")
-    run.add_argument("scene", help="a scene file")
-    run.add_argument("--output", metavar="FILE", help="dataset to write, default the scene file with the ending .nc")
+    run = commands.add_parser("run", help="simulate a scene")
+    run.add_argument("scene", help="a scene file, or a study of one run in ./config")
+    run.add_argument("--tier", help="tier of the study, default that of ./config")
+    run.add_argument("--output", metavar="FILE", help="dataset to write, default the name of the scene with .nc")
+    _add_set(run)
     threads = (
         "threads of the Fourier transforms, default 1; results are reproducible bit for bit with one number of threads"
     )
     run.add_argument("--threads", type=int, default=1, help=threads)
     run.set_defaults(command="run_scene")
-    _add_press(commands.add_parser("press", help="press measured heights on a half-space or layer"))
     estimate = commands.add_parser("estimate", help="predict cost and error without simulating")
     estimate.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; default all figures")
     estimate.add_argument("--tier", help="tier of the study or figures, default that of ./config")
     estimate.add_argument(
         "--accuracy", type=float, help="relative error from which grid, tolerance and increments follow"
     )
+    _add_set(estimate)
     estimate.set_defaults(command="estimate_cost")
+
+
+def _add_result_commands(commands: Any) -> None:
+    """Add the commands about results of the workflow; commands: the place for them of argparse."""
     compare = commands.add_parser("compare", help="compare the figures of two tiers")
     compare.add_argument("first", help="a tier, such as quick")
     compare.add_argument("second", help="the tier to which differences are relative")
@@ -56,15 +87,12 @@ def main(arguments: list[str] | None = None) -> None:
     verify = commands.add_parser("verify", help="read all results of a tier and tell which were damaged or replaced")
     verify.add_argument("folder", nargs="?", help="a folder such as results/standard, default that of ./config")
     verify.set_defaults(command="verify_results")
-    options = parser.parse_args(arguments)
-    logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
-    try:
-        getattr(import_module(f"contactsim.{options.module}"), options.command)(options)
-    except InputError as error:
-        as_typed = import_module("contactsim.study.as_typed").as_typed
-        sys.exit(f"Error: {as_typed(error)}")
-    except OSError as error:
-        sys.exit(f"Error: {error.filename}: {error.strerror}")
+
+
+def _add_set(command: argparse.ArgumentParser) -> None:
+    """Add the option that changes keys of a scene file."""
+    text = "change a key of the scene file for this command, as in --set surface.hurst_exponent=0.5; may be repeated"
+    command.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], dest="changes", help=text)
 
 
 def _add_press(press: argparse.ArgumentParser) -> None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import sys
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
+import yaml
 
 from contactsim import dataset, seals
 from contactsim.analysis.table_comparison import difference_text, is_within
@@ -27,7 +29,7 @@ from contactsim.status import Status, is_solved
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
 from contactsim.study.keys import ERROR_RUNS
-from contactsim.study.plain_yaml import load_yaml
+from contactsim.study.plain_yaml import SettingsLoader, load_yaml
 from contactsim.study.plan import Plan
 from contactsim.study.reading import whole
 from contactsim.study.scenes import build_setup, updated_settings
@@ -35,14 +37,25 @@ from contactsim.study.select_effects import select_effects
 from contactsim.study.study import Study
 
 DRAWN = (".png", ".pdf", ".svg")
+TEMPLATES = Path(__file__).with_name("templates")
+"""Scene files to begin with."""
 
 
-def read_scene(path: str, accuracy: float | None = None) -> Study:
+def read_scene(path: str, changes: Sequence[str] = (), accuracy: float | None = None) -> Study:
     """Return the one-run study in a scene file.
 
-    `accuracy` counts where the file has neither an accuracy nor a tolerance.
+    Parameters
+    ----------
+    path
+        The scene file.
+    changes
+        Values in place of those in the file, each as KEY=VALUE.
+    accuracy
+        Relative error that counts where the file has neither an accuracy nor a tolerance.
     """
     section = load_yaml(path)
+    for change in changes:
+        _apply_change(section, change)
     if accuracy is not None and not {"accuracy", "tolerance"} & set(section):
         section["accuracy"] = accuracy
     for key in ("vary", "members", *ERROR_RUNS, "fit_limits", "same_surfaces_as", "snapshot_members"):
@@ -60,14 +73,32 @@ def read_scene(path: str, accuracy: float | None = None) -> Study:
         raise error.renamed(f"studies.{name}.", "") from error
 
 
-def find_study(scene: str, tier: str | None, accuracy: float | None = None) -> Study:
-    """Return a study, from a scene file or by its name in ./config; accuracy: see `read_scene`."""
+def _apply_change(section: dict, change: str) -> None:
+    """Put a value in place of one in a scene file; change: KEY=VALUE, the key with dots, the value as in YAML."""
+    key, equals, text = change.partition("=")
+    *places, name = key.split(".")
+    if not (equals and name):
+        raise InputError("--set", change, "KEY=VALUE, as in surface.hurst_exponent=0.5")
+    for place in places:
+        section = section.setdefault(place, {})
+        if not isinstance(section, dict):
+            raise InputError("--set", change, f"a key below a mapping; {place!r} is none")
+    try:
+        section[name] = yaml.load(text, SettingsLoader)
+    except yaml.YAMLError as error:
+        raise InputError("--set", change, "a value in plain YAML after the sign =") from error
+
+
+def find_study(scene: str, tier: str | None, changes: Sequence[str] = (), accuracy: float | None = None) -> Study:
+    """Return a study, from a scene file or by its name in ./config; changes, accuracy: see `read_scene`."""
     if accuracy is not None and not 0 < accuracy < 1:
         raise InputError("--accuracy", accuracy, "a relative error, above 0 and below 1")
     if Path(scene).suffix:
         if tier is not None:
             raise InputError("--tier", tier, "none with a scene file: tiers belong to studies")
-        return read_scene(scene, accuracy)
+        return read_scene(scene, changes, accuracy)
+    if changes:
+        raise InputError("--set", changes[0], "none with a study: change it in ./config")
     if not Path("config").is_dir():
         raise InputError("scene", scene, "a scene file, or a study's name where there is a folder config")
     studies = Plan.read("config", tier).studies
@@ -98,7 +129,7 @@ def explain_scene(options: argparse.Namespace) -> None:
     """Print what a scene does and costs; draw it if asked to."""
     if options.draw and Path(options.draw).suffix not in DRAWN:
         raise InputError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
-    study = find_study(options.scene, options.tier)
+    study = find_study(options.scene, options.tier, options.changes)
     setup, runs = study.runs()[0].setup, len(study.runs())
     sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
     sys.stdout.write(explain_setup(setup, study.settings["neglect"]).text + "\n")
@@ -109,22 +140,41 @@ def explain_scene(options: argparse.Namespace) -> None:
 
 
 def run_scene(options: argparse.Namespace) -> None:
-    """Simulate a scene file and write its dataset beside it, or where asked; fail if a step did not converge."""
-    study = read_scene(options.scene)
+    """Simulate a scene and write its dataset beside its file, or where asked; fail if a step did not converge."""
+    study = find_study(options.scene, options.tier, options.changes)
+    if len(study.runs()) > 1:
+        many = f"a study of one run; this has {len(study.runs())}: snakemake --cores 2 {options.scene}"
+        raise InputError("scene", options.scene, many)
     target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
     if Path(target).is_dir():
         raise InputError("--output", target, "the name of a file; this is a folder")
     data, settings = _simulate_study(study, options.threads)
     data = _label_as_study(data, settings)
-    source = study.runs()[0].source
+    source, replaced = study.runs()[0].source, Path(target).exists()
     dataset.write(dataset.stamp(data, study.settings["title"], settings, source), target)
     sys.stdout.write(f"{_table(data)}\n")
     if "accuracy" in data:
         sys.stdout.write(f"{_describe_accuracy(data)}\n")
-    sys.stdout.write(f"written to {target}\n")
+    sys.stdout.write(f"{'replaced' if replaced else 'written to'} {target}\n")
     failed = int((~is_solved(data.status)).sum())
     if failed:
         sys.exit(f"Error: {failed} of {data.status.size} load steps did not converge")
+
+
+def write_new_scene(options: argparse.Namespace) -> None:
+    """Write a scene file to begin with, or list the kinds; a file that exists is not replaced."""
+    templates = {file.stem: file for file in sorted(TEMPLATES.glob("*.yaml"))}
+    heads = {name: file.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ") for name, file in templates.items()}
+    if options.kind is None:
+        sys.stdout.write("".join(f"{name:20} {head}\n" for name, head in heads.items()))
+        return
+    if options.kind not in templates:
+        raise InputError("kind", options.kind, f"one of {', '.join(templates)}")
+    target = Path(options.output or f"{options.kind}.yaml")
+    if target.exists():
+        raise InputError("--output", str(target), "the name of a file that does not exist yet")
+    target.write_text(templates[options.kind].read_text(encoding="utf-8"), encoding="utf-8")
+    sys.stdout.write(f"written to {target}; next: contactsim explain {target}, contactsim run {target}\n")
 
 
 def _table(data: xr.Dataset) -> str:
@@ -180,7 +230,7 @@ def estimate_cost(options: argparse.Namespace) -> None:
             raise InputError("--accuracy", options.accuracy, "none without a scene or a study")
         sys.stdout.write(estimate.cost_table("config", Plan.read("config", options.tier)))
         return
-    study = find_study(options.scene, options.tier, options.accuracy)
+    study = find_study(options.scene, options.tier, options.changes, options.accuracy)
     runs = [run for run in study.runs() if not run.measures_error]
     setups = [run.setup for run in runs]
     try:
