@@ -22,6 +22,8 @@ POINTS_ID = "points"
 """Identifier of the element that holds the points, as JSON."""
 MAX_CELLS = 2000
 """Cells of a coloured mesh that are drawn one by one; a larger mesh is drawn as pixels."""
+PIXEL_DPI = 110
+"""Resolution of images and of what is drawn as pixels."""
 LONG_NUMBER = re.compile(r"-?\d+\.\d{3,}")
 PLACES = re.compile(r'(?<= )(?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
 """Parts of a picture that hold places on it, of which two decimals are enough."""
@@ -35,7 +37,7 @@ def write_vector(figure: Figure, path: str | Path) -> None:
         mesh.set_rasterized(cells is not None and cells.size > MAX_CELLS)
     file = io.StringIO()
     with mpl.rc_context({"svg.hashsalt": "contactsim"}):
-        figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
+        figure.savefig(file, format="svg", dpi=PIXEL_DPI, metadata={"Date": None, "Creator": None})
     picture = PLACES.sub(
         lambda place: LONG_NUMBER.sub(lambda number: f"{float(number[0]):.2f}", place[0]), file.getvalue()
     )

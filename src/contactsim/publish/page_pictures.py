@@ -20,7 +20,9 @@ from contactsim.study.scenes import build_setup
 SKETCH = (4.6, 2.9), 160
 """Size in inches and dots an inch of a sketch."""
 PIXEL_RATIO = 2
-"""Pixels of a picture for each pixel of the page, along one side."""
+"""Pixels of a drawn picture for each pixel of the page, along one side."""
+WEBP_QUALITY = 50
+"""Quality of the pixels of a picture that has a vector picture too, up to 100."""
 SECTION_POINTS = 2000
 """Points of a drawn section of a surface."""
 
@@ -58,9 +60,17 @@ def sketch_picture(run: dict) -> Picture:
 
 
 def _embedded(source: Path | io.BytesIO, vector: str = "") -> Picture:
-    """Return a picture for the page, reduced to few colours; vector: the packed vector picture."""
+    """Return a picture for the page.
+
+    vector: the packed vector picture; where there is one, the pixels are seen for a moment or in print, and few will do
+    """
     file = io.BytesIO()
     with Image.open(source) as picture:
-        reduce_colours(picture.convert("RGB"), picture).save(file, format="png")
-        width, height = picture.width // PIXEL_RATIO, picture.height // PIXEL_RATIO
-    return Picture("data:image/png;base64," + base64.b64encode(file.getvalue()).decode(), width, height, vector)
+        size = picture.width // PIXEL_RATIO, picture.height // PIXEL_RATIO
+        pixels = picture.convert("RGB")
+        if vector:
+            pixels.resize(size, Image.Resampling.LANCZOS).save(file, format="webp", quality=WEBP_QUALITY, method=6)
+        else:
+            reduce_colours(pixels, picture).save(file, format="png")
+    kind = "webp" if vector else "png"
+    return Picture(f"data:image/{kind};base64," + base64.b64encode(file.getvalue()).decode(), *size, vector)

@@ -27,6 +27,7 @@ from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, Entry, figures_in_source
 from contactsim.publish.page_pictures import Picture, figure_picture
 from contactsim.publish.page_studies import PageStudy, page_study
+from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
 
 PAGE = Path(__file__).with_name("page")
@@ -38,17 +39,20 @@ WISHES = {"accuracy": "What accuracy costs", "stability": "How hard cases end", 
 """Groups of figures whose first stands on the front page, and the words beside it."""
 MARKS = dict(zip(VERDICTS, ("yes", "condition", "depends", "no", "open"), strict=True))
 """Classes of the verdicts in the style sheet."""
+FILE_WORDS = {"png": "PNG", "pdf": "PDF", "svg": "SVG", "csv": "numbers (CSV)", "gif": "film (GIF)"}
+"""Words for the files of a figure, by their endings."""
 ROW_MARKS = MARKS | {FINDING: "finding"}
 """Classes of the rows of statements and findings."""
 
 
 @dataclass(frozen=True)
 class PageFigure:
-    """A figure of the page: its entry, its picture, and the number of claims with each verdict."""
+    """A figure of the page: its entry, its picture, how many claims have each verdict, and endings of its files."""
 
     entry: Entry
     picture: Picture
     verdicts: dict[str, int]
+    endings: tuple[str, ...]
 
 
 def report_settings(plan: Plan, others: Mapping[str, Mapping[str, FigureSettings]]) -> dict:
@@ -100,6 +104,8 @@ def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:
         "own": {_chapter(chapter): _studies_of(plan, chapter) for chapter in plan.chapters.values()},
         "others": others,
         "wishes": WISHES,
+        "endings": PICTURE_ENDINGS,
+        "file_words": FILE_WORDS,
         "entries": _search_entries(statements, chapters, studies, others),
         "versions": settings["versions"],
     }
@@ -163,7 +169,9 @@ def _chapters(plan: Plan, folder: Path, claims: pd.DataFrame) -> dict[str, list[
         figures = []
         for entry in entries:
             verdicts = gallery.count_verdicts(gallery.claims_of_figure(claims, entry.name))
-            figures.append(PageFigure(entry, figure_picture(folder, entry.name), verdicts))
+            figures.append(
+                PageFigure(entry, figure_picture(folder, entry.name), verdicts, plan.figures[entry.name].endings)
+            )
         chapters[_chapter(chapter)] = figures
     return chapters
 
