@@ -1,4 +1,4 @@
-"""The command line: `contactsim new | explain | run | press | estimate | compare | verify`.
+"""The command line: `contactsim new | explain | run | press | estimate | compare | schema | verify`.
 
 A scene file has the keys of a study (config/README.md) without `vary`, `members`, `coarse_grid`, `tight_tolerance`,
 `full_model` and `fit_limits`, and may give `seed`. `new` writes one to begin with. `--set` changes its keys for one
@@ -84,6 +84,8 @@ def _add_result_commands(commands: Any) -> None:
         "--within", type=float, default=0.1, help="largest relative difference that passes, default 0.1"
     )
     compare.set_defaults(command="compare_tiers")
+    schema = commands.add_parser("schema", help="print the JSON Schema of a chapter's settings, for editors")
+    schema.set_defaults(command="print_schema")
     verify = commands.add_parser("verify", help="read all results of a tier and tell which were damaged or replaced")
     verify.add_argument("folder", nargs="?", help="a folder such as results/standard, default that of ./config")
     verify.set_defaults(command="verify_results")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import textwrap
 from collections.abc import Sequence
@@ -271,3 +272,10 @@ def verify_results(options: argparse.Namespace) -> None:
     sys.stdout.write(f"{results}: {count} results with seals, {len(wrong) or 'none'} not as they should be\n")
     if wrong:
         sys.exit(1)
+
+
+def print_schema(options: argparse.Namespace) -> None:
+    """Print the JSON Schema of a chapter's settings."""
+    from contactsim.study.schema import chapter_schema
+
+    sys.stdout.write(json.dumps(chapter_schema(), indent=1, ensure_ascii=False) + "\n")
