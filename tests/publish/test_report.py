@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from contactsim import dataset
 from contactsim.analysis.rounding import number_cells
 from contactsim.analysis.verdict import CONDITION, NOT_REPRODUCED
+from contactsim.analysis.wording import printed
 from contactsim.evaluation.robustness.survey import read_robustness
 from contactsim.figures.vector import write_vector
 from contactsim.publish import report
@@ -66,7 +67,7 @@ def test_every_figure_and_study_stands_on_the_page_with_its_command(page, plan):
     for name, figure in plan.figures.items():
         assert f'id="{name}"' in page
         assert f"make {name} TIER=quick" in page
-        assert html.escape(figure.settings["title"]) in page
+        assert html.escape(printed(figure.settings["title"])) in page
     for name in plan.studies:
         assert f'id="study-{name}"' in page
 
@@ -79,7 +80,7 @@ def test_every_statement_stands_there_once_with_its_verdict_value_and_errors(pag
         assert mark == report.ROW_MARKS[claim["verdict"]]
         cells = [html.unescape(cell) for cell in re.findall(r"<td.*?>(.*?)</td>", text, re.DOTALL)]
         assert cells[0] == claim["source"]
-        assert cells[1] == claim["statement"].replace("κ_r", "κᵣ").replace("p_r*", "pᵣ*")
+        assert cells[1] == printed(claim["statement"])
         assert cells[5:8] == number_cells(claim)
         assert claim["verdict"] in cells[2]
         assert (claim["verdict"] == CONDITION) <= (str(claim["condition"]) in cells[2])

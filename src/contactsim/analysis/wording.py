@@ -77,8 +77,19 @@ CELL_SETS = {"admitted": "admitted cell", "admitted_by_signs": "that also {} the
 """Sets of candidates in words."""
 MIN_SHARED = 5
 """Fewest cells whose share is given beside their number."""
-INDEX_LETTERS = {"κ_r": "κᵣ", "p_r*": "pᵣ*"}
-"""Symbols of statements as they are printed."""
+INDEX_LETTERS = {
+    "κ_r": "κᵣ",
+    "p_r*": "pᵣ*",
+    "κr": "κᵣ",
+    "ḡr": "ḡᵣ",
+    "φn": "φₙ",
+    "φt": "φₜ",
+    "δn": "δₙ",
+    "δt": "δₜ",
+    "σmax": "σₘₐₓ",
+    "τmax": "τₘₐₓ",
+}
+"""Symbols of statements and captions as they are printed."""
 
 
 def quantity_text(name: str) -> str:
@@ -170,7 +181,7 @@ def _part_text(word: str, held: int, count: int, noun: str) -> str:
 
 
 def printed(text: str) -> str:
-    """Return a statement with its symbols as they are printed."""
+    """Return a statement or a caption with its symbols as they are printed."""
     for plain, letters in INDEX_LETTERS.items():
         text = text.replace(plain, letters)
     return text

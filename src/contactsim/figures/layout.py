@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 
 from contactsim.analysis.dataset_summary import dataset_summary, sources_summary
 from contactsim.analysis.ensemble import widen_interval
+from contactsim.analysis.wording import printed
 from contactsim.figures import style
 from contactsim.figures.vector import write_vector
 from contactsim.files import write_atomically
@@ -89,13 +90,13 @@ def empty_figure(
     figure, panels : the figure, higher than its panels by the text below them; the panels row by row
     """
     width, height = settings["size"]
-    caption = textwrap.wrap(settings["caption"], int(width * CAPTION_LETTERS))
+    caption = textwrap.wrap(printed(settings["caption"]), int(width * CAPTION_LETTERS))
     footer_lines = textwrap.wrap(footer, int(width * FOOTER_LETTERS))
     below = (len(caption) + len(footer_lines) + 1.2) * LINE_HEIGHT
     figure = Figure(figsize=(width, height + below), layout="constrained")
     share = below / (height + below)
     figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
-    figure.suptitle(settings["title"], fontsize=9.5, x=0.01, ha="left")
+    figure.suptitle(printed(settings["title"]), fontsize=9.5, x=0.01, ha="left")
     bottom = LINE_HEIGHT * 0.4 / (height + below)
     figure.text(0.01, share - 0.3 * LINE_HEIGHT / (height + below), "\n".join(caption), fontsize=7, va="top")
     figure.text(0.01, bottom, "\n".join(footer_lines), fontsize=6, color=style.GREY, va="bottom")

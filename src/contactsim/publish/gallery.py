@@ -22,6 +22,7 @@ from contactsim.analysis.claims import SCALES
 from contactsim.analysis.dataset_summary import error_texts
 from contactsim.analysis.deciding import deciding_text
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
+from contactsim.analysis.wording import printed
 from contactsim.code_digest.modules import source_digest
 from contactsim.provenance import digest
 from contactsim.publish.pictures import reduce_colours
@@ -52,7 +53,8 @@ def figure_entries(plan: Plan) -> dict[str, list[Entry]]:
     entries: dict[str, list[Entry]] = {}
     for name, figure in plan.figures.items():
         data = plan.figure_settings(name)["data"]
-        entry = Entry(name, figure.settings["title"], figure.settings["caption"], tuple(figure.studies), data)
+        title, caption = printed(figure.settings["title"]), printed(figure.settings["caption"])
+        entry = Entry(name, title, caption, tuple(figure.studies), data)
         entries.setdefault(figure.chapter, []).append(entry)
     return entries
 

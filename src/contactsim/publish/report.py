@@ -76,7 +76,7 @@ def report_settings(plan: Plan, others: Mapping[str, Mapping[str, FigureSettings
 
 def _titled(figure: FigureSettings) -> dict[str, str]:
     """Return title and caption of a figure."""
-    return {"title": figure.title, "caption": figure.caption}
+    return {"title": printed(figure.title), "caption": printed(figure.caption)}
 
 
 def collect_results(plan: Plan, settings: Mapping, folder: Path) -> dict:

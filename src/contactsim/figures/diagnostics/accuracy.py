@@ -33,6 +33,8 @@ LINE_LETTERS = 66
 """Letters in a line of the last column."""
 DEFINITIONS = {"kappa_r": ("Eq. 3.8", style.CONTACT), "kappa_r_pairs": ("pairs in contact", style.PAIRS)}
 """Definitions of κ_r, with label and colour."""
+UNMEASURED = "–"
+"""Cell of a table where nothing was measured."""
 
 
 @mpl.rc_context(style.RC_PARAMS)
@@ -188,13 +190,14 @@ def _write_comparison(axes: Axes, table: pd.DataFrame, equal: pd.DataFrame) -> N
         for name, variable in RESULTS.items()
         if variable.symbol and name in table
     ]
-    text = f"{wrapped_list('Observed order in grid points: ', orders)}\n\n"
-    text += f"Cost at equal error over that of {own_solver(table)},\nin transforms × points (in seconds)"
-    axes.text(0, 1, text, fontsize=7, va="top", linespacing=1.3)
+    text = wrapped_list("Observed order in grid points: ", orders)
     others = equal[~equal.solver.isin(table.solver[table.own])]
     order = [*style.SOLVER_NAMES, *sorted(set(others.solver) - set(style.SOLVER_NAMES))]
     solvers = [kind for kind in order if kind in set(others.solver)]
     rows = list(comparison_rows(others, solvers))
+    if rows:
+        text += f"\n\nCost at equal error over that of {own_solver(table)},\nin transforms × points (in seconds)"
+    axes.text(0, 1, text, fontsize=7, va="top", linespacing=1.3)
     if rows:
         heads = [style.solver_name(kind).replace("–", "–\n").replace(" ", "\n") for kind in solvers]
         _draw_comparison(axes, rows, ["", "error", *heads])
@@ -224,19 +227,20 @@ def wrapped_list(text: str, entries: Iterable[str]) -> str:
 
 
 def comparison_rows(equal: pd.DataFrame, solvers: Sequence[str]) -> Iterator[list[str]]:
-    """Yield the rows of the table: the knob where it changes, the error, and the cost of each solver."""
+    """Yield the rows of the table that hold a cost: the knob where it changes, the error, the cost of each solver."""
     costs, previous = equal.set_index(["knob", "error", "solver"]), None
     for knob, error in dict.fromkeys(costs.index.droplevel("solver")):
         keys = [(knob, error, kind) for kind in solvers]
-        texts = [cost_text(costs.loc[key]) if key in costs.index else "–" for key in keys]
-        yield ["" if knob == previous else KNOB_NAMES[knob], f"{error:g}", *texts]
-        previous = knob
+        texts = [cost_text(costs.loc[key]) if key in costs.index else UNMEASURED for key in keys]
+        if set(texts) != {UNMEASURED}:
+            yield ["" if knob == previous else KNOB_NAMES[knob], f"{error:g}", *texts]
+            previous = knob
 
 
 def cost_text(ratios: pd.Series) -> str:
     """Return the cost over that of the study's own solver, in work and in seconds; a dash if it was not measured."""
     if ratios.isna().any():
-        return "–"
+        return UNMEASURED
     work, seconds = (
         f"{float(f'{ratio:.1e}'):.0f}" if ratio >= 9.95 else f"{ratio:#.2g}" for ratio in (ratios.work, ratios.seconds)
     )

@@ -12,6 +12,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
+from matplotlib.ticker import FuncFormatter
 
 from contactsim import dataset
 from contactsim.figures import style
@@ -21,16 +22,20 @@ from contactsim.variables import find_variable
 PANELS_IN_ROW = 4
 SMALLEST_CHANGE, LARGEST_CHANGE = 1e-4, 1.0
 """Ends of the colours."""
-NUMBER_LOOK: dict[str, Any] = {"fontsize": 5.5, "color": "#222222", "ha": "center", "va": "center"}
-CONDITION_BOX = {"boxstyle": "round,pad=0.2", "fc": "white", "ec": style.CONTACT, "lw": 0.6}
+NUMBER_LOOK: dict[str, Any] = {"fontsize": 5.5, "ha": "center", "va": "center"}
+DARK = 0.5
+"""Lightness of a colour below which numbers on it are white."""
+CONDITION_PAD = 14
+"""Room between a panel and its title for conditions, points."""
 CONTOURS = {0.01: ":", 0.05: "-"}
 """Lines of equal change."""
+PER_CENT = FuncFormatter(lambda change, _: f"{100 * change:g} %")
 RATIO_LABELS = {
     "spacing": "w/R",
-    "strength": "φn/(δn E)",
+    "strength": "φₙ/(δₙ E)",
     "stiffness": "E of the stiffer over the softer body",
     "thickness": "thickness over roll-off wavelength",
-    "cutoff_ratio": "λs/λr",
+    "cutoff_ratio": "λₛ/λᵣ",
 }
 """Labels of axes that are ratios of two or more keys."""
 
@@ -57,7 +62,9 @@ def write_effect_maps(plan: Mapping[str, Any], data: Sequence[str], targets: Map
     ]
     for panel in panels[len(cuts) :]:
         panel.axis("off")
-    figure.colorbar(meshes[-1], ax=panels, label="largest relative change without it", shrink=0.7, pad=0.01)
+    figure.colorbar(
+        meshes[-1], ax=panels, label="largest relative change without it", format=PER_CENT, shrink=0.7, pad=0.01
+    )
     tables = [part.change_without.to_dataframe().reset_index().assign(map=name) for name, part in maps.items()]
     save(figure, pd.concat(tables), targets)
 
@@ -82,16 +89,20 @@ def plot_cut(axes: Axes, data: xr.Dataset, cut: Mapping[str, Any], title: str) -
         lines = {"colors": style.CONTACT, "linestyles": [CONTOURS[level] for level in levels]}
         axes.contour(x, y, np.log(values), np.log(levels), **lines)
     for (row, column), change in np.ndenumerate(changes.values):
-        axes.text(column, row, per_cent_text(change), **NUMBER_LOOK)
+        lightness = np.dot(mesh.to_rgba(values[row, column])[:3], (0.3, 0.6, 0.1))
+        colour = "white" if lightness < DARK else style.EXACT
+        axes.text(column, row, per_cent_text(change), color=colour, **NUMBER_LOOK)
     axes.set(xticks=x, yticks=y, xlabel=axis_label(cut["across"]), ylabel=axis_label(cut["up"]))
     axes.set_xticklabels([value_text(value) for value in changes[cut["across"]].values], fontsize=6)
     axes.set_yticklabels([value_text(value) for value in changes[cut["up"]].values], fontsize=6)
     axes.tick_params(length=0)
     fixed = ", ".join(f"{axis_label(name)} {value_text(value)}" for name, value in cut["at"].items())
-    axes.set_title(f"{title}\n{fixed}" if fixed else title, fontsize=7)
-    box = {"fontsize": 6.5, "color": style.CONTACT, "ha": "center", "bbox": CONDITION_BOX}
+    axes.set_title(
+        f"{title}\n{fixed}" if fixed else title, fontsize=7, pad=CONDITION_PAD if cut["conditions"] else None
+    )
+    look = {"fontsize": 6.5, "color": style.CONTACT, "va": "bottom"}
     for text, place in cut["conditions"].items():
-        axes.text(*place, text, transform=axes.transAxes, **box)
+        axes.text(*place, text, transform=axes.transAxes, ha="right" if place[0] > 0.5 else "left", **look)
     return mesh
 
 
