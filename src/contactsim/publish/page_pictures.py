@@ -14,15 +14,16 @@ from PIL import Image
 
 from contactsim.figures import style
 from contactsim.figures.sketch import plot_sketch
-from contactsim.publish.pictures import reduce_colours
 from contactsim.study.scenes import build_setup
 
 SKETCH = (4.6, 2.9), 160
 """Size in inches and dots an inch of a sketch."""
 PIXEL_RATIO = 2
 """Pixels of a drawn picture for each pixel of the page, along one side."""
-WEBP_QUALITY = 50
-"""Quality of the pixels of a picture that has a vector picture too, up to 100."""
+WEBP_QUALITY = 35
+"""Quality of the pixels of a picture, up to 100."""
+MAX_PIXELS = 800_000
+"""Most pixels of a picture that has a vector picture too."""
 SECTION_POINTS = 2000
 """Points of a drawn section of a surface."""
 
@@ -69,8 +70,7 @@ def _embedded(source: Path | io.BytesIO, vector: str = "") -> Picture:
         size = picture.width // PIXEL_RATIO, picture.height // PIXEL_RATIO
         pixels = picture.convert("RGB")
         if vector:
-            pixels.resize(size, Image.Resampling.LANCZOS).save(file, format="webp", quality=WEBP_QUALITY, method=6)
-        else:
-            reduce_colours(pixels, picture).save(file, format="png")
-    kind = "webp" if vector else "png"
-    return Picture(f"data:image/{kind};base64," + base64.b64encode(file.getvalue()).decode(), *size, vector)
+            share = min(1.0, (MAX_PIXELS / (size[0] * size[1])) ** 0.5)
+            pixels = pixels.resize((round(share * size[0]), round(share * size[1])), Image.Resampling.LANCZOS)
+        pixels.save(file, format="webp", quality=WEBP_QUALITY, method=6)
+    return Picture("data:image/webp;base64," + base64.b64encode(file.getvalue()).decode(), *size, vector)
