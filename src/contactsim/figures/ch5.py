@@ -223,7 +223,7 @@ def _variant_label(ratio: float, work: float) -> str:
 
 def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the area with all effects and without negligible ones, and the work of both (beyond the thesis)."""
-    rows, lines = [], []
+    rows, shares = [], {}
     colours = style.shades(data.poisson_ratio)
     for row, (ratio, work) in enumerate(product(data.poisson_ratio.values, data.work_ratio.values)):
         variants = (part.sel(poisson_ratio=ratio, work_ratio=work) for part in (data, whole))
@@ -232,14 +232,13 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         savings.plot_simplified(axes[0], simplified, complete, label, colour, work)
         for offset, value, alpha in ((0.2, saving.transforms, 1.0), (-0.2, saving.transforms_whole, style.FAINT)):
             axes[1].barh(-row + offset, value, 0.36, color=colour, alpha=alpha)
-        share = saving.transforms / saving.transforms_whole
-        lines.append(f"{label}: {share:.2g} of the work; {saving.decision}")
+        shares[label] = saving.transforms / saving.transforms_whole
         place = {"poisson_ratio": ratio, "work_ratio": work, "change_of_mean": saving.change_of_mean}
         place |= {"saved": saving.factor, "transforms": saving.transforms}
         rows.append(place | {"transforms_whole": saving.transforms_whole, "decision": saving.decision})
     axes[0].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[rough.AREA])
     axes[0].legend(loc="best", fontsize=6.5)
-    savings.label_savings(axes[1], lines)
+    savings.label_savings(axes[1], shares)
     style.add_letters(axes)
     return pd.DataFrame(rows)
 

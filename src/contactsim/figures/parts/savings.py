@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import textwrap
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -26,10 +26,10 @@ def plot_simplified(
     axes.errorbar(simplified.indentation[full], mean, error, **markers)
 
 
-def label_savings(axes: Axes, lines: list[str]) -> None:
-    """Label the bars of work, and put the decisions as text below them."""
-    count = len(lines)
-    axes.set(ylim=(-2 * count, 0.6), xlabel="transforms of all members: full, what was done; faint, all effects")
-    axes.set(yticks=-np.arange(count), yticklabels=[line.partition(":")[0] for line in lines])
-    text = "\n".join("\n".join(textwrap.wrap(line, 100, subsequent_indent="   ")) for line in lines)
-    axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=5, va="bottom")
+def label_savings(axes: Axes, shares: Mapping[str, float]) -> None:
+    """Label the bars of work; shares: work that was done over that with all effects, by the variant's label."""
+    axes.set(ylim=(0.6 - len(shares), 0.6), xlabel="transforms of all members: full, what was done; faint, all effects")
+    axes.set(yticks=-np.arange(len(shares)), yticklabels=list(shares))
+    axes.set_xlim(right=1.3 * axes.get_xlim()[1])
+    for row, share in enumerate(shares.values()):
+        axes.text(0.98, -row, f"{share:.2g} of the work", transform=axes.get_yaxis_transform(), ha="right", va="center")
