@@ -179,17 +179,17 @@ def test_statements_are_filtered_and_sorted(shown, every):
 
 
 @pytest.mark.parametrize("width", [1400, 400])
-def test_the_search_leads_to_a_statement_even_if_it_is_filtered_out(shown, every, width):
+def test_the_search_leads_to_a_statement_even_if_it_is_filtered_out(shown, every, plan, width):
     window = shown(width=width)
-    claim = every[(every.verdict != NOT_REPRODUCED) & (every.chapter == "ch4")].iloc[0]
+    claim = every[(every.verdict != NOT_REPRODUCED) & every.claim.isin(plan.claims["ch4"])].iloc[0]
     script = f"""
         document.querySelector("[data-show=no]").click();
         const field = document.getElementById("search");
         field.value = {json.dumps(claim.statement.upper())};
         field.dispatchEvent(new Event("input"));
-        const link = document.querySelector("#hits a[href='#{claim.chapter}-{claim.claim}']");
+        const link = document.querySelector("#hits a[href='#ch4-{claim.claim}']");
         link.click();
-        const row = document.getElementById("{claim.chapter}-{claim.claim}");
+        const row = document.getElementById("ch4-{claim.claim}");
         await wait(() => row.clientHeight > 0);
         const box = row.getBoundingClientRect();
         return box.top < innerHeight && box.bottom > 0;
@@ -226,7 +226,8 @@ def test_a_figure_tells_values_with_errors_and_zooms(shown, made, plan, width):
         return large.getBoundingClientRect().width;
     """
     before = window.evaluate(script)
-    window.turn_wheel(width / 2, 400, -300)
+    for _ in range(4):
+        window.turn_wheel(width / 2, 400, -300)
     grown = (
         "const large = document.querySelector('dialog img'); const size = () => large.getBoundingClientRect().width;"
     )
@@ -241,9 +242,8 @@ def test_links_lead_to_the_files_of_figures_and_datasets(page, made, plan):
     assert {f"figures/fig_3_2.{ending}" for ending in PICTURE_ENDINGS} <= files
     assert "datasets/ch4_indentation.nc" in files
     folder = made / plan.results
-    assert {one for one in files if not (folder / one).is_file()} == {
-        f"figures/stability.{kind}" for kind in ("csv", "pdf")
-    }
+    stand_in = {f"figures/stability.{kind}" for kind in ("csv", "pdf")}
+    assert {one for one in files if not (folder / one).is_file()} <= stand_in
 
 
 def test_the_page_stays_small(page):

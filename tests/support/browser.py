@@ -56,6 +56,7 @@ class Page:
 
     def open(self, url: str, width: int, height: int = 900, dark: bool = False) -> None:
         """Open an address in a window of this size, and wait until it is loaded."""
+        self.errors, self.requests, self._session = [], [], None
         target = self.send("Target.createTarget", url="about:blank")["targetId"]
         self._session = self.send("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Runtime", "Network", "Page"):

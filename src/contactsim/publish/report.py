@@ -157,7 +157,7 @@ def _statements(claims: pd.DataFrame, plan: Plan) -> list[dict]:
         texts["second_row"] = beside_text(row)
         texts["figures"] = sorted(figures_in_source(row["source"]) & set(plan.figures))
         texts["studies"] = plan.claims[row["chapter"]][row["claim"]].studies
-        texts["statement"] = printed(texts["statement"])
+        texts["typed"], texts["statement"] = texts["statement"], printed(texts["statement"])
         rows.append(texts)
     return rows
 
@@ -201,7 +201,7 @@ def _search_entries(
             _search_entry("figure", one["title"], f"{one['name']} {one['caption']}", one["name"]) for one in figures
         ]
     for row in statements:
-        words = f"{row['source']} {row['verdict']} {row['measure']}"
+        words = f"{row['source']} {row['verdict']} {row['measure']} {row['typed']}"
         found.append(
             _search_entry(f"statement, {row['source']}: {row['verdict']}", row["statement"], words, row["place"])
         )
