@@ -10,7 +10,7 @@ from site_pages import write_generated_pages
 
 project, author = "contactsim", "the contactsim developers"
 version = release = version_of("contactsim")
-copyright = ""
+html_show_copyright = False
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "site_pages"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 exclude_patterns = ["_build", "gallery/counts.md", "gallery/gallery.md"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,8 @@ import pytest
 from support.places import ROOT
 
 pytestmark = pytest.mark.slow
+CLEAN = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+"""Variables without a place in which the package would be found instead."""
 PRESS = """
 import contactsim as cs
 heights = cs.Cylinder(radius=1e6, length=4e4).heights(256)
@@ -31,19 +34,19 @@ def installed(tmp_path_factory):
     for name in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, source)
     build = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation"]
-    subprocess.run([*build, "--wheel-dir", folder, source], check=True)
+    subprocess.run([*build, "--wheel-dir", folder, source], env=CLEAN, check=True)
     (wheel,) = folder.glob("*.whl")
     venv.create(folder / "env", with_pip=False)
     target = next((folder / "env/lib").glob("python*/site-packages"))
     install = [sys.executable, "-m", "pip", "--python", folder / "env/bin/python", "install", "--quiet", "--no-deps"]
-    subprocess.run([*install, wheel], check=True)
+    subprocess.run([*install, wheel], env=CLEAN, check=True)
     (target / "others.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
     return folder / "env/bin"
 
 
 def test_a_wheel_presses_and_runs_a_scene_outside_of_a_clone(installed, tmp_path):
     def call(*command):
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, cwd=tmp_path, env=CLEAN, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

@@ -185,6 +185,7 @@ def test_every_command_names_a_target_or_an_option_that_exists():
         "stability",
         "test",
         "setup",
+        "docs",
         "help",
         "my_profile",
         "smooth_line",
