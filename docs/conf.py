@@ -1,5 +1,6 @@
 """Settings of the documentation's pages: `make docs` builds them."""
 
+import logging
 import sys
 from importlib.metadata import version as version_of
 from pathlib import Path
@@ -40,4 +41,5 @@ sphinx_gallery_conf = {
     "write_computation_times": False,
 }
 
+logging.getLogger("contactsim").setLevel(logging.ERROR)  # examples would tell of every load
 write_generated_pages()
