@@ -111,7 +111,10 @@ def commands_page() -> str:
     text = "# Commands\n\n`contactsim` works in any folder.\n"
     for command in COMMANDS:
         help_text = subprocess.run(
-            [sys.executable, "-m", "contactsim.cli", command, "--help"], capture_output=True, text=True, check=True
+            [sys.executable, "-c", "from contactsim.cli import main; main()", command, "--help"],
+            capture_output=True,
+            text=True,
+            check=True,
         ).stdout
         text += f"\n## contactsim {command}\n\n```text\n{help_text}```\n"
     return text

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 
 import contactsim
 from contactsim.errors import InputError
+from contactsim.interface.normal_law import NormalLaw
 
 GOOD = {"heights": np.array([0.0, 1.0, 0.5, -1.0]), "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1}
 
@@ -148,3 +151,48 @@ def test_the_stored_gap_is_what_heights_approach_and_displacement_leave(path, bo
     np.testing.assert_allclose(data.normal_gap[0], gap, atol=1e-12 * np.ptp(data.heights.values))
     mean = body.compliance(np.zeros(1))[0] * data.mean_pressure[-1]
     assert float(data.normal_displacement.mean()) == pytest.approx(-float(mean), abs=1e-6)
+
+
+LAYERED = contactsim.Scene(
+    contactsim.Layer(contact_modulus=70.0, poisson_ratio=0.3, thickness=5e3),
+    contactsim.Cylinder(radius=2.5e4, length=1e4),
+    contactsim.CohesiveZone(work_of_separation=0.8, work_ratio=0.5),
+    contactsim.approaches([-2.0, 1.0], 0.5),
+)
+
+
+@pytest.mark.parametrize(
+    ("options", "key"),
+    [
+        ({"within": 1.5}, "within"),
+        ({"within": 0.0}, "within"),
+        ({"within": "0.1"}, "within"),
+        ({"quantities": "final_contact_length"}, "quantities"),
+        ({"quantities": ["final_length"]}, "quantities"),
+        ({"quantities": []}, "quantities"),
+    ],
+)
+def test_what_cannot_be_neglected_is_refused_before_anything_is_solved(options, key):
+    given = {"within": 0.05, "quantities": ["final_contact_length"], "points": 256}
+    with pytest.raises(InputError, match=key):
+        contactsim.neglect(LAYERED, **given | options)
+
+
+def test_a_law_without_a_name_in_the_config_is_explained_by_its_class():
+    @dataclass(frozen=True)
+    class Weak(NormalLaw):
+        strength = 1.0
+        stiffness = 1.0
+
+        def traction(self, gap):
+            return 0.0 * gap
+
+        def tangent(self, gap):
+            return 0.0 * gap, 0.0 * gap[None]
+
+        def energy(self, gap):
+            return 0.0 * gap[0]
+
+    laws = (contactsim.HardWall(), Weak(work_of_separation=1.0, normal_length=1.0))
+    scene = contactsim.Scene(LAYERED.lower, LAYERED.upper, laws, LAYERED.path)
+    assert "Weak" in contactsim.explain(scene, points=256).text

@@ -14,6 +14,8 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.interface.base import Effect
 from contactsim.interface.registry import EFFECTS
 from contactsim.paths.options import Setup
+from contactsim.solvers.base import HardWallSolver
+from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import SOLVERS, default_solver, is_installed, solver_class
 from contactsim.traits import Trait
 from contactsim.variables import SETTINGS
@@ -119,8 +121,14 @@ def explain_setup(setup: Setup, neglected: Sequence[str] = ()) -> Explanation:
         transforms=method.transforms(setup.points) * exerted,
         megabytes=method.fields * len(scene.components) * size * 8 / 1e6,
         solvers={name: _refusal(scene, name) for name in SOLVERS},
-        solver=next(name for name in SOLVERS if is_installed(name) and type(method) is solver_class(name)),
+        solver=_solver_name(method),
     )
+
+
+def _solver_name(solver: HardWallSolver | CohesiveSolver) -> str:
+    """Return the name of a solver in the config, or that of its class if it has none."""
+    names = [name for name in SOLVERS if is_installed(name) and type(solver) is solver_class(name)]
+    return names[0] if names else type(solver).__name__
 
 
 def _describe_body(body: Body) -> str:
@@ -141,8 +149,9 @@ def _describe_setting(key: str, value: object) -> str:
 
 
 def _effect_name(effect: Effect) -> str:
-    """Return the name of an effect in the config."""
-    return next(name for name, kind in EFFECTS.items() if isinstance(effect, kind))
+    """Return the name of an effect in the config, or that of its class if it has none."""
+    names = [name for name, kind in EFFECTS.items() if isinstance(effect, kind)]
+    return names[0] if names else type(effect).__name__
 
 
 def _describe_effect(effect: Effect) -> str:

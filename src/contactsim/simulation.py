@@ -12,7 +12,7 @@ from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import Decision, decide_neglect
-from contactsim.errors import InputError, check_option_names
+from contactsim.errors import InputError, check_option_names, is_positive
 from contactsim.explanation import Explanation, explain_setup
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments
@@ -20,6 +20,7 @@ from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver
+from contactsim.variables import RESULTS
 
 logger = logging.getLogger(__name__)
 
@@ -155,14 +156,25 @@ def neglect(
     scene : Scene
         Scene with all its effects.
     within : float
-        Relative change that the quantities may have.
+        Relative change that the quantities may have, above 0 and below 1.
     quantities : sequence of str
-        Quantities to compare.
+        Quantities to compare: names of variables of datasets.
     points, tolerance, increments
         Grid, tolerance and increments that the scene will be simulated with; see `simulate`.
+
+    Raises
+    ------
+    InputError
+        For a change outside its range, and for quantities that are none.
     """
+    if not (is_positive(within) and within < 1):
+        raise InputError("within", within, "a relative change, above 0 and below 1")
+    names = _names(quantities)
+    unknown = [name for name in names if name not in RESULTS]
+    if unknown or not names:
+        raise InputError("quantities", unknown or list(names), "names of results, as in variables.RESULTS")
     setup = Setup(scene, RunOptions(points=points, tolerance=tolerance, increments=increments))
-    decision = decide_neglect([setup], within, quantities)
+    decision = decide_neglect([setup], within, names)
     return neglect_effects(setup, decision.neglected).scene, decision
 
 
