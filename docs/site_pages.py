@@ -14,7 +14,6 @@ from pathlib import Path
 from latex2mathml.converter import convert
 
 import contactsim
-from contactsim.status import LIMITS, Status
 
 DOCS = Path(__file__).parent
 GENERATED = DOCS / "generated"
@@ -41,7 +40,6 @@ def write_generated_pages() -> None:
     pages = {
         "api": api_page(),
         "variables": variables_page(),
-        "statuses": statuses_page(),
         "commands": commands_page(),
         "figures": figures_page(),
         "settings": (ROOT / "config/README.md").read_text(encoding="utf-8"),
@@ -95,15 +93,6 @@ def variables_page() -> str:
 def _cell(text: str) -> str:
     """Return a text as a cell of a table."""
     return re.sub(r"([|*_<>$])", r"\\\1", text)
-
-
-def statuses_page() -> str:
-    """Return the table of statuses and that of the limits of the model."""
-    text = "# Statuses and limits\n\nEvery solution has a status.\n\n| number | name | meaning |\n|---|---|---|\n"
-    text += "".join(f"| {status.value[0]} | `{status.name}` | {status.sentence} |\n" for status in Status)
-    text += "\nA solution beyond one of these limits is flagged: the model is then no longer a good description.\n\n"
-    text += "| number | largest value | what it is |\n|---|---|---|\n"
-    return text + "".join(f"| `{name}` | {limit:g} | {words} |\n" for name, (limit, words) in LIMITS.items())
 
 
 def commands_page() -> str:

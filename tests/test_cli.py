@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import contactsim
-from contactsim import cli, commands, dataset
+from contactsim import cli, commands, dataset, scene_files
 from contactsim.contact import loading
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
@@ -225,7 +225,7 @@ def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(
     assert (type(options.solver).__name__, options.solver.batch) == ("PolonskyKeer", 5)
     assert (options.tolerance, options.points) == (1e-4, 256)
     assert dataset.load_dataset(scene_file.with_suffix(".nc")).attrs["settings"]
-    assert commands.read_scene(str(scene_file)).seed == 7
+    assert scene_files.read_scene(str(scene_file)).seed == 7
 
 
 @pytest.mark.parametrize(
@@ -238,7 +238,7 @@ def test_options_of_the_solver_seed_and_tolerance_of_a_scene_file_reach_the_run(
 )
 def test_a_key_of_a_scene_file_is_changed_for_one_command(scene_file, change, places, value):
     before = scene_file.read_text()
-    settings = commands.read_scene(str(scene_file), [change]).runs()[0].settings
+    settings = scene_files.read_scene(str(scene_file), [change]).runs()[0].settings
     for place in places:
         settings = settings[place]
     assert settings == value
@@ -264,7 +264,7 @@ def test_a_change_that_means_nothing_is_refused_in_one_line(scene_file, change, 
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("kind", sorted(file.stem for file in commands.TEMPLATES.glob("*.yaml")))
+@pytest.mark.parametrize("kind", sorted(file.stem for file in scene_files.TEMPLATES.glob("*.yaml")))
 def test_a_new_scene_file_can_be_explained_and_replaces_none(kind, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     np.savetxt("profile.csv", np.c_[np.arange(64.0), np.sin(np.arange(64.0))], delimiter=",", header="x [nm], z [nm]")
@@ -278,7 +278,7 @@ def test_a_new_scene_file_can_be_explained_and_replaces_none(kind, tmp_path, mon
 def test_the_kinds_of_new_scenes_are_listed_with_what_they_are(capsys):
     cli.main(["new"])
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == len(list(commands.TEMPLATES.glob("*.yaml"))) >= 5
+    assert len(lines) == len(list(scene_files.TEMPLATES.glob("*.yaml"))) >= 5
     assert any(line.startswith("rough_line ") and "half-space" in line for line in lines)
     with pytest.raises(SystemExit, match="rough_line"):
         cli.main(["new", "rough_lines"])

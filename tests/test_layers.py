@@ -40,6 +40,7 @@ FLOORS = (
     ("evaluation",),
     ("figures",),
     ("publish",),
+    ("scene_files",),
     ("commands",),
     ("press_command",),
     ("cli",),

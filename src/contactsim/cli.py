@@ -48,7 +48,7 @@ def _add_scene_commands(commands: Any) -> None:
     new = commands.add_parser("new", help="write a scene file to begin with")
     new.add_argument("kind", nargs="?", help="kind of scene; without it all kinds are listed")
     new.add_argument("--output", metavar="FILE", help="file to write, default KIND.yaml")
-    new.set_defaults(command="write_new_scene")
+    new.set_defaults(module="scene_files", command="write_new_scene")
     explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
     explain.add_argument("scene", help="a scene file, or a study in ./config")
     explain.add_argument("--tier", help="tier of the study, default that of ./config")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 UNKNOWN_SECONDS = 30.0
@@ -70,7 +71,7 @@ class Progress:
         work = sum(rest) + sum(map(expected, self.waiting.values()))
         return max([work / self.cores, *rest, *map(expected, self.waiting.values())], default=0.0)
 
-    def _expectation(self):
+    def _expectation(self) -> Callable[[Job], float]:
         """Return a function for the seconds expected of a job."""
         predicted = sum(job.predicted for job, _ in self.done if job.predicted is not None)
         measured = sum(seconds for job, seconds in self.done if job.predicted is not None)
@@ -82,6 +83,7 @@ class Progress:
         means = {rule: sum(seconds) / len(seconds) for rule, seconds in times.items()}
 
         def expected(job: Job) -> float:
+            """Return the seconds of a job: predicted and corrected, or those of others of its rule."""
             return means.get(job.rule, UNKNOWN_SECONDS) if job.predicted is None else factor * job.predicted
 
         return expected

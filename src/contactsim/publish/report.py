@@ -115,7 +115,7 @@ def page_text(results: Mapping) -> str:
     """Return the page as HTML; results: of `collect_results`."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     assets = {name: Markup(_asset(name)) for name in ASSETS}
-    return environment.from_string(_asset(TEMPLATE)).render(results, assets=assets)
+    return environment.from_string(_asset(TEMPLATE)).render(results, assets=assets, scripts=SCRIPTS)
 
 
 def _asset(name: str) -> str:
@@ -194,18 +194,19 @@ def _search_entries(
     others: Mapping[str, list[dict]],
 ) -> list[dict[str, str]]:
     """Return what can be searched: kind, title, further text and place on the page."""
-    entries = [figure.entry for figures in chapters.values() for figure in figures]
-    found = [_search_entry("figure", entry.title, f"{entry.name} {entry.caption}", entry.name) for entry in entries]
-    for figures in others.values():
-        found += [
-            _search_entry("figure", one["title"], f"{one['name']} {one['caption']}", one["name"]) for one in figures
-        ]
+    figures = [figure.entry for figures_of_chapter in chapters.values() for figure in figures_of_chapter]
+    entries = [_search_entry("figure", entry.title, f"{entry.name} {entry.caption}", entry.name) for entry in figures]
+    for group in others.values():
+        for figure in group:
+            words = f"{figure['name']} {figure['caption']}"
+            entries.append(_search_entry("figure", figure["title"], words, figure["name"]))
     for row in statements:
-        words = f"{row['source']} {row['verdict']} {row['measure']} {row['typed']}"
-        found.append(
-            _search_entry(f"statement, {row['source']}: {row['verdict']}", row["statement"], words, row["place"])
+        kind, words = (
+            f"statement, {row['source']}: {row['verdict']}",
+            f"{row['source']} {row['verdict']} {row['measure']}",
         )
-    return found + [_search_entry("study", study.title, name, f"study-{name}") for name, study in studies.items()]
+        entries.append(_search_entry(kind, row["statement"], f"{words} {row['typed']}", row["place"]))
+    return entries + [_search_entry("study", study.title, name, f"study-{name}") for name, study in studies.items()]
 
 
 def _search_entry(kind: str, title: str, more: str, place: str) -> dict[str, str]:

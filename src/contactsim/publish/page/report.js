@@ -54,14 +54,17 @@ const unpack = async packed => {
   const bytes = Uint8Array.from(atob(packed), letter => letter.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
 };
-const load = async image => {
-  if (shown.has(image)) return;
-  shown.set(image, {curves: [], size: [1, 1]});
+const replacePixels = async image => {
   const text = await unpack(byId("vector-" + image.dataset.name).textContent);
   const picture = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
   const size = picture.getAttribute("viewBox").split(" ").slice(2).map(Number);
   shown.set(image, {curves: JSON.parse(picture.querySelector("desc").textContent), size});
   image.src = URL.createObjectURL(new Blob([text], {type: "image/svg+xml"}));
+};
+const loads = new Map();  // picture: the promise of its vector picture
+const load = image => {
+  if (!loads.has(image)) loads.set(image, replacePixels(image));
+  return loads.get(image);
 };
 const pictures = all("figure img[data-name]");
 const watch = new IntersectionObserver(seen => seen.filter(one => one.isIntersecting).forEach(one => load(one.target)),
