@@ -37,9 +37,14 @@ def open_job(snakemake: Any) -> Callable[[], None]:
     return seal
 
 
+def made_from(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a rule on which its results depend."""
+    return {name: value for name, value in parameters.items() if name in MADE_FROM}
+
+
 def parameters_digest(parameters: dict[str, Any]) -> str:
     """Return the digest of the parameters of a rule on which its results depend."""
-    return digest({name: value for name, value in parameters.items() if name in MADE_FROM})
+    return digest(made_from(parameters))
 
 
 def results_of(snakemake: Any) -> Path:

@@ -10,9 +10,10 @@ import atexit
 import json
 import sys
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 from typing import Any
 
-from job import parameters_digest
+from job import made_from, parameters_digest
 from snakemake.iocontainers import Wildcards
 
 from contactsim.errors import InputError
@@ -63,7 +64,10 @@ class KnownContents:
 
 
 class OutputCheck:
-    """An input function that names no file. Outputs that are not what they should be are out of the way after it."""
+    """An input function that names no file. Outputs that are not what they should be are out of the way after it.
+
+    In a dry run they stay, and the function names a file that is newer, so that the job is listed.
+    """
 
     __name__ = "checked"  # Snakemake names input functions in messages
 
@@ -74,8 +78,8 @@ class OutputCheck:
         """Check the outputs of a job, unless it did not end: what it left may serve again."""
         outputs = [Path(str(item.apply_wildcards(wildcards))) for item in self._rule.output]
         if all(path.exists() for path in outputs if path.suffix == DONE):
-            for path in outputs:
-                self._check.keeps(path)
+            kept = [self._check.keeps(path) for path in outputs if path.exists()]
+            return [] if all(kept) else self._check.newer_files
         return []
 
 
@@ -87,8 +91,14 @@ class SealCheck:
         self._rules = {rule.name: rule for rule in workflow.rules}
         self._kept: dict[Path, bool] = {}
         self._known = KnownContents(results / FOLDER / "known")
+        self._newer = None if acts else NamedTemporaryFile(prefix="not_as_sealed_")  # noqa: SIM115 - lasts as long as the run
         if acts:
             atexit.register(self._known.save)
+
+    @property
+    def newer_files(self) -> list[Path]:
+        """What is newer than all results: one file in a dry run, which lasts as long; else none."""
+        return [] if self._newer is None else [Path(self._newer.name)]
 
     def keeps(self, path: Path) -> bool:
         """Return True if a file is what its seal says, and so is all that it was made from; else put it away."""
@@ -136,16 +146,22 @@ class SealCheck:
         return None
 
     def _made_from_now(self, path: Path, seal: Seal) -> str | None:
-        """Return the digest of what a result would be made from; None where Snakemake knows, or nothing makes it."""
+        """Return the digest of what a result would be made from; None where Snakemake reruns it, or nothing makes it.
+
+        Snakemake reruns what it remembers to be made from other parameters. After `--touch` it remembers those of now.
+        """
         rule, wildcards = self._rules.get(seal.rule), Wildcards(fromdict=seal.wildcards)
         if rule is None:
             return None
         files = {str(file): file for file in (item.apply_wildcards(wildcards) for item in rule.output)}
-        if str(path) not in files or self._workflow.persistence.metadata(files[str(path)]):
+        if str(path) not in files:
             return None
         try:
             parameters = {name: item(wildcards) if callable(item) else item for name, item in rule.params.items()}
         except (KeyError, ValueError, StopIteration, InputError):
+            return None
+        record = self._workflow.persistence.metadata(files[str(path)])
+        if record and not {repr(value) for value in made_from(parameters).values()} <= set(record.get("params") or ()):
             return None
         return parameters_digest(parameters)
 

@@ -105,18 +105,21 @@ def simulate_path(
 
 
 def _state_numbers(scene: Scene, state: PathState, reader: StateReader) -> dict[str, float]:
-    """Return the numbers of a state."""
+    """Return the numbers of a state, NaN where there is no solution, and how the state was found."""
     problem = state.problem
     gap, traction = map(problem.on_heights, state.fields())
-    zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
     numbers: dict[str, float] = {
         "approach": approach_of(problem, state.displacement),
         **reader.numbers(problem, state.displacement, gap, traction),
-        "process_zone_step": problem.grid.spacing[-1] / zone,
     }
     if scene.sliding:
         numbers = {"friction_force": 0.0} | numbers | slide_observables(problem, gap, state.displacement)
+    if not state.status.solved:
+        numbers = dict.fromkeys(numbers, np.nan)
+    if scene.sliding:
         numbers["sliding_distance"] = state.step.sliding_distance if state.step.held else np.nan
+    zone = status.process_zone(scene.contact_modulus, problem.strength, problem.interaction_range)
+    numbers["process_zone_step"] = problem.grid.spacing[-1] / zone
     return numbers | {
         "validity_flags": status.validity_flags(numbers),
         "residual": state.residual,
