@@ -8,6 +8,7 @@ import pytest
 import contactsim
 from contactsim.errors import InputError
 from contactsim.interface.normal_law import NormalLaw
+from contactsim.status import is_solved
 
 GOOD = {"heights": np.array([0.0, 1.0, 0.5, -1.0]), "spacing": 1.0, "contact_modulus": 1.0, "mean_pressure": 0.1}
 
@@ -196,3 +197,14 @@ def test_a_law_without_a_name_in_the_config_is_explained_by_its_class():
     laws = (contactsim.HardWall(), Weak(work_of_separation=1.0, normal_length=1.0))
     scene = contactsim.Scene(LAYERED.lower, LAYERED.upper, laws, LAYERED.path)
     assert "Weak" in contactsim.explain(scene, points=256).text
+
+
+def test_states_without_a_solution_have_no_numbers():
+    path = contactsim.pressures([-1e-5, 1e-4, -1e-1, -2e-1])  # far beyond the pull-off in the end
+    law = contactsim.NormalCohesiveZone(work_of_separation=0.05, normal_length=0.5)
+    scene = contactsim.Scene(contactsim.HalfSpace(1.0), contactsim.Cylinder(8000.0, 1e4), law, path)
+    data = contactsim.simulate(scene, points=256)
+    solved = is_solved(data.status)
+    assert solved.values.tolist() == [True, True, False, False]
+    for name in ("approach", "mean_pressure", "contact_length", "max_tensile_traction", "mean_gap"):
+        assert np.array_equal(np.isfinite(data[name]), solved)

@@ -21,11 +21,10 @@ from contactsim.errors import InputError
 from contactsim.evaluation import estimate
 from contactsim.explanation import explain_setup
 from contactsim.observables.dataset_forms import form_of
-from contactsim.observables.derived import combine_runs
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Accuracy
 from contactsim.scene_files import find_study
-from contactsim.status import Status, is_solved
+from contactsim.status import Status, is_solved, warn_of_excess
 from contactsim.study import tier_comparison
 from contactsim.study.execute import label_run
 from contactsim.study.plan import Plan
@@ -76,6 +75,7 @@ def run_scene(options: argparse.Namespace) -> None:
     if Path(target).is_dir():
         raise InputError("--output", target, "the name of a file; this is a folder")
     data, settings = _simulate_study(study, options.threads)
+    warn_of_excess(data)
     data = _label_as_study(data, settings)
     source, replaced = study.runs()[0].source, Path(target).exists()
     dataset.write(dataset.stamp(data, study.settings["title"], settings, source), target)
@@ -112,8 +112,7 @@ def _describe_accuracy(data: xr.Dataset) -> str:
     """Return the estimated relative errors of a run to an accuracy, in words."""
     ending = "_estimated_error"
     names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
-    whole = form_of(data).derive(combine_runs([(data, {"member": 0})])) if form_of(data).is_path else data
-    errors = {name: np.max(np.asarray(data[name + ending]) / np.abs(whole[name].values)) for name in names}
+    errors = {name: np.max(data[name + ending].values / np.abs(data[name].values)) for name in names}
     reached = "reached" if data.accuracy_reached else "not reached"
     estimates = ", ".join(f"{name} to {error:.2g}" for name, error in errors.items())
     return f"relative error {float(data.accuracy):g} {reached} on {int(data.points)} points: {estimates}, as estimated"

@@ -20,6 +20,7 @@ from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.registry import make_solver
+from contactsim.status import warn_of_excess
 from contactsim.variables import RESULTS
 
 logger = logging.getLogger(__name__)
@@ -103,7 +104,9 @@ def simulate(
     if accuracy is None:
         if quantities:
             raise InputError("quantities", list(quantities), "none without an accuracy")
-        return follow_path(setup)
+        data = follow_path(setup)
+        warn_of_excess(data)
+        return data
     for name, value in {"points": points, "tolerance": tolerance, "increments": increments}.items():
         if value is not None:
             raise InputError(name, value, "left out, for it follows from the accuracy")
@@ -111,6 +114,7 @@ def simulate(
     controlled = solve_to_error(setup, wanted.error, wanted.quantities)
     if not controlled.met:
         logger.warning("an accuracy of %g is not reached: %s", controlled.wanted, controlled.summary)
+    warn_of_excess(controlled.data)
     return controlled.data
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from enum import Enum
 
 import numpy as np
 import xarray as xr
+
+logger = logging.getLogger(__name__)
 
 
 class Status(Enum):
@@ -79,6 +82,12 @@ def process_zone(contact_modulus: float, strength: float, interaction_range: flo
 def validity_flags(numbers: Mapping[str, float]) -> int:
     """Return the limits that a state's numbers exceed, as bits of `FLAGS`; a missing number exceeds none."""
     return sum(FLAGS[name] for name, (limit, _) in LIMITS.items() if numbers.get(name, 0.0) > limit)
+
+
+def warn_of_excess(data: xr.Dataset) -> None:
+    """Warn where solved states of a dataset are beyond what the model describes."""
+    for words in describe_excess(data):
+        logger.warning("beyond what the model describes: %s of the states", words)
 
 
 def describe_excess(data: xr.Dataset) -> list[str]:

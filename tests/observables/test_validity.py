@@ -39,7 +39,7 @@ def test_every_limit_has_its_bit_and_missing_numbers_are_within():
 
 
 def test_overlap_is_flagged_from_where_it_is_too_deep(caplog):
-    with caplog.at_level(logging.WARNING, "contactsim.paths.record"):
+    with caplog.at_level(logging.WARNING, "contactsim.status"):
         data = simulate(scene_of(NormalCohesiveZone(0.002), along(-1, 20, 1.0)), points=128, tolerance=1e-6)
     deep = flagged(data, "max_interpenetration")
     assert np.array_equal(deep, data.max_interpenetration > 3)

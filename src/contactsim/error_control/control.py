@@ -27,7 +27,7 @@ from contactsim.error_control.options import SAFETY, choose_options, coarsen, ex
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
-from contactsim.error_control.stepwise import has_relations, solve_stepwise
+from contactsim.error_control.stepwise import has_relations, keep_present, solve_stepwise
 from contactsim.grid import Array
 from contactsim.paths.options import Setup
 
@@ -73,11 +73,15 @@ class Controlled:
 
     @property
     def data(self) -> xr.Dataset:
-        """Dataset of the final run with the estimated error of each quantity, and the work done before it."""
+        """Dataset of the final run with its quantities, the estimated error of each, and the work done before it."""
         data = self.last.data
         for name, values in self.errors.items():
             sizes = values * np.abs(self.last.values[name])
-            data = data.assign({f"{name}_estimated_error": ("step", sizes) if name in data else float(sizes[0])})
+            if name in data:
+                data = data.assign({f"{name}_estimated_error": ("step", sizes)})
+            else:
+                numbers = {name: self.last.values[name][0], f"{name}_estimated_error": sizes[0]}
+                data = data.assign({key: float(value) for key, value in numbers.items()})
         seconds_before = sum(solution.seconds for solution in self.before)
         seconds = data.seconds.values + seconds_before * (np.arange(data.step.size) == 0)
         data = data.assign(
@@ -130,6 +134,7 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     companion = COMPANIONS[setup.scene.kind](coarsen(first))
     before = [solve_setup(companion, names)]
     last = solve_setup(_follow_companion(first, before[0], family, names, error), names, before[0])
+    names = keep_present(before[0], last, names, quantities)
     errors = estimate_errors(last, before[0], family, names)
     logger.info("on %d points, after %d: %s", last.points, before[0].points, describe_errors(errors, error))
     if any(not (values <= error).all() for values in errors.values()):

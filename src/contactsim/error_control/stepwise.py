@@ -145,7 +145,7 @@ def solve_stepwise(first: Setup, error: float, quantities: Sequence[str]) -> tup
     names = tuple(quantities or usual_quantities(first.scene))
     coarse, fine = (solve_setup(setup, names) for setup in (first, _refine(first, 2.0, error)))
     solutions = [coarse, fine]
-    names = _present(coarse, fine, names, quantities)
+    names = keep_present(coarse, fine, names, quantities)
     errors = {name: relative_difference(fine, coarse, name) for name in names}
     if _largest(errors) <= SMALL_CHANGE * error:
         return solutions, errors
@@ -179,8 +179,8 @@ def estimate_from_changes(solutions: Sequence[Solution], names: Sequence[str]) -
     return errors
 
 
-def _present(coarse: Solution, fine: Solution, names: Sequence[str], asked: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities that a path has; all where a run was not solved, as nobody knows then.
+def keep_present(coarse: Solution, fine: Solution, names: Sequence[str], asked: Sequence[str]) -> tuple[str, ...]:
+    """Return the quantities that a scene has; all where a run was not solved, as nobody knows then.
 
     Raises
     ------

@@ -30,7 +30,7 @@ from contactsim.observables.contact import DEFAULT_KEPT, KEPT
 from contactsim.paths.reuse import Point
 from contactsim.paths.wall_numbers import ARRAY_DIMENSIONS, BIN_CENTRES, height_numbers, read_point
 from contactsim.solvers.base import HardWallSolver, solve
-from contactsim.status import describe_excess, status_sentence
+from contactsim.status import status_sentence
 
 logger = logging.getLogger(__name__)
 
@@ -89,10 +89,7 @@ def simulate_loads(
         return read_point(replace(result, scene=scene), heights, roughness, keep)
 
     solved = _solve_steps(scene.path.steps, solved_points or {}, solve_step)
-    data = _join_points(scene, heights, roughness, solved, keep)
-    for words in describe_excess(data):
-        logger.warning("beyond what the model describes: %s of the states", words)
-    return data
+    return _join_points(scene, heights, roughness, solved, keep)
 
 
 def _solve_steps(

@@ -99,8 +99,6 @@ def simulate_path(
             break
     data = _join_states(scene, problem, rows, fields).merge(join_folds(folds, len(scene.lengths)))
     data = dataset.describe(data.merge(join_slips(slips)) if scene.sliding else data)
-    for words in status.describe_excess(data):
-        logger.warning("beyond what the model describes: %s of the states", words)
     return data.assign(seconds=("step", np.diff(marks)))
 
 

@@ -19,6 +19,7 @@ from contactsim.paths.driver import follow_path, path_driver
 from contactsim.paths.options import Setup
 from contactsim.paths.reuse import Reuse
 from contactsim.provenance import digest
+from contactsim.status import warn_of_excess
 from contactsim.study.scenes import build_setup
 
 logger = logging.getLogger(__name__)
@@ -56,7 +57,9 @@ def compute(setup: Setup, settings: dict, source: str, files: RunFiles) -> tuple
     solved = path_driver(setup.scene.kind).read_points(files.data, files.costs)
     names = point_digests(settings, source, len(setup.scene.path.steps))
     points = {step: solved[name] for step, name in enumerate(names) if name in solved}
-    return follow_path(setup, Reuse(points=points or None)), settings
+    data = follow_path(setup, Reuse(points=points or None))
+    warn_of_excess(data)
+    return data, settings
 
 
 def keep_run(data: xr.Dataset, settings: dict, source: str, files: RunFiles, begin: float) -> None:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from contactsim.error_control.control import solve_to_error
 from contactsim.paths.options import Setup
+from contactsim.status import warn_of_excess
 from contactsim.study.execute import RunFiles, keep_run
 from contactsim.study.scenes import build_setup, updated_settings
 
@@ -28,4 +29,5 @@ def compute(setup: Setup, settings: dict, source: str, files: RunFiles) -> tuple
     controlled = solve_to_error(setup, accuracy["error"], tuple(accuracy["quantities"]))
     if not controlled.met:
         logger.warning("an accuracy of %g is not reached: %s", controlled.wanted, controlled.summary)
+    warn_of_excess(controlled.data)
     return controlled.data, updated_settings(settings, controlled.last.setup)
