@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 import yaml
@@ -22,12 +24,17 @@ from contactsim import dataset
 from contactsim.analysis import aggregate, costs
 from contactsim.errors import InputError
 from contactsim.publish import bundle
+from contactsim.publish.job_list import list_jobs
+from contactsim.seals import Seal, seal_path
 from contactsim.study.execute import RunFiles, run
+from support.crate_check import find_issues
 from support.places import ROOT
 from support.project import CYLINDER, Project, figure
 from support.small_studies import PROJECT, SMALL, small
 
 LIMITS = (0.0, 0.5, 1.0)
+ALWAYS = PROJECT[: PROJECT.index("examples/reanalyse.py")]
+"""Files of a project that every bundle holds."""
 
 
 @pytest.fixture(scope="module")
@@ -61,10 +68,29 @@ def plan(results):
 
 
 @pytest.fixture(scope="module")
-def made(plan, results, tmp_path_factory):
+def jobs(tmp_path_factory):
+    """The jobs behind a figure: one simulates, one gathers, one draws; another figure is of no concern."""
+    folder = tmp_path_factory.mktemp("sealed")
+    chain = ["runs/rough_line/0.nc", "datasets/ch3_rough_line.nc", "figures/fig_3_2.png"]
+    for number, (place, *inputs) in enumerate([chain[:1], chain[1::-1], chain[:0:-1], ["figures/other.png"]]):
+        Seal(f"rule_{number}", {}, "settings", dict.fromkeys(inputs, "sum"), {place: f"sum of {place}"}).write(folder)
+        os.utime(seal_path(folder, place), (1e9 + 60 * number,) * 2)
+    return list_jobs(folder, ["figures/fig_3_2.png", "LICENSE"])
+
+
+def test_the_list_of_jobs_goes_back_to_the_first(jobs):
+    assert jobs.rule.tolist() == ["rule_1", "rule_2", "rule_0"]
+    assert jobs.result.tolist() == ["datasets/ch3_rough_line.nc", "figures/fig_3_2.png", "runs/rough_line/0.nc"]
+    assert jobs.inputs.tolist() == ["runs/rough_line/0.nc", "datasets/ch3_rough_line.nc", ""]
+    assert jobs.sha256.tolist() == [f"sum of {place}" for place in jobs.result]
+    assert jobs.ended.tolist() == [f"2001-09-09T01:{minute}:40+00:00" for minute in (47, 48, 46)]
+
+
+@pytest.fixture(scope="module")
+def made(plan, results, jobs, tmp_path_factory):
     """A bundle; tests leave it as it is."""
     target = tmp_path_factory.mktemp("made") / "bundle"
-    bundle.write_bundle(plan, results, target)
+    bundle.write_bundle(plan, results, jobs, target)
     return target
 
 
@@ -80,9 +106,10 @@ def damaged(folder):
     return {place for place in sums.keys() | found.keys() - {"SHA256SUMS"} if sums.get(place) != found.get(place)}
 
 
-def test_a_bundle_holds_all_files_as_they_are_and_three_of_its_own(made, results):
+def test_a_bundle_holds_all_files_as_they_are_and_four_of_its_own(made, results, jobs):
     found = contents(made)
-    assert found.keys() - results.keys() == {"README.md", "SHA256SUMS", "ro-crate-metadata.json"}
+    assert found.keys() - results.keys() == {"README.md", "SHA256SUMS", "jobs.csv", "ro-crate-metadata.json"}
+    pd.testing.assert_frame_equal(pd.read_csv(made / "jobs.csv", keep_default_na=False), jobs)
     assert all(found[place] == path.read_bytes() for place, path in results.items())
 
 
@@ -107,13 +134,13 @@ def test_the_command_of_the_readme_checks_the_sums(made, tmp_path):
     assert told.stdout == "LICENSE: FAILED\n"
 
 
-def test_two_bundles_of_the_same_results_are_the_same_byte_for_byte(made, plan, results, tmp_path):
+def test_two_bundles_of_the_same_results_are_the_same_byte_for_byte(made, plan, results, jobs, tmp_path):
     moved = {}
     for place, path in reversed(results.items()):
         moved[place] = tmp_path / "moved" / place
         moved[place].parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, moved[place])
-    bundle.write_bundle(plan, moved, tmp_path / "other")
+    bundle.write_bundle(plan, moved, jobs, tmp_path / "other")
     assert contents(tmp_path / "other") == contents(made)
 
 
@@ -141,7 +168,7 @@ def test_the_metadata_list_every_file_that_is_there_and_no_other(made):
     graph = json.loads((made / "ro-crate-metadata.json").read_text(encoding="utf-8"))["@graph"]
     entities = {one["@id"]: one for one in graph}
     assert len(entities) == len(graph)
-    files = {one["@id"] for one in graph if one["@type"] == "File"}
+    files = {one["@id"] for one in graph if "File" in one["@type"]}
     assert files == contents(made).keys() - {"ro-crate-metadata.json"}
     assert {part["@id"] for part in entities["./"]["hasPart"]} == files
     for place in files - {"SHA256SUMS"}:
@@ -155,13 +182,62 @@ def test_the_metadata_list_every_file_that_is_there_and_no_other(made):
 def test_the_metadata_say_what_an_archive_asks_for_as_the_citation_does(made):
     crate = ROCrate(made)
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    assert crate.version == "1.2"
+    assert crate.version == "1.1"
     root = crate.root_dataset
     assert root["name"].startswith(citation["title"])
     assert root["datePublished"] == citation["date-released"]
     assert [root["author"]["name"]] == [author["name"] for author in citation["authors"]]
     assert root["license"].id == f"https://spdx.org/licenses/{citation['license']}"
     assert root["description"]
+
+
+def test_the_metadata_tell_the_run_that_made_the_results(made, results):
+    crate = ROCrate(made)
+    workflow, action = crate.mainEntity, crate.root_dataset["mentions"]
+    assert workflow.id == "Snakefile"
+    assert {"File", "SoftwareSourceCode", "ComputationalWorkflow"} == set(workflow.type)
+    assert workflow["programmingLanguage"]["name"] == "Snakemake"
+    assert workflow["license"] == action["instrument"]["license"] == crate.root_dataset["license"]
+    assert [profile["name"] for profile in crate.root_dataset["conformsTo"]] == list(bundle.PROFILES.values())
+    assert action["instrument"] == workflow
+    assert (action["startTime"], action["endTime"]) == ("2001-09-09T01:46:40+00:00", "2001-09-09T01:48:40+00:00")
+    assert action["agent"] == crate.root_dataset["author"]
+    tier, *settings = action["object"]
+    assert (tier["name"], tier["value"]) == ("tier", "small")
+    assert [file.id for file in settings] == ["config/ch3.yaml"]
+    created = {file.id for file in action["result"]}
+    folders = ("datasets/", "costs/", "figures/", "claims/", "report.html")
+    assert created == {place for place in results if place.startswith(folders)}
+    assert crate.get("jobs.csv")["about"] == action
+
+
+UNKNOWN = {
+    "The Application SHOULD have a url": "the citation names no address of the source",
+    "The organization SHOULD have a URL.": "nor one of the authors",
+    "The `publisher` property of a `Root Data Entity` SHOULD be an `Organization`": "an archive is the publisher",
+    "The Main Workflow SHOULD comply with Bioschemas ComputationalWorkflow profile version 1.0 or later": "needs both",
+    "The SoftwareApplication id SHOULD be an absolute URI": "it is a file; the check is about the names of types",
+}
+"""What the profiles recommend and the metadata lack, with the reason."""
+
+
+@pytest.mark.filterwarnings("default")  # of the validator's own libraries
+def test_a_validator_finds_all_that_the_profile_requires(made, tmp_path):
+    pytest.importorskip("rocrate_validator")
+    issues = find_issues(made, "workflow-run-crate", tmp_path / "cache")
+    assert set(issues) == {"OPTIONAL", "RECOMMENDED"}
+    assert issues["RECOMMENDED"] == set(UNKNOWN)
+
+
+@pytest.mark.filterwarnings("default")
+def test_the_validator_would_tell_a_run_without_its_workflow(made, tmp_path):
+    pytest.importorskip("rocrate_validator")
+    copy = shutil.copytree(made, tmp_path / "copy")
+    crate = ROCrate(copy)
+    del crate.root_dataset["mentions"]["instrument"]
+    crate.metadata.write(copy)
+    issues = find_issues(copy, "workflow-run-crate", tmp_path / "cache")
+    assert "The Action MUST have an instrument property that references the executed tool" in issues["REQUIRED"]
 
 
 def without_date(path):
@@ -180,7 +256,9 @@ def cut_short(path):
         ("CITATION.cff", without_date, "date-released"),
     ],
 )
-def test_what_is_missing_or_damaged_is_named_and_leaves_no_half_bundle(plan, results, place, spoil, key, tmp_path):
+def test_what_is_missing_or_damaged_is_named_and_leaves_no_half_bundle(
+    plan, results, jobs, place, spoil, key, tmp_path
+):
     spoiled = tmp_path / "spoiled" / Path(place).name
     spoiled.parent.mkdir()
     shutil.copyfile(results[place], spoiled)
@@ -189,17 +267,17 @@ def test_what_is_missing_or_damaged_is_named_and_leaves_no_half_bundle(plan, res
     older.mkdir()
     (older / "LICENSE").touch()
     with pytest.raises(InputError) as refused:
-        bundle.write_bundle(plan, results | {place: spoiled}, older)
+        bundle.write_bundle(plan, results | {place: spoiled}, jobs, older)
     assert refused.value.key == key
     assert Path(place).name in str(refused.value)
     assert [file.name for file in tmp_path.iterdir()] == ["spoiled"]
 
 
-def test_a_bundle_takes_the_place_of_an_older_one_and_of_what_a_kill_left(made, plan, results, tmp_path):
+def test_a_bundle_takes_the_place_of_an_older_one_and_of_what_a_kill_left(made, plan, results, jobs, tmp_path):
     for name in ("bundle", ".bundle.tmp"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "stale.txt").touch()
-    bundle.write_bundle(plan, results, tmp_path / "bundle")
+    bundle.write_bundle(plan, results, jobs, tmp_path / "bundle")
     assert contents(tmp_path) == {f"bundle/{place}": content for place, content in contents(made).items()}
 
 
@@ -260,8 +338,7 @@ def project(tmp_path_factory):
     (project.folder / "config/ch8.yaml").unlink()
     small = {"studies": {"smooth": CYLINDER}, "figures": {"fig_9_1": figure("smooth")}}
     project.configure("ch9", small)
-    (project.folder / "examples").mkdir()
-    for name in PROJECT[:-1]:
+    for name in ALWAYS:
         shutil.copyfile(ROOT / name, project.folder / name)
     report = project.folder / "results/standard/report.html"
     report.parent.mkdir(parents=True)
@@ -277,7 +354,11 @@ def test_the_workflow_makes_a_bundle_and_makes_it_again_when_what_it_holds_has_c
     assert damaged(folder) == set()
     found = set(contents(folder))
     assert found >= {"datasets/ch9_smooth.nc", "costs/ch9_smooth.csv", "figures/fig_9_1.pdf", "report.html"}
-    assert found >= {"config/ch9.yaml", "config/tiers.yaml", *PROJECT[:-1]}
+    assert found >= {"config/ch9.yaml", "config/tiers.yaml", "workflow/rules/report.smk", *ALWAYS}
+    assert "examples/reanalyse.py" not in found  # it is about studies that are not here
+    assert "reanalyse" not in (folder / "README.md").read_text(encoding="utf-8")
+    rules = pd.read_csv(folder / "jobs.csv").rule
+    assert {"simulate_member", "aggregate_study", "fig_9_1"} <= set(rules)
     assert project.planned("bundle") == []
     project.edit("publish/bundle")
     assert project.planned("bundle") == ["bundle: results/standard/bundle"]

@@ -12,6 +12,7 @@ PROJECT = (
     "LICENSE",
     "environment.txt",
     "environment.lock.txt",
+    "Snakefile",
     "examples/reanalyse.py",
     "config/ch3.yaml",
 )

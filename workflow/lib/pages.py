@@ -15,8 +15,10 @@ from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.robustness import survey
 from contactsim.provenance import canonical, digest
 
-PROJECT_FILES = ["CITATION.cff", "LICENSE", "environment.txt", "environment.lock.txt", "examples/reanalyse.py"]
-"""Files of the project that the bundle holds, beside the settings."""
+PROJECT_FILES = ["CITATION.cff", "LICENSE", "environment.txt", "environment.lock.txt", "Snakefile"]
+"""Files of the project that the bundle holds, beside the settings and the folder of the workflow."""
+EXAMPLE, ANALYSED = "examples/reanalyse.py", {"ch3_rough_line", "ch5_rough_adhesive"}
+"""An example that the bundle holds with the datasets that it analyses."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,9 @@ class Pages:
         results += [products.results / f"figures/accuracy_{case}_at_equal_error.csv" for case in products.cases]
         results += products.all_figures() + products.all_claims()
         project = [root / name for name in PROJECT_FILES]
+        project += [root / EXAMPLE] if set(products.study_datasets) >= ANALYSED else []
         project += sorted([*products.config.glob("*.yaml"), *products.config.glob("*.md")])
+        project += sorted(file for ending in ("smk", "py") for file in (root / "workflow").rglob(f"*.{ending}"))
         places = {str(file.relative_to(products.results)): file for file in results}
         return places | {str(file.relative_to(root)): file for file in project}
 
@@ -104,7 +108,7 @@ class Pages:
                 "data": {name: digest(settings) for name, settings in self._data_settings().items()},
                 "shown": digest((figures, claims)),
                 "project": digest(project),
-                "source": source_digest("contactsim.publish.bundle"),
+                "source": source_digest("contactsim.publish.bundle", "contactsim.publish.job_list"),
             }
         )
 

@@ -1,8 +1,9 @@
 """Bundle: all results of a tier in one folder, ready to deposit.
 
-It holds the files, a README.md written from the datasets, checksums, and an RO-Crate, which describes the folder in a
-form that archives read. It contains no date and no place, so two bundles of the same results agree byte for byte. It
-appears under its name only when it is complete; an older one is removed first.
+It holds the files, a README.md written from the datasets, a list of the jobs behind the results, checksums, and an
+RO-Crate, which describes the folder and the run in a form that archives read. Its only dates are those of the jobs, and
+it names no place, so two bundles of the same results agree byte for byte. It appears under its name only when it is
+complete; an older one is removed first.
 """
 
 from __future__ import annotations
@@ -15,15 +16,20 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import pandas as pd
 import xarray as xr
 
 from contactsim import dataset
 from contactsim.errors import InputError
 from contactsim.provenance import digest
 from contactsim.publish.markdown import plain_words, table
-from contactsim.publish.ro_crate import CITATION, RO_CRATE, author_name, crate, read_citation
+from contactsim.publish.ro_crate import CITATION, PROFILES, WORKFLOW, WorkflowRun, author_name, crate, read_citation
 
-README, SUMS, METADATA = "README.md", "SHA256SUMS", "ro-crate-metadata.json"
+README, SUMS, METADATA, JOBS = "README.md", "SHA256SUMS", "ro-crate-metadata.json", "jobs.csv"
+RESULTS = ("datasets", "costs", "figures", "claims", "report.html")
+"""Files and folders that the workflow creates."""
+REANALYSIS = "examples/reanalyse.py"
+"""Example that analyses two studies of the thesis again."""
 
 FILE_KINDS = {
     "datasets": "results, netCDF-4",
@@ -32,6 +38,9 @@ FILE_KINDS = {
     "claims": "statements of the thesis, each with its verdict",
     "config": "the settings",
     "examples": "how to use the datasets without contactsim",
+    WORKFLOW: "main file of the workflow that made the results",
+    "workflow": "rules, scripts and modules of the workflow",
+    JOBS: "jobs behind the results: rule, digest of settings and code, what each read, and when it ended",
     "report.html": "all figures and verdicts on one page",
     "environment.txt": "all packages, with their versions",
     "environment.lock.txt": "the same, with the digests of their files",
@@ -80,7 +89,7 @@ def _words(item: xr.Variable) -> tuple[str, str]:
     return item.attrs["units"], text
 
 
-def write_bundle(plan: Mapping, files: Mapping[str, str | Path], target: str | Path) -> None:
+def write_bundle(plan: Mapping, files: Mapping[str, str | Path], jobs: pd.DataFrame, target: str | Path) -> None:
     """Write a bundle; it appears under its name when it is complete.
 
     Parameters
@@ -89,6 +98,8 @@ def write_bundle(plan: Mapping, files: Mapping[str, str | Path], target: str | P
         Tier, titles by name of a dataset, figure or chapter, and digests of the code and settings of each dataset.
     files : mapping
         Present path of each file by its path in the bundle.
+    jobs : DataFrame
+        The jobs behind the results, as of `contactsim.publish.job_list`.
     target : path
         Folder to write.
 
@@ -106,7 +117,7 @@ def write_bundle(plan: Mapping, files: Mapping[str, str | Path], target: str | P
     try:
         for place, path in files.items():
             _copy(Path(path), unfinished / place)
-        _describe(plan, sorted(files), unfinished)
+        _describe(plan, sorted(files), jobs, unfinished)
         os.replace(unfinished, target)
     finally:
         shutil.rmtree(unfinished, ignore_errors=True)
@@ -121,19 +132,29 @@ def _copy(path: Path, place: Path) -> None:
         raise InputError("bundle", path, f"a file that can be read ({error.strerror})") from error
 
 
-def _describe(plan: Mapping, places: Sequence[str], folder: Path) -> None:
-    """Write README, metadata and checksums into a folder that has all other files."""
+def _describe(plan: Mapping, places: Sequence[str], jobs: pd.DataFrame, folder: Path) -> None:
+    """Write README, list of jobs, metadata and checksums into a folder that has all other files."""
     citation = read_citation(folder / CITATION)
     contents = {place: Contents.of(dataset.load_dataset(folder / place)) for place in places if place.endswith(".nc")}
-    about = {place: about_file(place, plan["titles"]) for place in [*places, README, SUMS, METADATA]}
+    about = {place: about_file(place, plan["titles"]) for place in [*places, README, JOBS, SUMS, METADATA]}
     (folder / README).write_text(readme(plan, citation, contents, about), encoding="utf-8")
-    sums = {place: _sum(folder / place) for place in [*places, README]}
+    jobs.to_csv(folder / JOBS, index=False)
+    sums = {place: _sum(folder / place) for place in [*places, README, JOBS]}
     listed = {place: {"description": text} for place, text in about.items() if place != METADATA}
     for place, value in sums.items():
         listed[place] |= {"sha256": value, "contentSize": str((folder / place).stat().st_size)}
     for place, item in contents.items():
         listed[place] |= {"variableMeasured": sorted(item.dims)}
-    crate(citation, f"tier {plan['tier']}", digest(plan), listed).metadata.write(folder)
+    listed[README] |= {"about": {"@id": "./"}}
+    run = WorkflowRun(
+        tier=plan["tier"],
+        settings=[place for place in places if Path(place).parts[0] == "config"],
+        results=[place for place in places if Path(place).parts[0] in RESULTS],
+        trace=JOBS,
+        started=jobs.ended.min(),
+        ended=jobs.ended.max(),
+    )
+    crate(citation, digest(plan), listed, run).metadata.write(folder)
     sums[METADATA] = _sum(folder / METADATA)
     (folder / SUMS).write_text("".join(f"{sums[place]}  {place}\n" for place in sorted(sums)), encoding="utf-8")
 
@@ -159,13 +180,13 @@ def readme(plan: Mapping, citation: Mapping, contents: Mapping[str, Contents], a
     parts = [
         f"# {plain_words(citation['title'])}: results of the tier {tier}",
         f"By {names}; version {citation['version']}, {citation['date-released']}; licence {citation['license']}. "
-        f"How to cite: `{CITATION}`. `{METADATA}` lists all files for machines (RO-Crate {RO_CRATE}).",
+        f"How to cite: `{CITATION}`. `{METADATA}` lists all files and the run that made them, for machines "
+        f"({', '.join(PROFILES.values())}).",
         "## Check it",
         f"In this folder, `sha256sum -c --quiet {SUMS}` names every file that is not as it was, and no other.",
         "## Use it",
         "The datasets are netCDF-4, with a unit and a long name on every variable; xarray and every other reader of "
-        "netCDF opens them. `python examples/reanalyse.py .` counts contact by another definition and fits another "
-        "law, with numpy and xarray alone.",
+        f"netCDF opens them.{_reanalysis(about)}",
         "Lengths are in nm, moduli and pressures in GPa, loads of lines in N/m; a ratio has unit 1. A gap above zero "
         "is open, a normal traction above zero pulls, a load above zero presses.",
         "## Make it again",
@@ -173,7 +194,8 @@ def readme(plan: Mapping, citation: Mapping, contents: Mapping[str, Contents], a
         f"```sh\nmake bundle TIER={tier}\n```",
         "Datasets then come out byte for byte the same, at one number of threads; `costs/` holds times, which do not, "
         "and names the single runs, which are not here. The digest of code and settings is "
-        f"`{digest(plan)}`; that of each dataset stands with it. Made with {', '.join(packages)}.",
+        f"`{digest(plan)}`; that of each dataset stands with it. Made with {', '.join(packages)}. `{JOBS}` lists the "
+        "jobs: what each made and read, and when it ended.",
         "## Datasets",
         *(_dataset(place, item, plan["data"][Path(place).stem]) for place, item in sorted(contents.items())),
         "## Dimensions",
@@ -184,6 +206,16 @@ def readme(plan: Mapping, citation: Mapping, contents: Mapping[str, Contents], a
         table(("file", "what it is"), [(f"`{place}`", plain_words(text)) for place, text in sorted(about.items())]),
     ]
     return "\n\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+
+def _reanalysis(places: Iterable[str]) -> str:
+    """Return a sentence on the example, with a space before it; empty if it is not in the bundle."""
+    if REANALYSIS not in places:
+        return ""
+    return (
+        f" `python {REANALYSIS} .` counts contact by another definition and fits another law, with numpy and xarray "
+        "alone."
+    )
 
 
 def _dataset(place: str, contents: Contents, code_digest: str) -> str:
