@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -164,12 +165,31 @@ def _label_as_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
 
 
 def compare_tiers(options: argparse.Namespace) -> None:
-    """Print how far the figures of two tiers differ; exit code 1 where one is beyond the limit."""
-    tables = tier_comparison.compare_tiers(Plan.read("config", options.first), Plan.read("config", options.second))
-    sys.stdout.write(f"{options.first} beside {options.second}: differences relative to {options.second}\n")
-    sys.stdout.write(difference_text(tables, options.within))
+    """Print how far the figures that two tiers have differ, and which are missing; exit code 1 where one is too far."""
+    plans = [Plan.read("config", tier) for tier in (options.first, options.second)]
+    missing = {plan.tier: _missing_figures(plan) for plan in plans}
+    absent = {name for names in missing.values() for name in names}
+    shared = {name: figure for name, figure in plans[1].figures.items() if name not in absent}
+    lists = "".join(_missing_text(tier, names) for tier, names in missing.items() if names)
+    if absent and not any(figure.compare for figure in shared.values()):
+        sys.exit(f"Error: {options.first} and {options.second} have no figure in common.\n{lists.rstrip()}")
+    tables = tier_comparison.compare_tiers(plans[0], replace(plans[1], figures=shared))
+    sys.stdout.write(f"{options.first} compared with {options.second}: differences are relative to {options.second}\n")
+    sys.stdout.write(difference_text(tables, options.within) + lists)
     if not all(table is None or is_within(table, options.within) for table in tables.values()):
         sys.exit(1)
+
+
+def _missing_figures(plan: Plan) -> list[str]:
+    """Return the figures of a tier that are to be compared and are not made."""
+    folder = plan.results / "figures"
+    return [name for name, figure in plan.figures.items() if figure.compare and not (folder / f"{name}.csv").exists()]
+
+
+def _missing_text(tier: str, names: list[str]) -> str:
+    """Return lines that name missing figures, and the command that makes them."""
+    text = f"Missing at the tier {tier}: {', '.join(names)}. Make them with: make NAME TIER={tier}"
+    return textwrap.fill(text, 120, break_on_hyphens=False) + "\n"
 
 
 def verify_results(options: argparse.Namespace) -> None:

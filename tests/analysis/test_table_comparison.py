@@ -90,7 +90,7 @@ def test_the_summary_is_aligned_and_gives_each_figure_a_verdict():
         "  kappa       2      50 %      30 %  hurst_exponent 0.8",
         "fig_2: within 10 %",
         "  kappa       2       0 %      30 %",
-        "fig_3: not compared",
+        "fig_3: not compared, its settings name no columns",
     ]
 
 
@@ -164,12 +164,25 @@ def test_only_shared_loads_are_compared(tiers, capsys):
     assert re.search(r"^  kappa_mean +9 ", capsys.readouterr().out, re.MULTILINE)
 
 
-def test_a_missing_file_is_named_with_the_command_that_makes_it(tiers, tmp_path):
+def test_what_both_tiers_have_is_compared_and_what_is_missing_is_named(tiers, tmp_path, capsys):
     (tmp_path / "results/standard/figures/fig_3_2.csv").unlink()
+    (tmp_path / "results/quick/figures/fig_3_3.csv").unlink()
+    assert exit_code() == 0
+    said = capsys.readouterr().out
+    assert "fig_3_4: within 10 %" in said
+    assert "fig_3_2:" not in said and "fig_3_3:" not in said
+    assert said.endswith(
+        "Missing at the tier quick: fig_3_3. Make them with: make NAME TIER=quick\n"
+        "Missing at the tier standard: fig_3_2. Make them with: make NAME TIER=standard\n"
+    )
+
+
+def test_tiers_without_a_common_figure_are_refused(tiers, tmp_path):
+    for file in (tmp_path / "results/standard/figures").glob("*.csv"):
+        file.unlink()
     said = exit_code()
-    assert said.startswith("Error: results/standard/figures/fig_3_2.csv: ")
-    assert "`make fig_3_2 TIER=standard`" in said
-    assert "\n" not in said
+    assert said.startswith("Error: quick and standard have no figure in common.\nMissing at the tier standard: ")
+    assert "fig_3_2" in said
 
 
 @pytest.mark.parametrize(
@@ -193,7 +206,7 @@ def test_a_figure_without_columns_to_compare_needs_no_file(tiers, tmp_path, caps
     config.write_text(text.replace("    compare: [kappa_fit, kappa_fit_corrected]\n", ""), encoding="utf-8")
     (tmp_path / "results/quick/figures/fig_3_3.csv").unlink()
     assert exit_code() == 0
-    assert "fig_3_3: not compared" in capsys.readouterr().out
+    assert "fig_3_3: not compared, its settings name no columns" in capsys.readouterr().out
 
 
 def test_columns_that_identify_rows_cannot_be_compared(tiers, tmp_path):

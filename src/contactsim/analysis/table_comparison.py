@@ -115,7 +115,7 @@ def difference_text(tables: Mapping[str, pd.DataFrame | None], limit: float) -> 
     lines = [f"  {'column':<{width}}   rows   largest    median  largest at"]
     for name, table in tables.items():
         if table is None:
-            lines.append(f"{name}: not compared")
+            lines.append(f"{name}: not compared, its settings name no columns")
             continue
         lines.append(f"{name}: {'within' if is_within(table, limit) else 'beyond'} {100 * limit:g} %")
         for row in table.itertuples():
