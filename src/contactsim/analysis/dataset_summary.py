@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from contactsim import dataset, status, variables
 from contactsim.analysis import ensemble
@@ -78,15 +79,35 @@ def dataset_summary(data: xr.Dataset, costs: pd.DataFrame) -> str:
 
 
 def sources_summary(data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -> str:
-    """Return tier, grids, members, unconverged solutions and CPU time of several studies in one line."""
-    settings = [dataset.settings_of(part) for part in data]
-    parts = [f"{settings[0]['tier']} tier"]
-    for own, part in zip(settings, data, strict=True):
-        grid, members, _ = sample_texts(part)
-        parts.append(f"{own['name'].replace('_', ' ')}: {grid}, {members}")
+    """Return tier, grids, members, unconverged solutions and CPU time of all studies of a figure in one short line."""
+    tier = dataset.settings_of(data[0])["tier"]
     unconverged, total = (sum(counts) for counts in zip(*map(ensemble.unconverged, data), strict=True))
-    parts.append(f"{unconverged} of {total} solutions unconverged")
-    return " · ".join([*parts, f"studies solved in {seconds_text(costs)}"])
+    members = [part.member.size for part in data]
+    parts = [f"{tier} tier", _grids_text(data), f"{_range_text(members)} member{'s' if max(members) > 1 else ''}"]
+    solved = f"{unconverged} of {total} unconverged" if unconverged else f"all {total} converged"
+    return " · ".join([*parts, solved, seconds_text(costs)])
+
+
+def _grids_text(data: Sequence[xr.Dataset]) -> str:
+    """Return the grid of studies that share one, else the range of their grids."""
+    settings = [dataset.settings_of(part) for part in data]
+    grids = [part.points.values.ravel() for part in data]
+    texts = {grid_text(own, *points) for own, points in zip(settings, grids, strict=True)}
+    if len(texts) == 1:
+        return texts.pop()
+    text = f"{_range_text(np.concatenate(grids))} points"
+    surfaces = [own["surface"] for own in settings]
+    if any(surface["kind"] != "self_affine" for surface in surfaces):
+        return text
+    shares = [surface["short_cutoff"] / surface["length"] for surface in surfaces]
+    counts = [points * share for points, share in zip(grids, shares, strict=True)]
+    return f"{text}, {_range_text(np.concatenate(counts))} per shortest wavelength"
+
+
+def _range_text(numbers: ArrayLike) -> str:
+    """Return the least and the largest of some numbers, or the one that all are."""
+    low, high = f"{np.min(numbers):.7g}", f"{np.max(numbers):.7g}"
+    return low if low == high else f"{low} to {high}"
 
 
 def seconds_text(costs: Sequence[pd.DataFrame]) -> str:

@@ -61,11 +61,12 @@ def _plot_cycles(axes: Axes, data: xr.Dataset) -> pd.DataFrame:
         approach = path.approach.isel(member=0).values
         for leg, states in zip(LEGS, legs(approach), strict=True):
             part, pressing = slice(max(states.start - 1, 0), states.stop), leg == LEGS[0]
-            label = rf"$w={work:g}$ N/m" if pressing else None
+            label = rf"$w={work:g}$ N/m" if pressing else rf"_$w={work:g}$ N/m, {leg}"
             axes.plot(load[part], area[part], color=colour, lw=1.0, ls="-" if pressing else "--", label=label)
         some = slice(4, None, 8)
         error = path[f"{AREA}_standard_error"].values[some]
-        style.errorbars(axes, load[some], area[some], error, color=colour, ls="", fmt="none")
+        look = {"color": colour, "fmt": "none", "label": rf"_$w={work:g}$ N/m, error"}
+        style.errorbars(axes, load[some], area[some], error, **look)
         table = {"reduced_pressure": load, "area": area, "area_error": path[f"{AREA}_standard_error"].values}
         tables.append(pd.DataFrame(table).assign(work_of_separation=work))
     axes.axvline(0.0, **style.ZERO)

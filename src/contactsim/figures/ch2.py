@@ -24,7 +24,9 @@ def fig_2_2(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     law = LawScales.of(data)
     opening = data.opening.values / law.normal_length
     remainder = adhesion.xu_needleman_normal(opening, COMPLETE_SHEAR, UNEQUAL_WORKS)
-    axes[0].plot(opening, remainder, color=style.GREY, lw=1.0, ls=":")
+    axes[0].plot(
+        opening, remainder, color=style.GREY, lw=1.0, ls=":", label="_Xu–Needleman after complete shear failure"
+    )
     style.add_letters(axes)
     traction = remainder * law.work_of_separation / law.normal_length
     curve = pd.DataFrame({"gap": data.opening.values, "xu_needleman_traction": traction})

@@ -53,7 +53,7 @@ TABLE_HEADS = {
     "kappa_r_corrected": r"$\kappa_r$" + "\ncorrected",
 }
 AVERAGES = tuple(f"{name}{end}" for name in ("relative_contact_area", "kappa", "kappa_r") for end in ("", "_corrected"))
-PERSSON: dict[str, Any] = {r"Persson (2D), erf$(\sqrt{2}p^*)$": "-."}
+PERSSON: dict[str, Any] = {proportionality.PERSSON_LABEL: "-."}
 BOTH_PRESSURES = r"reduced pressure $p^*$, $p_r^*$"
 
 
@@ -62,10 +62,10 @@ def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
     lines, tables = [], []
     for data, name in ((line, "cylinder"), (surface, "sphere")):
         body = beside_exact(data, name)
-        marker, exact_line = ROUND_LOOKS[name]
+        exact_line = ROUND_LOOKS[name][1]
         is_free = body.contact_ratio.values <= FREE_OF_NEIGHBOURS
-        _plot_kappa_r(axes, body.isel(contact_ratio=is_free), marker, 1.0)
-        _plot_kappa_r(axes, body.isel(contact_ratio=~is_free), marker, style.FAINT)
+        _plot_kappa_r(axes, body.isel(contact_ratio=is_free), name, 1.0)
+        _plot_kappa_r(axes, body.isel(contact_ratio=~is_free), f"{name} near its neighbours", style.FAINT)
         lines.append(axes.axhline(KAPPA_R[name], color=style.EXACT, lw=1, ls=exact_line, label=ROUND_LABELS[name]))
         tables.append(body.to_dataframe().reset_index().assign(body=name))
     array = beside_exact(line, "cylinder")
@@ -83,23 +83,24 @@ def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
     return pd.concat(tables)[["body", *TABLE_HEADS]]
 
 
-def _plot_kappa_r(axes: Axes, body: xr.Dataset, marker: str, alpha: float) -> None:
+def _plot_kappa_r(axes: Axes, body: xr.Dataset, name: str, alpha: float) -> None:
     """Plot κ_r of a cylinder or sphere by both estimators with its grid error.
 
     The bar of the estimator of the thesis leads from its value to that less its change on halving the grid once more,
-    since its error has a known sign.
+    since its error has a known sign. name: of the body, with its neighbours or without
     """
-    for end, look in ROUND_ESTIMATORS.values():
-        name = f"kappa_r{end}"
+    for words, (end, look) in ROUND_ESTIMATORS.items():
+        quantity = f"kappa_r{end}"
         bars: Any = None
-        if f"{name}_grid_change" in body and end:
-            bars = grid_error(body, name)
-        elif f"{name}_grid_change" in body:
-            change = body[f"{name}_grid_change"]
+        if f"{quantity}_grid_change" in body and end:
+            bars = grid_error(body, quantity)
+        elif f"{quantity}_grid_change" in body:
+            change = body[f"{quantity}_grid_change"]
             bars = np.stack([np.maximum(-change, 0), np.maximum(change, 0)])
-        curve = look | {"color": style.CONTACT, "alpha": alpha, "fmt": marker, "elinewidth": 0.7}
+        curve = look | {"color": style.CONTACT, "alpha": alpha, "fmt": ROUND_LOOKS[name.split()[0]][0]}
+        curve |= {"elinewidth": 0.7, "label": f"{name}, {words}"}
         pressure = body[f"reduced_pressure_contact{end}"]
-        axes.errorbar(pressure, body[name], bars, zorder=3 if end else 2, **curve)
+        axes.errorbar(pressure, body[quantity], bars, zorder=3 if end else 2, **curve)
 
 
 def table_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
@@ -127,7 +128,7 @@ def fig_3_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     proportionality.plot_grid_errors(error, data, ("kappa", "kappa_r"))
     proportionality.plot_persson(area, both, data)
     for panel in (both, contact):
-        panel.axhline(kappa_r, color=style.EXACT, lw=0.8, ls=style.THESIS)
+        panel.axhline(kappa_r, color=style.EXACT, lw=0.8, ls=style.THESIS, label=f"thesis, {kappa_r:g}")
     both.set(ylabel=r"$\kappa^{1D}$, $\kappa_r^{1D}$")
     contact.set(ylabel=r"$\kappa_r^{1D}$")
     error.set(ylabel=r"grid error of $\kappa^{1D}$, $\kappa_r^{1D}$ (%)")
@@ -155,7 +156,8 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
     proportionality.plot_grid_errors(error, data, levels)
     proportionality.plot_persson(area, factor, data)
     for name, value in levels.items():
-        factor.axhline(value, color=proportionality.FACTOR_COLOURS[name], lw=0.8, ls=style.THESIS)
+        look = {"color": proportionality.FACTOR_COLOURS[name], "lw": 0.8, "ls": style.THESIS}
+        factor.axhline(value, label=f"thesis, {value:.2f}", **look)
     factor.set(ylabel=r"$\kappa^{2D}$, $\kappa_r^{2D}$")
     distance.set(ylabel=rf"above {kappa:.2f} ($\kappa^{{2D}}$), {kappa_r:.2f} ($\kappa_r^{{2D}}$) (%)")
     error.set(ylabel=r"grid error of $\kappa^{2D}$, $\kappa_r^{2D}$ (%)")
@@ -217,8 +219,8 @@ def fig_3_5(
     axes[0].legend(handles=style.hurst_handles(surface.hurst_exponent.values), loc="upper right")
     smooth = hard_wall.CYLINDER_KAPPA_R / hard_wall.SPHERE_KAPPA_R
     lines = {f"thesis, {ratio:g}": (ratio, style.THESIS), f"cylinder over sphere, exact, {smooth:.3f}": (smooth, "-")}
-    for value, look in lines.values():
-        axes[1].axhline(value, color=style.EXACT, lw=0.8, ls=look)
+    for words, (value, look) in lines.items():
+        axes[1].axhline(value, color=style.EXACT, lw=0.8, ls=look, label=words)
     handles = style.line_handles({words: look for words, (_, look) in lines.items()})
     axes[1].legend(handles=ratios.ratio_handles(finest) + handles, loc="upper right")
     style.share_vertical_range(axes)

@@ -60,15 +60,15 @@ def fig_4_4(data: xr.Dataset, soft: xr.Dataset, close: xr.Dataset, thick: xr.Dat
     for work, colour in colours.items():
         look = {"color": colour, "ls": "-"}
         label, body = rf"$\varphi_n={work:g}$ N/m", data.sel(work_of_separation=work)
-        tables.append(_plot_case(works, body, label, "a", change, **look))
+        tables.append(_plot_case(works, body, label, change, **look))
     reference = data.sel(work_of_separation=WORK)
-    tables.append(_plot_case(bodies, reference, "reference", "b", None, color=colours[WORK], ls="-"))
+    tables.append(_plot_case(bodies, reference, "reference", None, color=colours[WORK], ls="-"))
     for label, body, colour, line in (
         (r"$\nu=0.45$", soft, style.WHOLE, "--"),
         (r"$w/R=0.08$", close, style.PAIRS, ":"),
         (r"$h/R=0.8$", thick, style.EXACT, "-."),
     ):
-        tables.append(_plot_case(bodies, body, label, "b", change, color=colour, ls=line))
+        tables.append(_plot_case(bodies, body, label, change, color=colour, ls=line))
     works.set(ylabel=r"contact size $l_{\mathrm{rep}}/R$")
     bodies.set(ylabel=r"$l_{\mathrm{rep}}/R$")
     change.set(ylabel=r"change from $\varphi_t=0$ (%)")
@@ -82,10 +82,10 @@ def fig_4_4(data: xr.Dataset, soft: xr.Dataset, close: xr.Dataset, thick: xr.Dat
     return pd.concat(tables)
 
 
-def _plot_case(axes: Axes, data: xr.Dataset, label: str, panel: str, change: Axes | None, **look: Any) -> pd.DataFrame:
+def _plot_case(axes: Axes, data: xr.Dataset, label: str, change: Axes | None, **look: Any) -> pd.DataFrame:
     """Plot the contact sizes of one case."""
     table = asperities.plot_sizes(axes, data, label, change, **look)
-    return table.assign(case=label.replace("$", ""), panel=panel)
+    return table.assign(case=label.replace("$", ""))
 
 
 def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -97,7 +97,8 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
         coupled = frictionless.sel(work_of_separation=work)
         other = uncoupled.sel(work_of_separation=work, poisson_ratio=POISSON_RATIO)
         place = {"work_of_separation": work, "poisson_ratio": POISSON_RATIO}
-        tables.append(asperities.plot_both_laws(axes[::2], coupled, other, colour, "a", **place))
+        label = rf"$\varphi_n={work:g}$ N/m"
+        tables.append(asperities.plot_both_laws(axes[::2], coupled, other, colour, label, **place))
     ratios = style.shades(uncoupled.poisson_ratio)
     for ratio, colour in ratios.items():
         at_ratio = pulled.sel(work_ratio=0.0) if ratio in pulled.poisson_ratio else None
@@ -105,7 +106,7 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
         other = uncoupled.sel(work_of_separation=WORK, poisson_ratio=ratio)
         place = {"work_of_separation": WORK, "poisson_ratio": ratio}
         coupled = coupled.sel(work_of_separation=WORK)
-        tables.append(asperities.plot_both_laws(axes[1::2], coupled, other, colour, "b", **place))
+        tables.append(asperities.plot_both_laws(axes[1::2], coupled, other, colour, rf"$\nu={ratio:g}$", **place))
     lines = style.line_handles(asperities.COUPLING_LINES)
     labels = {rf"$\varphi_n={work:g}$ N/m": colour for work, colour in works.items()}
     axes[0].legend(handles=style.colour_handles(labels) + lines, loc="upper left")
@@ -166,7 +167,8 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
     for panel, ratio in zip(loads, (0.45, 0.1), strict=True):
         body = pulled.sel(poisson_ratio=ratio).isel(member=0)
         for work_ratio, colour in colours.items():
-            curve = asperities.plot_pull_off(panel, body.sel(work_ratio=work_ratio), colour)
+            label = asperities.work_ratio_label(work_ratio)
+            curve = asperities.plot_pull_off(panel, body.sel(work_ratio=work_ratio), colour, label)
             tables.append(curve.assign(poisson_ratio=ratio, work_ratio=work_ratio))
         lines = _plot_pull_off_limits(panel, body, ratio, slope)
         tables.append(_plot_local_slopes(slopes, body, ratio))
@@ -182,8 +184,8 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
     labels = {asperities.work_ratio_label(ratio): colour for ratio, colour in colours.items()}
     handles = style.colour_handles(labels) + style.line_handles(lines) + legs
     axes[0].legend(handles=handles, loc="upper left")
-    for exponent, line in ((slope, ":"), (1.0, style.THESIS)):
-        slopes.axhline(exponent, color=style.EXACT, lw=0.8, ls=line)
+    for exponent, line, label in ((slope, ":", f"_exponent of the thesis, {slope:.3g}"), (1.0, style.THESIS, "_rigid")):
+        slopes.axhline(exponent, color=style.EXACT, lw=0.8, ls=line, label=label)
     slopes.set(xscale="log", xlabel=r"work of separation $\varphi_n/\varphi_0$")
     slopes.set_ylabel(r"local slope $\mathrm{d}\ln|\bar L|/\mathrm{d}\ln\varphi_n$")
     style.set_log_ticks(slopes.xaxis, *slopes.get_xlim())
@@ -222,8 +224,8 @@ def _plot_pull_off_limits(axes: Axes, body: xr.Dataset, poisson_ratio: float, sl
         "Maugis–Dugdale": (limits["Maugis"], "-."),
         "rigid": (limits["rigid"], style.THESIS),
     }
-    for load, line in curves.values():
-        axes.plot(work, load, color=style.EXACT, lw=0.8, ls=line)
+    for label, (load, line) in curves.items():
+        axes.plot(work, load, color=style.EXACT, lw=0.8, ls=line, label=label)
     return {label: line for label, (_, line) in curves.items()}
 
 

@@ -46,9 +46,10 @@ def fig_5_2(data: xr.Dataset, axes: list[Axes], *, kappa_r: float) -> pd.DataFra
     thicknesses.plot_bodies(data, axes)
     pressure = data.reduced_pressure_contact_mean
     ends = np.array([float(pressure.min()), float(pressure.max())])
-    area.plot(ends, kappa_r * ends, color=style.EXACT, lw=0.8, ls=style.THESIS)
-    factor.axhline(kappa_r, color=style.EXACT, lw=0.8, ls=style.THESIS)
-    change.axhline(0.0, color=style.EXACT, lw=0.6)
+    thesis = {"color": style.EXACT, "lw": 0.8, "ls": style.THESIS, "label": f"_thesis, {kappa_r:g}"}
+    area.plot(ends, kappa_r * ends, **thesis)
+    factor.axhline(kappa_r, **thesis)
+    change.axhline(0.0, **style.ZERO)
     thicknesses.label_panels(data, axes, kappa_r)
     return style.mean_table(data, AVERAGES)
 
@@ -104,13 +105,13 @@ def fig_5_4(
 
 def _add_pulls(axes: Axes) -> None:
     """Enlarge the pressures about zero in an inset."""
-    inset = axes.inset_axes((0.14, 0.5, 0.52, 0.45))
+    inset = axes.inset_axes((0.4, 0.5, 0.4, 0.45))
     for line in list(axes.lines):
         look = {"color": line.get_color(), "ls": line.get_linestyle(), "lw": 0.8}
         inset.plot(line.get_xdata(), line.get_ydata(), **look)
     inset.axhline(0.0, **style.ZERO)
     inset.set(xlim=axes.get_xlim(), ylim=(-2.5e-3, 2.5e-3))
-    inset.tick_params(labelsize=6)
+    inset.tick_params(labelsize=7)
 
 
 def fig_5_5(data: xr.Dataset, wall: xr.Dataset, axes: Axes) -> pd.DataFrame:
@@ -230,14 +231,17 @@ def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.Da
         simplified, complete = map(with_indentation, variants)
         colour, label, saving = colours[float(ratio)], _variant_label(ratio, work), Saving.of(simplified, complete)
         savings.plot_simplified(axes[0], simplified, complete, label, colour, work)
-        for offset, value, alpha in ((0.2, saving.transforms, 1.0), (-0.2, saving.transforms_whole, style.FAINT)):
-            axes[1].barh(-row + offset, value, 0.36, color=colour, alpha=alpha)
+        for offset, value, alpha, words in (
+            (0.2, saving.transforms, 1.0, "what was done"),
+            (-0.2, saving.transforms_whole, style.FAINT, "all effects"),
+        ):
+            axes[1].barh(-row + offset, value, 0.36, color=colour, alpha=alpha, label=f"{label}, {words}")
         shares[label] = saving.transforms / saving.transforms_whole
         place = {"poisson_ratio": ratio, "work_ratio": work, "change_of_mean": saving.change_of_mean}
         place |= {"saved": saving.factor, "transforms": saving.transforms}
         rows.append(place | {"transforms_whole": saving.transforms_whole, "decision": saving.decision})
     axes[0].set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[rough.AREA])
-    axes[0].legend(loc="best", fontsize=6.5)
+    axes[0].legend(loc="best", fontsize=7)
     savings.label_savings(axes[1], shares)
     style.add_letters(axes)
     return pd.DataFrame(rows)

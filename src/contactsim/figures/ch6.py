@@ -89,12 +89,13 @@ def fig_6_5(
         thickness, critical = by_modulus.thickness.iloc[0], by_modulus.critical.iloc[0]
         largest = max(table.modulus_over_strength.max() for table in (by_modulus, by_work))
         flats.plot_friction(axes[0], by_modulus, colour, rf"$h={thickness:g}$ nm")
-        for table, marker, fill in ((by_modulus, "o", colour), (by_work, "D", "none")):
+        for table, marker, fill, words in ((by_modulus, "o", colour, "$E$"), (by_work, "D", "none", r"$\varphi_t$")):
             look = style.marker_look(colour, marker, size=3.5, fill=fill)
+            look |= {"label": rf"_$h={thickness:g}$ nm, {words} varied"}
             axes[1].plot(table.modulus_over_strength, table.relative_friction, ls="none", **look)
         ratios = np.geomspace(by_modulus.modulus_over_strength.min(), largest, 60)
         sine = slide_tables.friction_by_prandtl_tomlinson(studies[0], ratios)
-        axes[1].plot(ratios, sine, color=colour, lw=0.8, ls=":")
+        axes[1].plot(ratios, sine, color=colour, lw=0.8, ls=":", label=rf"_$h={thickness:g}$ nm, Prandtl–Tomlinson")
         if critical < largest:
             flats.shade_smooth(axes[0], critical, 1.3 * largest, thickness, colour)
         errors = ["mean_friction_increment_error", "average_friction_increment_error"]
@@ -124,8 +125,8 @@ def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
     path = data.sel(slide_approach=0.0).isel(member=0)
     table, slips = slide_table(path), path[list(EVENT)].dropna("event", how="all")
     curves.plot_forces(axes, table.relative_slide, table, 1.2)
-    for slide in slips.event_sliding_distance.values:
-        axes.axvline(slide / float(path.length), color=style.LIGHT_GREY, lw=0.5, ls=":")
+    for number, slide in enumerate(slips.event_sliding_distance.values, 1):
+        axes.axvline(slide / float(path.length), color=style.LIGHT_GREY, lw=0.5, ls=":", label=f"_slip {number}")
     axes.set(xlabel=curves.SLIDE)
     area = axes.twinx()
     area.plot(table.relative_slide, table.area, color=style.WHOLE, lw=1.2, ls=":", label=r"$\bar A$")
@@ -160,16 +161,18 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     for approach, colour in style.shades(data.slide_approach).items():
         path = data.sel(slide_approach=approach).isel(member=0)
         table = slide_tables.contact_to_onset(path)
-        path_axes.plot(table.force[::5], table.area[::5], ".", color=colour, ms=1.6)
+        name = f"_{curves.approach_label(approach)}"
+        path_axes.plot(table.force[::5], table.area[::5], ".", color=colour, ms=1.6, label=f"{name}, computed")
         label = rf"{curves.approach_label(approach)}, $R^2={float(path.quadratic_r_squared):.3f}$"
         path_axes.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=1.0, label=label)
-        path_axes.plot(table.force, table.crack, color=colour, lw=0.7, ls=":")
-        path_axes.plot(table.force.iloc[-1], table.area.iloc[-1], "o", color="black", ms=3.5)
+        path_axes.plot(table.force, table.crack, color=colour, lw=0.7, ls=":", label=f"{name}, crack of both modes")
+        onset = {"color": "black", "ms": 3.5, "label": f"{name}, onset"}
+        path_axes.plot(table.force.iloc[-1], table.area.iloc[-1], "o", **onset)
         tables.append(table.assign(approach=approach, study="a"))
     path_axes.set(xlabel=curves.FORCE, ylabel=curves.AREA)
     path_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label="crack of both modes")
     style.add_headroom(path_axes, 0.6)
-    path_axes.legend(loc="upper right", ncols=2, fontsize=6.5)
+    path_axes.legend(loc="upper right", ncols=2, fontsize=7)
     for study, colour, marker in ((data, "black", "o"), (weak, style.WHOLE, "s"), (slippery, style.CONTACT, "^")):
         tables.append(_plot_onsets(onset_axes, study, colour, marker))
     onset_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=r"$\bar\tau_c\bar A_s$ alone (Bowden–Tabor)")
@@ -188,31 +191,42 @@ def _plot_onsets(axes: Axes, data: xr.Dataset, colour: str, marker: str) -> pd.D
     label = rf"$\bar\varphi_n={LawScales.of(data).work_of_separation:g}$, {curves.work_ratio_label(data)}"
     axes.plot(table.area, table.force, ls="none", label=label, **style.marker_look(colour, marker, fill="none"))
     ends = np.array([0.0, float(table.area.max())])
-    axes.plot(ends, table.shear_strength.iloc[0] * ends + table.offset.iloc[0], color=colour, lw=0.8)
-    axes.plot(ends, table.shear_strength.iloc[0] * ends, color=colour, lw=0.7, ls=":")
+    strength, offset = table.shear_strength.iloc[0], table.offset.iloc[0]
+    axes.plot(ends, strength * ends + offset, color=colour, lw=0.8, label=f"_{label}, Eq. 6.9")
+    axes.plot(ends, strength * ends, color=colour, lw=0.7, ls=":", label=f"_{label}, Bowden–Tabor")
     return table.assign(study=label)
 
 
 def peel_and_slip(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the gaps under the probe, and its force and contact up to the last snapshot (beyond the thesis)."""
+    """Plot the gaps under the probe at A to E and last, and its force and contact (beyond the thesis)."""
     path = data.isel(member=0)
     table, state = slide_table(path), path.isel(snapshot=-1)
     position, nodes = slide_tables.node_positions(path)
     gap, slip = (state[f"{name}_gap"].values[nodes] for name in ("normal", "tangential"))
+    places = curves.passed_stages(path, table)
+    for name, colour in zip(places, style.shades(range(len(curves.STAGES))).values(), strict=False):
+        slide = float(table.slide[places[name]])
+        passed = path.sel(snapshot=slide, method="nearest")
+        look = {"color": colour, "lw": 0.9, "label": f"{name}, {float(passed.snapshot):g} nm"}
+        axes[0].plot(position, passed.normal_gap.values[nodes], **look)
+        axes[1].plot(position, passed.tangential_gap.values[nodes], **look)
     curves.plot_gap(axes[0], position, gap, 1.0, alpha=0.6)
-    axes[0].axhline(0.0, color=style.WHOLE, lw=0.6)
+    axes[0].axhline(0.0, **style.ZERO)
     axes[0].set(xlabel=curves.POSITION, ylabel="gap (nm); filled: contact", xlim=(-0.1, 0.1), ylim=(-0.6, 3.0))
-    axes[1].plot(position, slip, color=style.PAIRS, lw=1.0)
-    axes[1].set(xlabel=curves.POSITION, ylabel="tangential gap (nm)", xlim=(-0.1, 0.1), ylim=(-1, 12))
+    axes[1].plot(position, slip, color=style.EXACT, lw=1.0, ls="--", label=f"last, {float(state.snapshot):g} nm")
+    axes[1].legend(loc="lower center", ncols=2)
+    axes[1].set(xlabel=curves.POSITION, ylabel="tangential gap (nm)", xlim=(-0.1, 0.1), ylim=(-6, 12))
     for panel, name, colour, label in (
         (axes[2], "force", style.CONTACT, curves.FORCE),
         (axes[3], "area", style.WHOLE, curves.AREA),
     ):
-        panel.plot(table.slide, table[name], color=colour, lw=1.1)
-        panel.plot(table.slide.iloc[-1], table[name].iloc[-1], "o", color=colour, ms=4)
+        panel.plot(table.slide, table[name], color=colour, lw=1.1, label=label)
+        panel.plot(table.slide.iloc[-1], table[name].iloc[-1], "o", color=colour, ms=4, label="last state")
+        curves.mark_stages(panel, table.slide, table[name], places, colour)
         panel.set(xlabel=curves.SLIDE_NM, ylabel=label)
     size = contact_length(state.normal_gap.values, float(path.length) / path.x.size)
-    axes[0].set_title(rf"$U_x={float(state.snapshot):g}$ nm, contact {size:.0f} nm", fontsize=9)
+    style.add_letters(axes)
+    axes[0].set_title(rf"last: $U_x={float(state.snapshot):g}$ nm, contact {size:.0f} nm", fontsize=9)
     return table
 
 
@@ -227,7 +241,7 @@ def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.
             path = study.sel({name: value}).isel(member=0)
             table = slide_table(path)
             force.plot(table.relative_slide, table.force, color=colour, lw=0.9, label=label.format(value))
-            area.plot(table.relative_slide, table.area, color=colour, lw=0.9)
+            area.plot(table.relative_slide, table.area, color=colour, lw=0.9, label=label.format(value))
             tables.append(table.assign(held=name, value=value, loop_energy=float(path.loop_energy)))
         force.axhline(0.0, **style.ZERO)
         force.set(xlabel=curves.SLIDE, ylabel=curves.FORCE)
@@ -247,7 +261,7 @@ def rough_slide_forces(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     curves.plot_forces(axes[1], table.slide, table, 1.0)
     axes[1].set(xlabel=curves.SLIDE_NM)
     axes[1].legend(loc="best")
-    axes[2].plot(table.slide, table.area, color=style.WHOLE, lw=1.0)
+    axes[2].plot(table.slide, table.area, color=style.WHOLE, lw=1.0, label=r"$\bar A$")
     axes[2].set(xlabel=curves.SLIDE_NM, ylabel=curves.AREA)
     style.add_letters(axes)
     return table

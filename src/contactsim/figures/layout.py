@@ -17,10 +17,11 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from contactsim.analysis.dataset_summary import dataset_summary, sources_summary
+from contactsim.analysis.dataset_summary import sources_summary
 from contactsim.analysis.ensemble import widen_interval
 from contactsim.analysis.wording import printed
 from contactsim.figures import style
+from contactsim.figures.panel_table import error_texts, panel_table
 from contactsim.figures.vector import write_vector
 from contactsim.files import write_atomically
 
@@ -28,6 +29,10 @@ LINE_HEIGHT = 0.125
 """Height of a line of caption or footer, inches."""
 CAPTION_LETTERS, FOOTER_LETTERS = 18.5, 22
 """Letters of caption and footer in an inch."""
+PRINT_WIDTH, SMALLEST_TEXT = 7.2, 6.0
+"""Width at which a figure is printed at most, inches (two columns of a journal), and its smallest text then, points."""
+FOOTER = "footer"
+"""Name of the footer among the texts of a figure."""
 FILM_DPI = 110
 """Resolution of the frames of a film."""
 SLIDE_TOLERANCE = 1e-6
@@ -50,20 +55,18 @@ def write_figure(
     settings, module = plan["settings"], import_module(plan["module"])
     plot = getattr(module, plan["name"])
     parts = [selected(part, settings["select"]) for part in data]
-    footer = _footer(settings, parts, costs) if costs else module.footer(*parts)
+    footer = sources_summary(parts, costs) if costs else module.footer(*parts)
     figure, panels = empty_figure(settings, footer, settings["rows"])
     axes = panels if len(panels) > 1 else panels[0]
-    save(figure, plot(*parts, axes, **settings["reference"]), targets)
+    numbers = plot(*parts, axes, **settings["reference"])
+    points = panel_table(figure)
+    footer_text = next(text for text in figure.texts if text.get_gid() == FOOTER)
+    footer_text.set_text(" · ".join([footer, *error_texts(points)]))
+    tables = [table for table in (points, numbers) if len(table)]
+    save(figure, pd.concat(tables, ignore_index=True), targets)
     if settings["film"] is not None:
         speed = settings["film"]
         write_atomically(targets["gif"], lambda path: write_film(figure, axes, plot, parts[0], speed, path))
-
-
-def _footer(settings: Mapping[str, Any], data: Sequence[xr.Dataset], costs: Sequence[pd.DataFrame]) -> str:
-    """Return the footer of a figure of studies: all that is known of each, or a short one."""
-    if settings["footer"] == "short":
-        return sources_summary(data, costs)
-    return " — ".join(dataset_summary(part, table) for part, table in zip(data, costs, strict=True))
 
 
 def selected(data: xr.Dataset, ranges: Mapping[str, tuple[float, float]]) -> xr.Dataset:
@@ -91,7 +94,8 @@ def empty_figure(
     """
     width, height = settings["size"]
     caption = textwrap.wrap(printed(settings["caption"]), int(width * CAPTION_LETTERS))
-    footer_lines = textwrap.wrap(footer, int(width * FOOTER_LETTERS))
+    scale = max(1.0, width / PRINT_WIDTH)
+    footer_lines = textwrap.wrap(footer, int(width * FOOTER_LETTERS / scale))
     below = (len(caption) + len(footer_lines) + 1.2) * LINE_HEIGHT
     figure = Figure(figsize=(width, height + below), layout="constrained")
     share = below / (height + below)
@@ -99,7 +103,8 @@ def empty_figure(
     figure.suptitle(printed(settings["title"]), fontsize=9.5, x=0.01, ha="left")
     bottom = LINE_HEIGHT * 0.4 / (height + below)
     figure.text(0.01, share - 0.3 * LINE_HEIGHT / (height + below), "\n".join(caption), fontsize=7, va="top")
-    figure.text(0.01, bottom, "\n".join(footer_lines), fontsize=6, color=style.GREY, va="bottom")
+    look: dict[str, Any] = {"fontsize": SMALLEST_TEXT * scale, "color": style.GREY, "va": "bottom", "gid": FOOTER}
+    figure.text(0.01, bottom, "\n".join(footer_lines), **look)
     return figure, list(figure.subplots(rows, settings["panels"], squeeze=False, width_ratios=widths).flat)
 
 

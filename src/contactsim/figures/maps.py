@@ -194,7 +194,7 @@ def _plot_map(
     low, high = min(pixels.min(), 0.0), pixels.max() if pixels.max() > 0 else 1 / factor
     low, high = (0.0, 1.0) if name == "contact" else (low, high)
     look = {"cmap": COLOURS[name], "vmin": low * factor, "vmax": high * factor}
-    image = axes.imshow(pixels * factor, origin="lower", extent=extent, **look)
+    image = axes.imshow(pixels * factor, origin="lower", extent=extent, label=LABELS[name], **look)
     axes.set(xlim=(0.0, length_x), ylim=(0.0, length_y), xticks=[], yticks=[])
     label = LABELS[name] + (f" ({shown_unit})" if shown_unit else "")
     bar = axes.figure.colorbar(image, ax=axes, label=label, aspect=22, pad=0.03)

@@ -5,22 +5,19 @@ They are read from the finished figure, so that a page can show the numbers unde
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from matplotlib import colors
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PathCollection
-from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 
 from contactsim.figures import style
+from contactsim.figures.drawn import Curve, Look, line_look, panel_curves, panels_of
 from contactsim.figures.plain_text import plain_text
-from contactsim.grid import Array
 
 DOTS_PER_INCH = 72
 """Units of a vector picture in an inch."""
@@ -28,30 +25,7 @@ MAX_POINTS = 240
 """Most points of a curve that can be pointed at; of more, as many are chosen evenly."""
 NEUTRAL = {colors.to_hex(colour) for colour in (style.GREY, style.EXACT, style.LIGHT_GREY, "black")}
 """Colours of legend entries that explain a marker or a line, whatever its colour."""
-NO_MARKER = ("None", "none", " ")
-
-
-class Look(NamedTuple):
-    """Colour, marker (empty for none), line style and opacity of a curve or of an entry of a legend."""
-
-    colour: str
-    marker: str = ""
-    line: str = "-"
-    opacity: float = 1.0
-
-
 Entry = tuple[str, Look]
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A curve of a panel: its look, and its points with their errors (NaN where there is none)."""
-
-    label: str
-    look: Look
-    x: Array
-    y: Array
-    error: Array
 
 
 def figure_points(figure: Figure) -> list[dict[str, Any]]:
@@ -61,80 +35,44 @@ def figure_points(figure: Figure) -> list[dict[str, Any]]:
 
     Returns
     -------
-    curves : of each its name and colour, the names of its axes, the places of its points, and x and y there as text
+    curves : of each its name and colour, the names of its axes, the places of its points, and x and y there as text; of
+        a map the values too
 
     Places count in units of the vector picture, from the upper left corner.
     """
-    return [curve for axes in figure.axes for curve in _panel_points(axes, figure)]
+    return [curve for _, axes in panels_of(figure) for curve in _panel_points(axes, figure)]
 
 
 def _panel_points(axes: Axes, figure: Figure) -> Iterator[dict[str, Any]]:
     """Yield the points of a panel, curve by curve."""
-    legends = _legends(axes, figure)
     height = figure.get_figheight() * DOTS_PER_INCH
     left, right = sorted(axes.get_xlim())
     bottom, top = sorted(axes.get_ylim())
-    for curve in _curves(axes):
-        x, y = np.asarray(curve.x, float), np.asarray(curve.y, float)
+    for name, curve in named_curves(axes, figure):
+        x, y = curve.x, curve.y
         inside = np.flatnonzero((left <= x) & (x <= right) & (bottom <= y) & (y <= top))
         if not len(inside):
             continue
-        chosen = inside[np.unique(np.linspace(0, len(inside) - 1, MAX_POINTS).astype(int))]
+        is_map = curve.values.size > 0
+        chosen = inside if is_map else inside[np.unique(np.linspace(0, len(inside) - 1, MAX_POINTS).astype(int))]
         places = axes.transData.transform(np.column_stack([x[chosen], y[chosen]])) * DOTS_PER_INCH / figure.dpi
-        yield {
-            "name": _name(curve, *legends),
+        names = [plain_text(axes.get_xlabel()) or "x", plain_text(axes.get_ylabel()) or "y"]
+        points = {
+            "name": name,
             "colour": curve.look.colour,
-            "axes": [plain_text(axes.get_xlabel()) or "x", plain_text(axes.get_ylabel()) or "y"],
+            "axes": [*names, curve.value_label] if is_map else names,
             "places": [[round(float(across), 1), round(float(height - up), 1)] for across, up in places],
             "x": [f"{value:.4g}" for value in x[chosen]],
-            "y": [_with_error(y[index], curve.error[index]) for index in chosen],
+            "y": [_with_error(*pair) for pair in zip(y[chosen], curve.y_error[chosen], strict=True)],
         }
+        yield points | ({"values": [f"{value:.3g}" for value in curve.values[chosen]]} if is_map else {})
 
 
-def _curves(axes: Axes) -> Iterator[Curve]:
-    """Yield the curves of a panel: those with error bars, other lines, and scattered points."""
-    parts: set[Any] = set()
-    for container in axes.containers:
-        if isinstance(container, ErrorbarContainer) and container.lines[0] is not None:
-            line, caps, bars = container.lines
-            parts |= {line, *caps}
-            yield _line_curve(line, str(container.get_label()), _vertical_errors(line, bars))
-    for line in axes.lines:
-        if line not in parts and line.get_visible() and line.get_transform() == axes.transData:
-            yield _line_curve(line, str(line.get_label()), np.full(np.size(line.get_xdata()), np.nan))
-    for points in axes.collections:
-        faces = np.atleast_2d(np.asarray(points.get_facecolor(), float))
-        if isinstance(points, PathCollection) and faces.size:
-            x, y = np.ma.filled(np.ma.asarray(points.get_offsets(), float), np.nan).T
-            look = Look(colors.to_hex(tuple(faces[0])))
-            yield Curve(str(points.get_label()), look, x, y, np.full(len(x), np.nan))
-
-
-def _line_curve(line: Line2D, label: str, error: Array) -> Curve:
-    """Return a line as a curve."""
-    return Curve(label, _look(line), np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float), error)
-
-
-def _vertical_errors(line: Line2D, bars: Sequence[LineCollection]) -> Array:
-    """Return half the height of the error bars at each point of a line."""
-    error = np.full(np.size(line.get_xdata()), np.nan)
-    for collection in bars:
-        for index, segment in enumerate(collection.get_segments()):
-            if len(segment) and segment[0][0] == segment[-1][0]:  # a bar with an end that is not finite has no points
-                error[index] = (segment[-1][1] - segment[0][1]) / 2
-    return error
-
-
-def _look(line: Line2D) -> Look:
-    """Return the look of a line."""
-    marker = str(line.get_marker())
-    opacity = line.get_alpha()
-    return Look(
-        colors.to_hex(line.get_color()),
-        "" if marker in NO_MARKER else marker,
-        str(line.get_linestyle()),
-        1.0 if opacity is None else opacity,
-    )
+def named_curves(axes: Axes, figure: Figure) -> Iterator[tuple[str, Curve]]:
+    """Yield the curves of a panel, each with its name."""
+    legends = _legends(axes, figure)
+    for curve in panel_curves(axes):
+        yield _name(curve, *legends), curve
 
 
 def _legends(axes: Axes, figure: Figure) -> tuple[list[Entry], list[Entry]]:
@@ -147,7 +85,7 @@ def _legends(axes: Axes, figure: Figure) -> tuple[list[Entry], list[Entry]]:
 def _entries(legend: Legend) -> list[Entry]:
     """Return the lines and markers of a legend, with their texts."""
     pairs = zip(legend.legend_handles, legend.get_texts(), strict=False)
-    return [(plain_text(text.get_text()), _look(line)) for line, text in pairs if isinstance(line, Line2D)]
+    return [(plain_text(text.get_text()), line_look(line)) for line, text in pairs if isinstance(line, Line2D)]
 
 
 def _name(curve: Curve, own: list[Entry], every: list[Entry]) -> str:
@@ -160,8 +98,8 @@ def _name(curve: Curve, own: list[Entry], every: list[Entry]) -> str:
     curve : with its look
     own, every : entries of the panel's legend and of all legends
     """
-    if curve.label and not curve.label.startswith("_"):
-        return plain_text(curve.label)
+    if curve.name:
+        return curve.name
     look, dark = curve.look, [entry for entry in every if entry[1].colour in NEUTRAL]
     coloured = [[entry for entry in entries if _same_colour(entry[1], look)] for entries in (own, every)]
     marked = [entry for entry in dark if entry[1].marker == look.marker != ""]

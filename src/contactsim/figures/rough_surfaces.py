@@ -44,11 +44,12 @@ def surface_theories(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     _plot_means(area, data, "relative_contact_area_corrected", data.reduced_pressure)
     _plot_means(factor, data, "kappa_corrected", data.reduced_pressure)
     pressure, persson = persson_curve(data)
-    _plot_theory(axes, pressure, persson, color=style.EXACT, ls=PERSSON)
+    _plot_theory(axes, pressure, persson, color=style.EXACT, ls=PERSSON, label="Persson")
     nayak = data.nayak_parameter.mean("member")
     for hurst_exponent in _exponents(data):
         bush = bush_area(pressure, float(nayak.sel(hurst_exponent=hurst_exponent)))
-        _plot_theory(axes, pressure, bush, color=style.hurst_colour(hurst_exponent), ls=BUSH)
+        look = {"color": style.hurst_colour(hurst_exponent), "ls": BUSH}
+        _plot_theory(axes, pressure, bush, label=f"$H={hurst_exponent:g}$, Bush, Gibson and Thomas", **look)
     area.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"relative contact area $a_{\mathrm{rel}}$")
     factor.set(xscale="log", xlabel=REDUCED_PRESSURE, ylabel=r"$\kappa=a_{\mathrm{rel}}/p^*$")
     labels = [rf"$H={value:g}$, $\alpha={float(nayak.sel(hurst_exponent=value)):.3g}$" for value in _exponents(data)]
@@ -67,7 +68,7 @@ def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     pressure = data.reduced_pressure
     _plot_means(stiffness, data, "reduced_stiffness", pressure)
     _plot_means(gap, data, "reduced_gap", pressure)
-    stiffness.plot(pressure, 2 * pressure, color=style.LIGHT_GREY, lw=0.8, zorder=0)
+    stiffness.plot(pressure, 2 * pressure, color=style.LIGHT_GREY, lw=0.8, zorder=0, label="slope 1")
     stiffness.text(0.02, 2 * 0.02 * 1.5, "slope 1", color=style.GREY, fontsize=7, ha="right")
     label = r"$K\bar h/(E^*\bar g)=G\bar h/(2c\bar g)$"
     stiffness.set(xscale="log", yscale="log", xlabel=REDUCED_PRESSURE, ylabel=label)
@@ -76,7 +77,8 @@ def surface_stiffness(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     for hurst_exponent in _exponents(data):
         spectrum = _expected_spectrum(data, hurst_exponent)
         theory = [persson_mean_gap(load, spectrum, 1.0) / spectrum.rms_height for load in loads]
-        gap.plot(loads, theory, lw=0.9, ls=PERSSON, color=style.hurst_colour(hurst_exponent), zorder=1)
+        look: dict[str, Any] = {"lw": 0.9, "ls": PERSSON, "color": style.hurst_colour(hurst_exponent), "zorder": 1}
+        gap.plot(loads, theory, label=f"$H={hurst_exponent:g}$, Persson", **look)
     gap.legend(handles=style.line_handles({"Persson": PERSSON}), loc="upper right")
     stiffness.legend(handles=_hurst_handles(data), loc="upper left")
     style.add_letters(axes)
@@ -131,6 +133,7 @@ def contact_patches(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         spans = surfaces.where(surfaces.spanning_mean > 0.5)
         look = style.hurst_look(hurst_exponent) | {"linestyle": "", "color": style.hurst_colour(hurst_exponent)}
         look |= {"markerfacecolor": style.hurst_colour(hurst_exponent), "zorder": 3}  # above the open markers
+        look |= {"label": f"$H={hurst_exponent:g}$, a patch spans the surface"}
         share.plot(spans.relative_contact_area_mean, spans.largest_patch_share_mean, **look)
     for panel, label in ((count, "number of patches"), (share, "share of the contact in the largest patch")):
         panel.set(xscale="log", xlabel=r"relative contact area $a_{\mathrm{rel}}$", ylabel=label)
@@ -158,7 +161,8 @@ def challenge(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         mean = means.sel(reduced_pressure=load)
         error = errors.isel(hurst_exponent=0).sel(reduced_pressure=load)
         seen = mean.where(mean > 0)
-        style.errorbars(patches, data.area_bin, seen, error, color=colour, marker="o", ms=2.5, lw=1.0)
+        look = {"color": colour, "marker": "o", "ms": 2.5, "lw": 1.0, "label": _load_label(load)}
+        style.errorbars(patches, data.area_bin, seen, error, **look)
     patches.set(
         xscale="log", yscale="log", xlabel="area of a patch over that of the surface", ylabel="number of patches"
     )
@@ -189,6 +193,7 @@ def _plot_means(axes: Axes, data: xr.Dataset, name: str, across: xr.DataArray) -
     x = across.broadcast_like(means)
     for value in _exponents(data):
         look = style.hurst_look(value) | {"color": style.hurst_colour(value), "linestyle": "-"}
+        look |= {"label": f"$H={value:g}$" if np.isfinite(value) else "computed"}
         curve = [part.sel(hurst_exponent=value).transpose() for part in (x, means, errors)]
         style.errorbars(axes, *curve, **look)
 
@@ -221,10 +226,12 @@ def _plot_density(axes: Axes, data: xr.Dataset, name: str, theory: Theory) -> No
     x = _bins(means)
     for pressure, colour in style.shades(data.reduced_pressure.values).items():
         mean, error = (part.sel(reduced_pressure=pressure, method="nearest").values for part in (means, errors))
-        axes.plot(x, np.where(mean > 0, mean, np.nan), color=colour, lw=1.1)
+        label = _load_label(pressure)
+        axes.plot(x, np.where(mean > 0, mean, np.nan), color=colour, lw=1.1, label=label)
         seen = mean > error  # a band down to zero would hide others on a logarithmic axis
-        axes.fill_between(x, mean - error, mean + error, where=seen, color=colour, alpha=SHADE, lw=0)
-        axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON)
+        band: dict[str, Any] = {"color": colour, "alpha": SHADE, "lw": 0, "label": f"{label} with its error"}
+        axes.fill_between(x, mean - error, mean + error, where=seen, **band)
+        axes.plot(x, theory(x, pressure), color=colour, lw=0.9, ls=PERSSON, label=f"{label}, Persson")
 
 
 def _bins(densities: xr.DataArray) -> Array:
@@ -243,4 +250,9 @@ def _end_where_all_is_zero(axes: Sequence[Axes], means: xr.DataArray) -> None:
 def _load_handles(data: xr.Dataset) -> list[Line2D]:
     """Return legend handles of the loads in their colours."""
     colours = style.shades(data.reduced_pressure.values)
-    return style.colour_handles({f"$p^*={pressure:.3g}$": colour for pressure, colour in colours.items()})
+    return style.colour_handles({_load_label(pressure): colour for pressure, colour in colours.items()})
+
+
+def _load_label(pressure: float) -> str:
+    """Return the label of a load."""
+    return f"$p^*={pressure:.3g}$"

@@ -43,8 +43,8 @@ BROWN, PURPLE = "#8c6d31", "#7b4fa3"
 """Further colours, for a fourth and a fifth kind."""
 THESIS: Any = (0, (6, 3))
 """Line style of values that the thesis gives."""
-ZERO: dict[str, Any] = {"color": EXACT, "lw": 0.5}
-"""Line at zero."""
+ZERO: dict[str, Any] = {"color": EXACT, "lw": 0.5, "label": "_zero"}
+"""Line at zero. A label that begins with an underscore is a name outside the legend."""
 BARS: dict[str, Any] = {"elinewidth": 0.8, "capsize": 1.5}
 """Error bars."""
 FAINT = 0.35

@@ -13,7 +13,7 @@ from contactsim.code_digest.modules import module_path
 from contactsim.errors import InputError
 from contactsim.study.claim_plan import read_selection
 from contactsim.study.law_table import read_law
-from contactsim.study.reading import Key, choice, listed, mapping, number, positive, read, size, text, whole
+from contactsim.study.reading import Key, listed, mapping, number, positive, read, size, text, whole
 from contactsim.study.study import Study
 from contactsim.traits import Trait
 
@@ -25,9 +25,6 @@ LEAST_WIDTH = 2.8
 """Inches that a panel needs for its labels and legend."""
 FIELDS = "fields"
 """First argument of a figure's function that draws the fields of one load of a surface."""
-
-FOOTERS = ("full", "short")
-"""Footers of a figure: of each study its errors too, or of all its studies their grids and members alone."""
 
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter, or left out with a `law`", None),
@@ -41,7 +38,6 @@ FIGURE_KEYS = {
     "select": Key(mapping, "a mapping from a dimension to its least and largest value shown", {}),
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
     "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
-    "footer": Key(choice(FOOTERS), f"one of {', '.join(FOOTERS)}", FOOTERS[0]),
     "module": Key(text, "a module of contactsim.figures with the figure's function, if not that of the chapter", None),
     "film": Key(positive, "frames a second, for a film through the snapshots of the study beside the figure", None),
 }

@@ -76,31 +76,34 @@ def plot_sizes(axes: Axes, data: xr.Dataset, label: str, change: Axes | None, **
     curve = {"marker": "o", "ms": 3, "mfc": "white", "lw": 1.0} | look
     axes.errorbar(sizes.work_ratio, sizes.size_ratio, sizes.error, label=label, elinewidth=0.8, **curve)
     if change is not None:
-        change.plot(sizes.work_ratio, 100 * (sizes.size_ratio / sizes.size_ratio.iloc[0] - 1), **curve)
+        relative = 100 * (sizes.size_ratio / sizes.size_ratio.iloc[0] - 1)
+        change.plot(sizes.work_ratio, relative, label=label, **curve)
     return sizes
 
 
 def plot_both_laws(
-    axes: list[Axes], coupled: xr.Dataset, uncoupled: xr.Dataset, colour: str, panel: str, **place: object
+    axes: list[Axes], coupled: xr.Dataset, uncoupled: xr.Dataset, colour: str, label: str, **place: object
 ) -> pd.DataFrame:
     """Plot loading and unloading, one panel each, by the coupled and the uncoupled law.
 
-    panel, place: columns of the table
+    label: of the case; place: columns of the table
     """
     tables = []
     for (law, line), data in zip(COUPLING_LINES.items(), (coupled, uncoupled), strict=True):
         for leg, leg_axes in zip(LEGS, axes, strict=True):
-            curve = plot_leg(leg_axes, data.isel(member=0), leg, color=colour, ls=line, lw=1.0)
-            tables.append(curve.assign(panel=panel, law=law, leg=leg, **place))
+            look = {"color": colour, "ls": line, "lw": 1.0, "label": f"_{label}, {law}"}
+            curve = plot_leg(leg_axes, data.isel(member=0), leg, **look)
+            tables.append(curve.assign(law=law, leg=leg, **place))
     return pd.concat(tables)
 
 
-def plot_pull_off(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
+def plot_pull_off(axes: Axes, data: xr.Dataset, colour: str, label: str) -> pd.DataFrame:
     """Plot the pull-off on loading and on unloading against the work of separation, with grid errors as bars."""
     table = pull_off_table(data, LEGS)
     for leg, fill in zip(LEGS, (colour, "white"), strict=True):
         load, error = (table[f"pull_off_load_{leg}{suffix}"] for suffix in ("", "_grid_error"))
         bars = None if error.isna().all() else reduced_line_load(error, data)
         look = style.marker_look(colour, fill=fill) | {"lw": 0.7 if fill == colour else 0.0, "elinewidth": 0.8}
+        look |= {"label": f"_{label}, {leg}"}
         axes.errorbar(table.work_of_separation, reduced_line_load(load, data), bars, **look)
     return table

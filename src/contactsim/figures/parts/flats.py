@@ -27,7 +27,7 @@ def prandtl_tomlinson_label(data: xr.Dataset) -> str:
 def mark_periods(axes: Axes, lattice: float, end: float) -> None:
     """Mark the multiples of the lattice constant on the upper edge of a panel of slides, nm."""
     for place in np.arange(lattice, end, lattice):
-        axes.axvline(place, ymin=0.97, color=style.LIGHT_GREY, lw=0.6)
+        axes.axvline(place, ymin=0.97, color=style.LIGHT_GREY, lw=0.6, label=f"_period {round(place / lattice)}")
 
 
 def plot_flat(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
@@ -39,16 +39,17 @@ def plot_flat(axes: Axes, data: xr.Dataset, colour: str) -> pd.DataFrame:
     table = table.assign(exact=slide_tables.exact_flat_force(path, table.slide.values))
     label = rf"$\bar E={modulus:g}$, $\bar\varphi_t={work:g}$"
     axes.plot(table.slide, table.force, color=colour, lw=1.1, label=label)
-    axes.plot(table.slide[::4], table.exact[::4], ".", color=style.EXACT, ms=1.6, zorder=3)
+    exact: dict[str, Any] = {"color": style.EXACT, "ms": 1.6, "zorder": 3, "label": f"_{label}, exact"}
+    axes.plot(table.slide[::4], table.exact[::4], ".", **exact)
     sine = slide_tables.exact_flat_force(path, table.slide.values, sine=True)
-    axes.plot(table.slide, sine, color=colour, lw=0.7, ls=":")
+    axes.plot(table.slide, sine, color=colour, lw=0.7, ls=":", label=f"_{label}, Prandtl–Tomlinson")
     return table.assign(sine=sine, youngs_modulus=modulus, tangential_work=work)
 
 
 def plot_friction(axes: Axes, table: pd.DataFrame, colour: str, label: str) -> None:
     """Plot both means of the friction of flats against modulus over strength, with their increment errors."""
     for name, fill, line in (("mean_friction", colour, "-"), ("average_friction", "white", "--")):
-        own_label = label if name == "mean_friction" else None
+        own_label = label if name == "mean_friction" else f"_{label}, mean over whole periods"
         look = style.marker_look(colour, size=3.5, fill=fill) | {"ls": line, "lw": 0.9, "label": own_label}
         axes.errorbar(table.modulus_over_strength, table[name], table[f"{name}_increment_error"], **look, **style.BARS)
 
@@ -56,6 +57,6 @@ def plot_friction(axes: Axes, table: pd.DataFrame, colour: str, label: str) -> N
 def shade_smooth(axes: Axes, critical: float, end: float, thickness: float, colour: str) -> None:
     """Shade the range in which flats slide without stick-slip."""
     axes.axvspan(critical, end, color=colour, alpha=0.12, lw=0)
-    axes.axvline(critical, color=colour, lw=0.8, ls=":")
+    axes.axvline(critical, color=colour, lw=0.8, ls=":", label=f"_smooth at $h={thickness:g}$ nm")
     look: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "fontsize": 7, "va": "top", "color": colour}
     axes.text(1.04 * critical, 0.3, f"smooth at\n$h={thickness:g}$ nm", **look)

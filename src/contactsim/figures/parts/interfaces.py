@@ -18,6 +18,8 @@ HORIZONTAL_TEXT: dict[str, Any] = {"ha": "center", "va": "bottom"}
 VERTICAL_TEXT: dict[str, Any] = {"ha": "right", "va": "center", "rotation": 90}
 BAR: dict[str, Any] = {"color": style.EXACT, "lw": 1.5, "solid_capstyle": "butt"}
 """Scale bars."""
+MAX_NODES = 4000
+"""Most nodes of a profile that are drawn, more than a picture can show."""
 MANY_WAVES, FEW_WAVES = 512, 64
 """Period over the shortest wavelength, of two profiles that are compared."""
 
@@ -36,7 +38,8 @@ def plot_interface(
     if filled:
         axes.fill_between(x, rigid, rigid.max() + 5.0, color="#cccccc", lw=0, zorder=0)
     axes.margins(x=0)
-    axes.plot(x, rigid, color=style.GREY if filled else colour, lw=0.6, alpha=1.0 if filled else 0.5)
+    rigid_look: dict[str, Any] = {"color": style.GREY if filled else colour, "lw": 0.6, "alpha": 1.0 if filled else 0.5}
+    axes.plot(x, rigid, **rigid_look, label=f"_{label}, rigid profile")
     axes.plot(x, surface, lw=0.9, color=colour, label=label)
     axes.set(xlabel="$x$ (nm)", ylabel="$z$ (nm)")
     return pd.DataFrame({"x": x, "rigid": rigid, "surface": surface})
@@ -62,9 +65,9 @@ def _wall_surface(wall: xr.Dataset) -> np.ndarray:
 
 def add_scale_bars(axes: Axes, x: float, z: float) -> None:
     """Add bars along x and z with their lengths, from a place (nm)."""
-    axes.plot([x + 80, x + 280], [z, z], **BAR)
+    axes.plot([x + 80, x + 280], [z, z], **BAR, label="_200 nm")
     axes.text(x + 180, z + 0.8, "200 nm", fontsize=7, **HORIZONTAL_TEXT)
-    axes.plot([x + 80, x + 80], [z, z + 10], **BAR)
+    axes.plot([x + 80, x + 80], [z, z + 10], **BAR, label="_10 nm")
     axes.text(x + 65, z + 5, "10 nm", fontsize=7, **VERTICAL_TEXT)
 
 
@@ -86,11 +89,11 @@ def highest_place(data: xr.Dataset) -> float:
 
 
 def nodes_around(data: xr.Dataset, place: float, share: float) -> slice:
-    """Return the nodes of a part of the period around a place, both as parts of the period."""
+    """Return nodes of a part of the period around a place, both as parts of the period: all, or evenly chosen ones."""
     count = data.x.size
     width = int(count * share)
     middle = int(np.clip(round(place * count), width // 2, count - width // 2))
-    return slice(middle - width // 2, middle + width // 2)
+    return slice(middle - width // 2, middle + width // 2, -(-width // MAX_NODES))
 
 
 def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> None:

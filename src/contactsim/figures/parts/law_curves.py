@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
@@ -32,7 +33,7 @@ def _plot_normal(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.DataFr
         label = rf"$\Delta_t/\delta_t={ratio:g}$"
         axes.plot(data.opening / length, traction / unit, color=colour, lw=1.2, label=label)
         strength = adhesion.normal_strength(law.work_of_separation, length, ratio) / unit
-        axes.plot([NORMAL_PEAK], [strength], **style.marker_look(colour))
+        axes.plot([NORMAL_PEAK], [strength], **style.marker_look(colour), label=f"_{label}, strength")
         tables.append(_table("normal", gap, data.opening, traction, strength * unit))
     _label(axes, "n", data.opening / length)
     return tables
@@ -48,9 +49,10 @@ def _plot_tangential(axes: Axes, data: xr.Dataset, law: LawScales) -> list[pd.Da
         axes.plot(data.slip_gap / length, traction / unit, color=colour, lw=1.2, label=label)
         strength = adhesion.tangential_strength(law.tangential_work, length, ratio) / unit
         bsg = adhesion.bsg_factor(ratio) * traction
-        axes.plot(data.slip_gap / length, bsg / unit, color=colour, lw=1.0, ls=":")
-        for sign in (1, -1):
-            axes.plot([sign * TANGENTIAL_PEAK], [sign * strength], **style.marker_look(colour))
+        axes.plot(data.slip_gap / length, bsg / unit, color=colour, lw=1.0, ls=":", label=f"_{label}, BSG law")
+        peaks = np.array([-1.0, 1.0])
+        look = style.marker_look(colour) | {"ls": "none", "label": f"_{label}, strengths"}
+        axes.plot(peaks * TANGENTIAL_PEAK, peaks * strength, **look)
         tables.append(_table("tangential", gap, data.slip_gap, traction, strength * unit).assign(bsg_traction=bsg))
     _label(axes, "t", data.slip_gap / length)
     return tables
@@ -67,7 +69,7 @@ def _table(
 def _label(axes: Axes, index: str, gap: xr.DataArray) -> None:
     """Add zero lines, labels and legend."""
     axes.axhline(0.0, **style.ZERO)
-    axes.axvline(0.0, **style.ZERO)
+    axes.axvline(0.0, **style.ZERO | {"label": "_closed" if index == "n" else "_no slip"})
     axes.set_xlabel(rf"$\Delta_{index}/\delta_{index}$")
     axes.set_ylabel(rf"$T_{{\mathrm{{if}},{index}}}\,\delta_{index}/\varphi_{index}$")
     axes.set_xlim(gap.values[[0, -1]])

@@ -27,17 +27,23 @@ def plot_fits(axes: Axes, data: xr.Dataset) -> None:
     data: of a study of rough lines, at one limit of pressure.
     """
     pressure, persson = persson_curve(data, POINTS)
-    for end, look in ESTIMATORS.values():
+    for words, (end, look) in ESTIMATORS.items():
         for name in data.fitted.values:
             fit = data.sel(fitted=name)
             kappa = fitted_kappa(pressure, fit[f"fit_b1{end}"].item(), fit[f"fit_b2{end}"].item())
             line = {key: value for key, value in look.items() if key == "alpha"}
-            axes.plot(pressure, kappa, **fit_look(str(name)) | line)
+            axes.plot(pressure, kappa, **fit_look(str(name)) | line, label=f"fit to {_fitted_words(name)}, {words}")
     for hurst_exponent in data.hurst_exponent.values:
         means = data.sel(hurst_exponent=hurst_exponent)
         look = style.hurst_look(hurst_exponent) | {"linestyle": "none", "color": style.GREY}
+        look |= {"label": f"$H={hurst_exponent:g}$, {CORRECTED}"}
         style.plot_means(axes, means.reduced_pressure, means, "kappa_corrected", **look)
-    axes.plot(pressure, persson / pressure, color=style.EXACT, lw=0.8, ls="-.")
+    axes.plot(pressure, persson / pressure, color=style.EXACT, lw=0.8, ls="-.", label="Persson (2D)")
+
+
+def _fitted_words(fitted: str) -> str:
+    """Return what was fitted: one Hurst exponent, or all."""
+    return "all $H$" if fitted == "all" else f"$H={fitted}$"
 
 
 def fit_look(fitted: str) -> dict[str, Any]:
@@ -53,8 +59,9 @@ def fit_handles(data: xr.Dataset) -> list[Line2D]:
     for name in data.fitted.values:
         fit = data.sel(fitted=name)
         b1, b2 = (_constant_text(fit, f"fit_{constant}_corrected") for constant in ("b1", "b2"))
-        words = "all $H$" if name == "all" else f"$H={name}$"
-        handles.append(Line2D([], [], label=f"{words}: $b_1$ = {b1}, $b_2$ = {b2}", **fit_look(str(name))))
+        handles.append(
+            Line2D([], [], label=f"{_fitted_words(name)}: $b_1$ = {b1}, $b_2$ = {b2}", **fit_look(str(name)))
+        )
     handles.append(Line2D([], [], color=style.GREY, alpha=style.FAINT, label=f"the same fits, area {AS_IN_THESIS}"))
     markers: dict[str, Any] = {"color": style.GREY, "marker": "o", "mfc": "white", "ms": 3.5, "ls": "none"}
     handles.append(Line2D([], [], label=f"$\\kappa$, {CORRECTED}", **markers))

@@ -27,7 +27,7 @@ def plot_leg(axes: Axes, data: xr.Dataset, leg: str, **look: Any) -> pd.DataFram
     axes : to plot on
     data : one path; states that did not converge are left out
     leg : one of `LEGS`
-    look : of the curve, with its color
+    look : of the curve, with its color and label
 
     Returns
     -------
@@ -37,14 +37,17 @@ def plot_leg(axes: Axes, data: xr.Dataset, leg: str, **look: Any) -> pd.DataFram
     approach = data.approach.values[states] / LawScales.of(data).normal_length
     load = reduced_line_load(converged(data.line_load, data).values[states], data)
     jumps = np.flatnonzero(data.jump.values[states] > 0)
-    label = look.pop("label", None)
+    label = look.pop("label")
+    name = label if label.startswith("_") else f"_{label}"
     for number, piece in enumerate(np.split(np.arange(load.size), jumps)):
-        axes.plot(approach[piece], load[piece], **look, label=label if number == 0 else None)
-    for jump in jumps[jumps > 0]:
-        axes.plot(approach[jump - 1 : jump + 1], load[jump - 1 : jump + 1], color=look["color"], ls=":", lw=0.7)
+        piece_label = f"{name}, after jump {number}" if number else label
+        axes.plot(approach[piece], load[piece], **look, label=piece_label)
+    for number, jump in enumerate(jumps[jumps > 0], 1):
+        ends = slice(jump - 1, jump + 1)
+        axes.plot(approach[ends], load[ends], color=look["color"], ls=":", lw=0.7, label=f"{name}, jump {number}")
     if np.isfinite(load).any():
         lowest = np.nanargmin(load)
-        axes.plot(approach[lowest], load[lowest], "o", color=look["color"], ms=3)
+        axes.plot(approach[lowest], load[lowest], "o", color=look["color"], ms=3, label=f"{name}, largest pull")
     return pd.DataFrame({"approach": approach, "load": load, "jump": data.jump.values[states]})
 
 

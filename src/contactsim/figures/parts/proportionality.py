@@ -15,6 +15,7 @@ from contactsim.analysis.rounding import rounded_texts
 from contactsim.figures import style
 from contactsim.grid import Array
 from contactsim.reference.persson import persson_area
+from contactsim.variables import RESULTS
 
 GRADIENTS = {
     r"$\kappa$: $\bar g$ of the whole surface": style.WHOLE,
@@ -22,6 +23,9 @@ GRADIENTS = {
 }
 """Labels and colours of the gradients that a factor counts with."""
 FACTOR_COLOURS = {"kappa": style.WHOLE, "kappa_r": style.CONTACT}
+PRESSURES = {"kappa": "$p^*$", "kappa_r": "$p_r^*$"}
+"""Reduced pressure that a factor is plotted against."""
+PERSSON_LABEL = r"Persson (2D), erf$(\sqrt{2}p^*)$"
 CORRECTED, AS_IN_THESIS = "corrected for the grid", "as in the thesis"
 ESTIMATORS: dict[str, tuple[str, dict[str, Any]]] = {
     AS_IN_THESIS: ("", {"marker": "", "alpha": style.FAINT, "linewidth": 1.6}),
@@ -31,10 +35,11 @@ ESTIMATORS: dict[str, tuple[str, dict[str, Any]]] = {
 
 
 def _curves(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, str, dict[str, Any]]]:
-    """Yield the means of each Hurst exponent with the end of an estimator's names and the look of its curves."""
+    """Yield the means of each Hurst exponent with the end of an estimator's names, look and label of its curves."""
     for hurst_exponent in data.hurst_exponent.values:
-        for end, look in ESTIMATORS.values():
-            yield data.sel(hurst_exponent=hurst_exponent), end, style.hurst_look(hurst_exponent) | look
+        for words, (end, look) in ESTIMATORS.items():
+            label = {"label": f"$H={hurst_exponent:g}$, {words}"}
+            yield data.sel(hurst_exponent=hurst_exponent), end, style.hurst_look(hurst_exponent) | look | label
 
 
 def plot_areas(axes: Axes, data: xr.Dataset) -> None:
@@ -42,7 +47,8 @@ def plot_areas(axes: Axes, data: xr.Dataset) -> None:
     for means, end, look in _curves(data):
         area, error = means[f"relative_contact_area{end}_mean"], _bars(means, "relative_contact_area", end)
         for factor, colour in FACTOR_COLOURS.items():
-            style.errorbars(axes, _pressure(means, factor + end), area, error, color=colour, **look)
+            curve = look | {"color": colour, "label": f"against {PRESSURES[factor]}, {look['label']}"}
+            style.errorbars(axes, _pressure(means, factor + end), area, error, **curve)
     axes.set(yscale="log", ylabel=r"relative contact area $a_{\mathrm{rel}}$")
 
 
@@ -51,7 +57,7 @@ def plot_factors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None:
     for means, end, look in _curves(data):
         for name in names:
             mean, error = means[f"{name}{end}_mean"], _bars(means, name, end)
-            style.errorbars(axes, _pressure(means, name + end), mean, error, color=FACTOR_COLOURS[name], **look)
+            style.errorbars(axes, _pressure(means, name + end), mean, error, **_factor_look(name, look))
 
 
 def plot_distances(axes: Axes, data: xr.Dataset, levels: Mapping[str, float]) -> None:
@@ -60,8 +66,8 @@ def plot_distances(axes: Axes, data: xr.Dataset, levels: Mapping[str, float]) ->
         for name, level in levels.items():
             distance = 100 * (means[f"{name}{end}_mean"] / level - 1)
             error = 100 * _bars(means, name, end) / level
-            style.errorbars(axes, _pressure(means, name + end), distance, error, color=FACTOR_COLOURS[name], **look)
-    axes.axhline(0, color=style.EXACT, lw=0.8, ls=style.THESIS)
+            style.errorbars(axes, _pressure(means, name + end), distance, error, **_factor_look(name, look))
+    axes.axhline(0, color=style.EXACT, lw=0.8, ls=style.THESIS, label="thesis")
 
 
 def plot_grid_errors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None:
@@ -71,8 +77,13 @@ def plot_grid_errors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None
             if f"{name}{end}_grid_error" in means:
                 change = means[f"{name}{end}_grid_error"]
                 error = 100 * (grid_error(means, name + end) if end else change) / means[f"{name}{end}_mean"]
-                axes.plot(_pressure(means, name + end), error, color=FACTOR_COLOURS[name], **look)
+                axes.plot(_pressure(means, name + end), error, **_factor_look(name, look))
     axes.set(yscale="log")
+
+
+def _factor_look(name: str, look: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the look of the curve of a factor, with its colour and its symbol in the label."""
+    return {**look, "color": FACTOR_COLOURS[name], "label": f"{RESULTS[name].symbol}, {look['label']}"}
 
 
 def _bars(means: xr.Dataset, name: str, end: str) -> xr.DataArray:
@@ -105,8 +116,8 @@ def persson_curve(data: xr.Dataset, points: int = 100) -> tuple[Array, Array]:
 def plot_persson(area: Axes, factor: Axes, data: xr.Dataset) -> None:
     """Plot Persson's area and the factor κ that follows from it."""
     pressure, persson = persson_curve(data)
-    area.plot(pressure, persson, color=style.EXACT, lw=0.8, ls="-.")
-    factor.plot(pressure, persson / pressure, color=style.EXACT, lw=0.8, ls="-.")
+    for panel, values in ((area, persson), (factor, persson / pressure)):
+        panel.plot(pressure, values, color=style.EXACT, lw=0.8, ls="-.", label=PERSSON_LABEL)
 
 
 def trend_text(data: xr.Dataset, name: str = "kappa_r_corrected") -> str:

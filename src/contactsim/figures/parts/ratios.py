@@ -20,7 +20,8 @@ LIMIT_SHIFT = 0.07
 def plot_curves(axes: Axes, table: pd.DataFrame, colour: str) -> None:
     """Plot the corrected ratios with their errors, one curve a Hurst exponent."""
     for hurst_exponent, rows in table.groupby("hurst_exponent"):
-        look = style.hurst_look(float(str(hurst_exponent))) | {"color": colour}
+        label = f"$H={float(str(hurst_exponent)):g}$, {CORRECTED}"
+        look = style.hurst_look(float(str(hurst_exponent))) | {"color": colour, "label": label}
         style.errorbars(axes, rows.reduced_pressure, rows.value, rows.error, **look)
 
 
@@ -35,22 +36,31 @@ def plot_equal_grids(axes: Axes, table: pd.DataFrame, grid: str, colour: str) ->
     colour : of the curves
     """
     exponents = sorted(table.hurst_exponent.unique())
+    on_grid_label, limit_label = _thesis_labels(grid)
     for place, hurst_exponent in enumerate(exponents):
         rows = table[table.hurst_exponent == hurst_exponent]
         look = style.hurst_look(hurst_exponent) | {"color": colour}
         on_grid, limit = rows[rows.grid == grid], rows[rows.grid == IN_LIMIT]
-        style.errorbars(axes, on_grid.reduced_pressure, on_grid.value, None, **look | ESTIMATORS[AS_IN_THESIS][1])
+        grid_look = look | ESTIMATORS[AS_IN_THESIS][1] | {"label": f"$H={hurst_exponent:g}$, {on_grid_label}"}
+        style.errorbars(axes, on_grid.reduced_pressure, on_grid.value, None, **grid_look)
         shift = 1 + LIMIT_SHIFT * (place - (len(exponents) - 1) / 2)
         bars = limit_error(limit.error, limit.spread)
         limit_look = look | {"marker": LIMIT_MARKER, "markersize": 4.5, "alpha": 0.7}
+        limit_look |= {"label": f"$H={hurst_exponent:g}$, {limit_label}"}
         style.plot_limits(axes, limit.value, limit.reduced_pressure * shift, bars, **limit_look)
+
+
+def _thesis_labels(grid: str) -> tuple[str, str]:
+    """Return the labels of the estimator of the thesis, on a grid and extrapolated."""
+    return f"{AS_IN_THESIS}, {grid} per wavelength", f"{AS_IN_THESIS}, extrapolated"
 
 
 def ratio_handles(grid: str) -> list[Line2D]:
     """Return legend handles of the estimators of a ratio; grid: the one of both, as a table names it."""
+    on_grid, limit = _thesis_labels(grid)
     labels = {
         CORRECTED: {"marker": "o", "markerfacecolor": "white", "ms": 3.5},
-        f"{AS_IN_THESIS}, {grid} per wavelength": ESTIMATORS[AS_IN_THESIS][1],
-        f"{AS_IN_THESIS}, extrapolated": {"marker": LIMIT_MARKER, "ms": 4.5, "ls": "none", "alpha": 0.7},
+        on_grid: ESTIMATORS[AS_IN_THESIS][1],
+        limit: {"marker": LIMIT_MARKER, "ms": 4.5, "ls": "none", "alpha": 0.7},
     }
     return [Line2D([], [], color=style.GREY, label=label, **look) for label, look in labels.items()]

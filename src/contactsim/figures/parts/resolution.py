@@ -52,7 +52,8 @@ def plot_grids(data: xr.Dataset, finer: xr.Dataset, axes: list[Axes], thesis: Ma
     for panel, name in zip(axes, QUANTITIES, strict=True):
         plot_factor(table, name, panel)
         if (factor := _factor(name)) in thesis:
-            panel.axhline(thesis[factor], color=style.EXACT, lw=0.8, ls=style.THESIS)
+            look = {"color": style.EXACT, "lw": 0.8, "ls": style.THESIS}
+            panel.axhline(thesis[factor], label=f"thesis, {thesis[factor]:.2f}", **look)
         style.add_headroom(panel, 0.35)
         panel.text(0.97, 0.97, "\n".join(change_texts(table, name, middle)), transform=panel.transAxes, **CORNER)
     for pair in (axes[:2], axes[2:]):
@@ -73,13 +74,15 @@ def plot_factor(table: pd.DataFrame, name: str, axes: Axes) -> None:
     loads, exponents = sorted(rows.reduced_pressure.unique()), sorted(rows.hurst_exponent.unique())
     for (hurst_exponent, load), curve in rows.groupby(["hurst_exponent", "reduced_pressure"]):
         look = style.hurst_look(hurst_exponent)
-        look |= {"color": FACTOR_COLOURS[_factor(name)], "alpha": _opacity(loads, load)}
+        label = f"$H={hurst_exponent:g}$, $p^*={load:g}$"
+        look |= {"color": FACTOR_COLOURS[_factor(name)], "alpha": _opacity(loads, load), "label": label}
         x = np.array([grid_count(grid) for grid in curve.grid])
         on_grid, limit = curve[np.isfinite(x)], curve[~np.isfinite(x)]
         style.errorbars(axes, x[np.isfinite(x)], on_grid.value, on_grid.standard_error, **look)
         if len(limit):
             place = end * (1 + 0.05 * (3 * loads.index(load) + exponents.index(hurst_exponent)))
-            style.plot_limits(axes, limit.value, [place], limit_error(limit.standard_error, limit.spread), **look)
+            bars = limit_error(limit.standard_error, limit.spread)
+            style.plot_limits(axes, limit.value, [place], bars, **look | {"label": f"{label}, limit of fine grids"})
     axes.axvspan(end * 0.93, end * 1.5, color="#eeeeee", zorder=0, lw=0)
     axes.set(xscale="log", xlabel="points per shortest wavelength", ylabel=RESULTS[name].symbol)
     axes.set_xlim(counts[0] / 1.2, end * 1.5)

@@ -67,9 +67,9 @@ def plot_path(axes: Axes, data: xr.Dataset, x: xr.DataArray, name: str, label: s
     """
     marker = look.pop("marker", "o")
     mean, error = data[f"{name}_mean"], data[f"{name}_standard_error"]
-    axes.plot(x, mean, **look)
+    axes.plot(x, mean, **look, label=f"_{label}")
     full = on_full_grid(data)
-    markers = {"fmt": marker, "ms": 3, "mfc": "white", "color": look["color"]}
+    markers = {"fmt": marker, "ms": 3, "mfc": "white", "color": look["color"], "label": f"_{label}, on the full grid"}
     style.errorbars(axes, x.values[full], mean.values[full], _bars(error, full), **markers)
     axes.plot([], [], marker=marker, ms=3, mfc="white", label=label, **look)
     table = {"case": label.replace("$", ""), "indentation": data.indentation, "x": x, "whole_grid": full}
@@ -120,7 +120,8 @@ def plot_repulsions(
         for work in data.work_of_separation.values:
             variant = data.sel(work_of_separation=work)
             x, mean = across(variant), variant[f"{name}_mean"]
-            axes.plot(x, mean, color=colours[float(work)], ls=line, lw=0.6)
+            label = f"_{work_label(data, work)}, {words}"
+            axes.plot(x, mean, color=colours[float(work)], ls=line, lw=0.6, label=label)
             table = {"case": f"{words}, {work:g} N/m", "indentation": variant.indentation, "x": x}
             table |= {f"{name}_{end}": variant[f"{name}_{end}"] for end in ENDS}
             tables.append(pd.DataFrame(table))
@@ -138,7 +139,8 @@ def plot_thin_against_pressure(
     for data, line, words in ((repulsive, ":", "repulsion alone"), (stiff, "-.", "stiff repulsion")):
         for work in data.work_of_separation.values:
             means = at_equal_pressure(data.sel(work_of_separation=work), True, AREA, end)
-            axes.plot(means.abscissa, means.area, color=colours[float(work)], ls=line, lw=0.6)
+            label = f"_{work_label(data, work)}, {words}"
+            axes.plot(means.abscissa, means.area, color=colours[float(work)], ls=line, lw=0.6, label=label)
             tables.append(pd.DataFrame(vars(means)).assign(case=f"{words}, {work:g} N/m"))
     return tables
 
@@ -160,7 +162,8 @@ def plot_cycle(data: xr.Dataset, label: str, colour: str, axes: dict[str, Axes])
         for leg, states in zip(LEGS, legs(indentation), strict=True):
             states = slice(max(states.start - 1, 0), states.stop)
             first = leg == LEGS[0]
-            look = {"color": colour, "lw": 1.0, "ls": "-" if first else "--", "label": label if first else None}
+            leg_label = label if first else f"_{label}, {leg}"
+            look = {"color": colour, "lw": 1.0, "ls": "-" if first else "--", "label": leg_label}
             panel.plot(indentation[states], table[name][states], **look)
         panel.set(xlabel=LABELS["indentation"], ylabel=LABELS[name])
     return pd.DataFrame(table)
@@ -205,14 +208,15 @@ def plot_against_pressure(
     """
     marker, name = look.pop("marker", "o"), AREA if AREA in data else "relative_contact_area"
     means = at_equal_pressure(data, reduced, name, end)
-    axes.plot(means.abscissa, means.area, **{"lw": 1.0, **look})
+    axes.plot(means.abscissa, means.area, **{"lw": 1.0, **look}, label=f"_{label}")
     least = int(np.nanargmin(data.normalised_pressure_mean.values))
     before = slice(0, least + 1)
     x = reduced_pressure(data) if reduced else data.normalised_pressure_mean
-    axes.plot(x[before], data[f"{AREA}_mean"][before], color=look["color"], lw=0.6, alpha=style.FAINT)
+    faint = {"color": look["color"], "lw": 0.6, "alpha": style.FAINT, "label": f"_{label}, at equal approach"}
+    axes.plot(x[before], data[f"{AREA}_mean"][before], **faint)
     some = slice(4, None, 8)
     bars = {"xerr": means.abscissa_error[some] if reduced else None, "yerr": means.area_error[some]}
-    dots = {"fmt": marker, "ms": 3, "mfc": "white", "color": look["color"]}
+    dots = {"fmt": marker, "ms": 3, "mfc": "white", "color": look["color"], "label": f"_{label} with its error"}
     axes.errorbar(means.abscissa[some], means.area[some], **bars, **dots, **style.BARS)
     axes.plot([], [], marker=marker, ms=3, mfc="white", label=label, **{"lw": 1.0, **look})
     return pd.DataFrame(vars(means)).assign(case=label.replace("$", ""))
@@ -222,7 +226,7 @@ def label_pressures(axes: Axes) -> None:
     """Label a panel of area against pressure, and limit it to contact that is not yet complete."""
     axes.set(xlabel=LABELS["normalised_pressure"], ylabel=LABELS["relative_interacting_area"])
     axes.set(xlim=plotted_range(axes, -0.006, 0.03), ylim=(0, 1.02))
-    axes.legend(loc="best", fontsize=6.5)
+    axes.legend(loc="best", fontsize=7)
 
 
 def plotted_range(axes: Axes, low: float, high: float) -> tuple[float, float]:
@@ -242,9 +246,10 @@ def plot_criteria(axes: Axes, data: xr.Dataset, ratio_axes: Axes | None) -> pd.D
         mean, error = member_mean(area)
         label = f"above {INTERACTING[name]:g} of the strength" if name in INTERACTING else "repulsive"
         axes.plot(data.indentation, mean, color=colour, lw=1.0, label=label)
-        axes.errorbar(data.indentation[-1], mean[-1], error[-1], color=colour, **style.BARS)
+        look = style.BARS | {"color": colour, "label": f"_{label}, error at the end"}
+        axes.errorbar(data.indentation[-1], mean[-1], error[-1], **look)
         if ratio_axes is not None:
-            ratio_axes.plot(data.indentation, mean / usual, color=colour, lw=1.0)
+            ratio_axes.plot(data.indentation, mean / usual, color=colour, lw=1.0, label=label)
         table = {"indentation": data.indentation, "area": mean, "standard_error": error}
         tables.append(pd.DataFrame(table).assign(criterion=name))
     axes.set(xlabel=LABELS["indentation"], ylabel=LABELS[AREA], ylim=(0, 1))

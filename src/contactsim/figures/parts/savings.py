@@ -22,7 +22,8 @@ def plot_simplified(
     rough.plot_path(axes, complete, complete.indentation, rough.AREA, label, **look)
     full = on_full_grid(simplified)
     mean, error = (simplified[f"{rough.AREA}_{end}"][full] for end in ("mean", "standard_error"))
-    markers = style.marker_look(colour, "s" if work else "o") | {"ls": ""}
+    markers = style.marker_look(colour, "s" if work else "o")
+    markers |= {"ls": "", "label": f"_{label}, without negligible effects"}
     axes.errorbar(simplified.indentation[full], mean, error, **markers)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -44,7 +44,7 @@ def plot_forces(axes: Axes, x: pd.Series, table: pd.DataFrame, width: float) -> 
 
 def plot_gap(axes: Axes, x: Any, gap: Any, width: float, alpha: float | None = None) -> None:
     """Plot a gap, filled where it is closed."""
-    axes.plot(x, gap, color=style.EXACT, lw=width)
+    axes.plot(x, gap, color=style.EXACT, lw=width, label="_gap")
     fill = {"color": style.CONTACT} | ({} if alpha is None else {"alpha": alpha, "lw": 0})
     axes.fill_between(x, gap, 0.0, where=gap < 0, **fill)
 
@@ -60,17 +60,41 @@ def plot_stages(
     places = stages(data, table)
     path_axes.plot(table.relative_slide, table.area, color=colour, lw=1.1, label=label)
     points = table.iloc[places]
-    path_axes.plot(points.relative_slide, points.area, ls="none", **style.marker_look(colour, size=3.5))
+    names = dict(zip(STAGES, places, strict=True))
+    mark_stages(path_axes, table.relative_slide, table.area, names, colour, f"_{label}, A to E")
     for number, (stage, point) in enumerate(zip(STAGES, points.itertuples(), strict=True)):
-        offset = (2, -9) if stage == "D" else (2, 3)
-        path_axes.annotate(stage, (point.relative_slide, point.area), offset, textcoords="offset points", fontsize=6.5)
         x = number + STAGE_SPACING * case
-        stage_axes.plot([x, x], [point.trailing, point.leading], color=colour, lw=5, solid_capstyle="butt")
+        look = {"color": colour, "lw": 5, "solid_capstyle": "butt", "label": f"{label}, {stage}"}
+        stage_axes.plot([x, x], [point.trailing, point.leading], **look)
     ends = [STAGE_SPACING * case - 0.5, STAGE_SPACING * case + 4.5]
-    for edge in (table.trailing.iloc[0], table.leading.iloc[0]):
-        stage_axes.plot(ends, [edge] * 2, color=colour, lw=0.6, ls=":")
+    for words in ("trailing", "leading"):
+        look = {"color": colour, "lw": 0.6, "ls": ":", "label": f"{label}, {words} edge before sliding"}
+        stage_axes.plot(ends, [table[words].iloc[0]] * 2, **look)
     columns = ["slide", "area", "force", "trailing", "leading"]
     return points[columns].reset_index(drop=True).assign(stage=list(STAGES))
+
+
+def passed_stages(data: xr.Dataset, table: pd.DataFrame) -> dict[str, int]:
+    """Return the states A to E of a slide by their letters; none of a slide that has not reached its first slip.
+
+    data, table: of `contactsim.analysis.slide_tables.slide_table`
+    """
+    slips = data.event_sliding_distance.dropna("event")
+    if not slips.size or float(slips[0]) > table.slide.iloc[-1]:
+        return {}
+    return dict(zip(STAGES, stages(data, table), strict=True))
+
+
+def mark_stages(
+    axes: Axes, x: pd.Series, y: pd.Series, places: Mapping[str, int], colour: str, label: str = "_A to E"
+) -> None:
+    """Mark states of a curve with their letters; places: states by their letters."""
+    states = list(places.values())
+    look = style.marker_look(colour, size=3.5) | {"ls": "none", "label": label}
+    axes.plot(x.iloc[states], y.iloc[states], **look)
+    for name, state in places.items():
+        offset = (2, -9) if name == "D" else (2, 3)
+        axes.annotate(name, (x.iloc[state], y.iloc[state]), offset, textcoords="offset points", fontsize=7)
 
 
 def label_stages(axes: Axes, cases: Sequence[str]) -> None:

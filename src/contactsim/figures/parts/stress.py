@@ -46,7 +46,7 @@ def _plot_map(axes: Axes, fields: SubsurfaceFields, values: Array, label: str) -
     limit = np.abs(values).max() or 1.0
     place = fields.position, fields.depth
     colours = {"cmap": COLOURS, "vmin": -limit, "vmax": limit}
-    mesh = axes.pcolormesh(*place, values, shading="gouraud", rasterized=True, **colours)
+    mesh = axes.pcolormesh(*place, values, shading="gouraud", rasterized=True, label=label, **colours)
     axes.contour(*place, values, levels=limit * np.linspace(-0.9, 0.9, 10), colors="k", linewidths=0.3)
     axes.figure.colorbar(mesh, ax=axes, label=label, location="bottom", aspect=25)
     depths = fields.depth.max(), fields.depth.min()

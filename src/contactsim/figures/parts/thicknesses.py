@@ -40,6 +40,7 @@ def plot_bodies(data: xr.Dataset, axes: list[Axes]) -> None:
         body = data.sel(hurst_exponent=hurst_exponent, poisson_ratio=ratio, thickness=thickness)
         look = style.poisson_look(ratio) | {"color": style.hurst_colour(hurst_exponent), "linewidth": 0.9}
         look["linestyle"] = thickness_line(data, thickness)
+        look["label"] = rf"_$H={hurst_exponent:g}$, $\nu={ratio:g}$, {_body_label(thickness)}"
         _plot_body(body, axes, look, thickness == data.thickness.max())
 
 
@@ -49,14 +50,16 @@ def _plot_body(body: xr.Dataset, axes: list[Axes], look: dict[str, Any], thickes
     pressure = body.reduced_pressure_contact_mean
     style.plot_means(area, pressure, body, "relative_contact_area", **look)
     style.plot_means(factor, pressure, body, "kappa_r", **look)
+    pairs = look | {"alpha": style.FAINT, "label": f"{look['label']}, pairs in contact"}
     if thickest:
-        style.plot_means(factor, pressure, body, "kappa_r_pairs", **look, alpha=style.FAINT)
+        style.plot_means(factor, pressure, body, "kappa_r_pairs", **pairs)
     style.plot_grid_error(error, pressure, body, "kappa_r", **look)
-    style.plot_grid_error(error, pressure, body, "kappa_r_pairs", **look, alpha=style.FAINT)
+    style.plot_grid_error(error, pressure, body, "kappa_r_pairs", **pairs)
     if not thickest:
         for name, alpha in CHANGE_OPACITIES.items():
             changes = body[f"{name}_change"], body[f"{name}_change_standard_error"]
-            style.errorbars(change, body.reduced_pressure, *changes, **look, alpha=alpha)
+            label = f"{look['label']}, {RESULTS[name].symbol}"
+            style.errorbars(change, body.reduced_pressure, *changes, **look | {"alpha": alpha, "label": label})
 
 
 def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:

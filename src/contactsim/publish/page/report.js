@@ -99,7 +99,8 @@ const showTip = (image, event) => {
   const point = shown.has(image) && nearest(image, event);
   if (!point) { hideTip(); return; }
   const {curve, index, left, top} = point;
-  const values = [curve.x[index], curve.y[index]].map((value, axis) => line("span", curve.axes[axis] + ": " + value));
+  const values = [curve.x, curve.y, ...(curve.values ? [curve.values] : [])]
+    .map((texts, axis) => line("span", curve.axes[axis] + ": " + texts[index]));
   tip.replaceChildren(...(curve.name ? [line("b", curve.name)] : []), ...values);
   tip.hidden = ring.hidden = false;
   ring.style.cssText = `left: ${left}px; top: ${top}px; border-color: ${curve.colour}`;
