@@ -28,7 +28,7 @@ from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
 from contactsim.status import FLAGS, LIMITS, Status
 from contactsim.study.claim_plan import CLAIM_KEYS
-from contactsim.study.figure_plan import FIGURE_KEYS
+from contactsim.study.figure_plan import FIGURE_KEYS, FILM_KEYS
 from contactsim.study.keys import (
     ACCURACY_KEYS,
     ERROR_RUNS,
@@ -242,6 +242,7 @@ TABLES = [
         TIER_KEYS,
         STUDY_KEYS,
         FIGURE_KEYS,
+        FILM_KEYS,
         ROBUSTNESS_KEYS,
         ACCURACY_KEYS,
         NEGLECT_KEYS,

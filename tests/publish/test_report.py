@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import json
 import re
@@ -118,6 +119,21 @@ def test_the_page_needs_nothing_but_itself_and_its_links_lead_somewhere(page):
     assert {one[1:] for one in used if one.startswith("#")} <= set(places)
 
 
+def test_a_film_stands_with_its_figure_as_its_file_has_it(page, made, plan):
+    films = [name for name, figure in plan.figures.items() if figure.settings["film"] is not None]
+    assert page.count('<details class="film">') == len(films) >= 4
+    for name in films:
+        section = page[page.index(f'<h3 id="{name}">') :]
+        section = section[: section.index("</section>")]
+        file = (made / plan.results / f"figures/{name}.gif").read_bytes()
+        assert f'src="data:image/gif;base64,{base64.b64encode(file).decode()}"' in section
+        assert f'href="figures/{name}.gif">film (GIF)</a>' in section
+
+
+def test_the_page_is_small_enough_to_send(page):
+    assert len(page.encode()) <= 10e6
+
+
 def test_other_settings_have_another_digest(plan):
     assert report_settings(plan) == report_settings(plan)
     assert report_settings(Plan.read(ROOT / "config", "standard"))["data"] != report_settings(plan)["data"]
@@ -159,6 +175,23 @@ def test_a_browser_shows_all_of_it_without_errors_or_requests(shown, width, dark
     assert found == {"page": width, "unseen": [], "theme": "dark" if dark else "light", "captions": 0}
     assert {url.partition(":")[0] for url in window.requests} <= {"file", "data", "blob"}
     assert sum(url.startswith("file") for url in window.requests) == 1
+    assert window.errors == []
+
+
+@pytest.mark.parametrize("still", [False, True])
+def test_films_play_unless_the_system_asks_for_less_motion(shown, still):
+    window = shown(width=1400, still=still)
+    films = "[...document.querySelectorAll('.film')]"
+    assert window.evaluate(f"return {films}.every(one => one.open === {json.dumps(not still)});")
+    script = f"""
+        const film = {films}[0];
+        film.open = true;
+        await wait(() => film.querySelector("img").checkVisibility());
+        film.querySelector("summary").click();
+        await wait(() => !film.open);
+        return film.querySelector("img").checkVisibility();
+    """
+    assert window.evaluate(script) is False
     assert window.errors == []
 
 

@@ -132,7 +132,8 @@ def test_every_tier_has_the_loads_that_a_figure_selects_and_a_fit_needs(tiers):
             study = plan.studies[figure.settings["study"]].settings
             least, largest = figure.settings["select"].get(study["load"]["name"], (-float("inf"), float("inf")))
             shown = sum(least <= value <= largest for value in study["load"]["values"])
-            few = "fields" in study["keep"], study["slide"] is not None  # a slide goes on from where a path ends
+            one = "fields" in study["keep"] and figure.settings["film"] is None
+            few = one, study["slide"] is not None  # a slide goes on from where a path ends
             assert shown == 1 if few[0] else shown >= (1 if few[1] else 3)
 
 
@@ -144,7 +145,8 @@ def test_every_figure_has_a_function_that_takes_data_axes_and_the_values_of_the_
         shown = max(len(figure.studies), 1)  # a law by itself is one dataset too
         _, *beside, axes = list(inspect.signature(draw).parameters)[: shown + 1]
         assert (len(beside), axes) == (shown - 1, "axes")
-        assert list(inspect.signature(draw).parameters)[shown + 1 :] == list(figure.settings["reference"])
+        film = [] if figure.settings["film"] is None else ["frame"]
+        assert list(inspect.signature(draw).parameters)[shown + 1 :] == [*film, *figure.settings["reference"]]
         assert draw.__doc__
 
 
@@ -178,7 +180,6 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
     unsaid = {"panels": 1, "rows": 1, "select": {}, "reference": {}, "datasets": [], "law": None, "film": None}
-    unsaid |= {"footer": "full"}
     assert plan.figures["fig_3_1"].settings == unsaid | TWICE
     assert plan.dataset_name("smooth") == "ch3_smooth"
 

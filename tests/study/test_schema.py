@@ -32,6 +32,7 @@ def test_every_chapter_has_the_keys_of_the_schema_and_names_it_to_editors(file):
         (("studies", "indentation", "cohesive_zone"), "work", 3.0),
         (("studies", "indentation", "path"), "aproach", [0.0, 1.0]),
         (("figures", "fig_4_2"), "colour", "red"),
+        (("figures", "jump_and_pull_off", "film"), "speed", 8.0),
         ((), "figure", {}),
     ],
 )

@@ -54,8 +54,11 @@ class Page:
             self.requests.append(params["request"]["url"])
         return message
 
-    def open(self, url: str, width: int, height: int = 900, dark: bool = False) -> None:
-        """Open an address in a window of this size, and wait until it is loaded."""
+    def open(self, url: str, width: int, height: int = 900, dark: bool = False, still: bool = False) -> None:
+        """Open an address in a window of this size, and wait until it is loaded.
+
+        still: the system asks for less motion
+        """
         self.errors, self.requests, self._session = [], [], None
         target = self.send("Target.createTarget", url="about:blank")["targetId"]
         self._session = self.send("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
@@ -64,7 +67,8 @@ class Page:
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self.send("Emulation.setDeviceMetricsOverride", **size)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self.send("Emulation.setEmulatedMedia", features=[scheme])
+        motion = {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}
+        self.send("Emulation.setEmulatedMedia", features=[scheme, motion])
         self.send("Page.navigate", url=url)
         while self._read().get("method") != "Page.loadEventFired":
             pass

@@ -8,11 +8,7 @@ for _name, _figure in PLAN.figures.items():
             data=[PRODUCTS.dataset(name) for name in _datasets],
             costs=[PRODUCTS.cost_table(name) for name in _datasets],
         output:
-            png=RESULTS / f"figures/{_name}.png",
-            pdf=RESULTS / f"figures/{_name}.pdf",
-            svg=RESULTS / f"figures/{_name}.svg",
-            csv=RESULTS / f"figures/{_name}.csv",
-            **{ending: RESULTS / f"figures/{_name}.{ending}" for ending in _figure.endings[4:]},
+            **{ending: RESULTS / f"figures/{_name}.{ending}" for ending in _figure.endings},
         log: RESULTS / f"logs/figures/{_name}.log"
         params: plan=RESULT_JOBS.figure_params(_name)
         group: group_on_cluster(workflow, "figures")

@@ -17,7 +17,6 @@ from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
 from contactsim.figures.parts import flats, law_curves
 from contactsim.figures.parts import slide_curves as curves
-from contactsim.observables.adhesion import contact_length
 from contactsim.observables.sliding import EVENT
 from contactsim.reference import springs
 
@@ -197,39 +196,6 @@ def _plot_onsets(axes: Axes, data: xr.Dataset, colour: str, marker: str) -> pd.D
     return table.assign(study=label)
 
 
-def peel_and_slip(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot the gaps under the probe at A to E and last, and its force and contact (beyond the thesis)."""
-    path = data.isel(member=0)
-    table, state = slide_table(path), path.isel(snapshot=-1)
-    position, nodes = slide_tables.node_positions(path)
-    gap, slip = (state[f"{name}_gap"].values[nodes] for name in ("normal", "tangential"))
-    places = curves.passed_stages(path, table)
-    for name, colour in zip(places, style.shades(range(len(curves.STAGES))).values(), strict=False):
-        slide = float(table.slide[places[name]])
-        passed = path.sel(snapshot=slide, method="nearest")
-        look = {"color": colour, "lw": 0.9, "label": f"{name}, {float(passed.snapshot):g} nm"}
-        axes[0].plot(position, passed.normal_gap.values[nodes], **look)
-        axes[1].plot(position, passed.tangential_gap.values[nodes], **look)
-    curves.plot_gap(axes[0], position, gap, 1.0, alpha=0.6)
-    axes[0].axhline(0.0, **style.ZERO)
-    axes[0].set(xlabel=curves.POSITION, ylabel="gap (nm); filled: contact", xlim=(-0.1, 0.1), ylim=(-0.6, 3.0))
-    axes[1].plot(position, slip, color=style.EXACT, lw=1.0, ls="--", label=f"last, {float(state.snapshot):g} nm")
-    axes[1].legend(loc="lower center", ncols=2)
-    axes[1].set(xlabel=curves.POSITION, ylabel="tangential gap (nm)", xlim=(-0.1, 0.1), ylim=(-6, 12))
-    for panel, name, colour, label in (
-        (axes[2], "force", style.CONTACT, curves.FORCE),
-        (axes[3], "area", style.WHOLE, curves.AREA),
-    ):
-        panel.plot(table.slide, table[name], color=colour, lw=1.1, label=label)
-        panel.plot(table.slide.iloc[-1], table[name].iloc[-1], "o", color=colour, ms=4, label="last state")
-        curves.mark_stages(panel, table.slide, table[name], places, colour)
-        panel.set(xlabel=curves.SLIDE_NM, ylabel=label)
-    size = contact_length(state.normal_gap.values, float(path.length) / path.x.size)
-    style.add_letters(axes)
-    axes[0].set_title(rf"last: $U_x={float(state.snapshot):g}$ nm, contact {size:.0f} nm", fontsize=9)
-    return table
-
-
 def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot force and contact of the probe sliding to and fro, at approaches and under loads (beyond the thesis)."""
     tables = []
@@ -250,21 +216,6 @@ def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.
         force.legend(loc="upper left", ncols=2)
     style.add_letters(axes)
     return pd.concat(tables)
-
-
-def rough_slide_forces(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
-    """Plot forces and contact of a rough surface sliding over a flat, and its gap before (beyond the thesis)."""
-    path = data.isel(member=0)
-    table, before = slide_table(path), path.sel(snapshot=0.0, method="nearest", tolerance=style.PLACE_TOLERANCE)
-    curves.plot_gap(axes[0], path.x / path.length, before.normal_gap, 0.8)
-    axes[0].set(xlabel="$x/w$", ylabel="gap at $U_x=0$ (nm)")
-    curves.plot_forces(axes[1], table.slide, table, 1.0)
-    axes[1].set(xlabel=curves.SLIDE_NM)
-    axes[1].legend(loc="best")
-    axes[2].plot(table.slide, table.area, color=style.WHOLE, lw=1.0, label=r"$\bar A$")
-    axes[2].set(xlabel=curves.SLIDE_NM, ylabel=curves.AREA)
-    style.add_letters(axes)
-    return table
 
 
 def footer(data: xr.Dataset) -> str:

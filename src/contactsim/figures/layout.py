@@ -5,22 +5,18 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-import numpy as np
 import pandas as pd
 import xarray as xr
-from matplotlib.animation import PillowWriter
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from contactsim.analysis.dataset_summary import sources_summary
 from contactsim.analysis.ensemble import widen_interval
 from contactsim.analysis.wording import printed
-from contactsim.figures import style
+from contactsim.figures import film, style
 from contactsim.figures.panel_table import error_texts, panel_table
 from contactsim.figures.vector import write_vector
 from contactsim.files import write_atomically
@@ -33,10 +29,6 @@ PRINT_WIDTH, SMALLEST_TEXT = 7.2, 6.0
 """Width at which a figure is printed at most, inches (two columns of a journal), and its smallest text then, points."""
 FOOTER = "footer"
 """Name of the footer among the texts of a figure."""
-FILM_DPI = 110
-"""Resolution of the frames of a film."""
-SLIDE_TOLERANCE = 1e-6
-"""Largest distance of a state from a snapshot of the same sliding distance, nm."""
 
 
 @mpl.rc_context(style.RC_PARAMS)
@@ -57,16 +49,36 @@ def write_figure(
     parts = [selected(part, settings["select"]) for part in data]
     footer = sources_summary(parts, costs) if costs else module.footer(*parts)
     figure, panels = empty_figure(settings, footer, settings["rows"])
-    axes = panels if len(panels) > 1 else panels[0]
-    numbers = plot(*parts, axes, **settings["reference"])
+    numbers = plot(*parts, _one_or_all(panels), **settings["reference"])
     points = panel_table(figure)
     footer_text = next(text for text in figure.texts if text.get_gid() == FOOTER)
     footer_text.set_text(" · ".join([footer, *error_texts(points)]))
     tables = [table for table in (points, numbers) if len(table)]
     save(figure, pd.concat(tables, ignore_index=True), targets)
     if settings["film"] is not None:
-        speed = settings["film"]
-        write_atomically(targets["gif"], lambda path: write_film(figure, axes, plot, parts[0], speed, path))
+        save_film(settings, plot, parts, targets["gif"])
+
+
+def save_film(
+    settings: Mapping[str, Any], plot: Callable[..., pd.DataFrame], data: Sequence[xr.Dataset], target: str
+) -> None:
+    """Write the film of a figure through the states of its first dataset, without caption and footer.
+
+    settings: of the figure; plot: its function; data: the datasets that it shows
+    """
+    figure, panels = empty_figure({**settings, "caption": ""}, "", settings["rows"])
+
+    def draw(frame: int) -> None:
+        """Draw one state on the panels."""
+        plot(*data, _one_or_all(panels), frame=frame, **settings["reference"])
+
+    frames, speed = film.choose_frames(data[0], settings["film"]["frames"]), settings["film"]["frames_per_second"]
+    write_atomically(target, lambda path: film.write_film(figure, draw, frames, speed, path))
+
+
+def _one_or_all(panels: list[Axes]) -> Axes | list[Axes]:
+    """Return the axes as a figure's function takes them: the only ones, or a list."""
+    return panels if len(panels) > 1 else panels[0]
 
 
 def selected(data: xr.Dataset, ranges: Mapping[str, tuple[float, float]]) -> xr.Dataset:
@@ -114,31 +126,3 @@ def save(figure: Figure, table: pd.DataFrame, targets: Mapping[str, str]) -> Non
     write_atomically(targets["pdf"], lambda path: figure.savefig(path, metadata={"CreationDate": None}))
     write_vector(figure, targets["svg"])
     write_atomically(targets["csv"], lambda path: table.to_csv(path, index=False))
-
-
-def write_film(
-    figure: Figure,
-    axes: list[Axes] | Axes,
-    plot: Callable[..., pd.DataFrame],
-    data: xr.Dataset,
-    frames_per_second: float,
-    path: Path,
-) -> None:
-    """Write a film of a slide: the figure plotted anew for each snapshot, with the states up to it.
-
-    figure, axes: of the whole slide, plotted already; the axes keep their limits.
-    """
-    FigureCanvasAgg(figure).draw()
-    figure.set_layout_engine("none")
-    panels = np.atleast_1d(axes)
-    limits = [(panel.get_xlim(), panel.get_ylim()) for panel in panels]
-    writer = PillowWriter(fps=frames_per_second)
-    with writer.saving(figure, str(path), dpi=FILM_DPI):
-        for count, slide in enumerate(data.snapshot.values, 1):
-            steps = np.flatnonzero(~(data.sliding_distance.isel(member=0) > slide + SLIDE_TOLERANCE))
-            for panel in panels:
-                panel.clear()
-            plot(data.isel(snapshot=slice(count), step=steps), axes)
-            for panel, (xlim, ylim) in zip(panels, limits, strict=True):
-                panel.set(xlim=xlim, ylim=ylim)
-            writer.grab_frame()

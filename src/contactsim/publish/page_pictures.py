@@ -45,6 +45,13 @@ def figure_picture(folder: Path, name: str) -> Picture:
     return _embedded(folder / "figures" / f"{name}.png", packed)
 
 
+def film_picture(folder: Path, name: str) -> Picture:
+    """Return the film of a figure, as its file has it."""
+    file = (folder / "figures" / f"{name}.gif").read_bytes()
+    with Image.open(io.BytesIO(file)) as film:
+        return Picture("data:image/gif;base64," + base64.b64encode(file).decode(), *film.size)
+
+
 @mpl.rc_context(style.RC_PARAMS)
 def sketch_picture(run: dict) -> Picture:
     """Return the sketch of a run's scene."""

@@ -25,7 +25,7 @@ from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.provenance import digest, versions
 from contactsim.publish import gallery
 from contactsim.publish.gallery import VERDICTS, Entry, figures_in_source
-from contactsim.publish.page_pictures import Picture, figure_picture
+from contactsim.publish.page_pictures import Picture, figure_picture, film_picture
 from contactsim.publish.page_studies import PageStudy, page_study
 from contactsim.study.figure_plan import PICTURE_ENDINGS
 from contactsim.study.plan import Plan
@@ -47,12 +47,13 @@ ROW_MARKS = MARKS | {FINDING: "finding"}
 
 @dataclass(frozen=True)
 class PageFigure:
-    """A figure of the page: its entry, its picture, how many claims have each verdict, and endings of its files."""
+    """A figure of the page: its entry, picture, number of claims with each verdict, endings of its files, and film."""
 
     entry: Entry
     picture: Picture
     verdicts: dict[str, int]
     endings: tuple[str, ...]
+    film: Picture | None
 
 
 def report_settings(plan: Plan, others: Mapping[str, Mapping[str, FigureSettings]]) -> dict:
@@ -169,9 +170,9 @@ def _chapters(plan: Plan, folder: Path, claims: pd.DataFrame) -> dict[str, list[
         figures = []
         for entry in entries:
             verdicts = gallery.count_verdicts(gallery.claims_of_figure(claims, entry.name))
-            figures.append(
-                PageFigure(entry, figure_picture(folder, entry.name), verdicts, plan.figures[entry.name].endings)
-            )
+            picture, endings = figure_picture(folder, entry.name), plan.figures[entry.name].endings
+            film = film_picture(folder, entry.name) if "gif" in endings else None
+            figures.append(PageFigure(entry, picture, verdicts, endings, film))
         chapters[_chapter(chapter)] = figures
     return chapters
 

@@ -26,6 +26,11 @@ LEAST_WIDTH = 2.8
 FIELDS = "fields"
 """First argument of a figure's function that draws the fields of one load of a surface."""
 
+FRAME = "frame"
+"""Keyword argument of a figure's function that draws any one of the states with fields."""
+MAX_FRAMES = 60
+"""Most frames of a film at even steps."""
+
 FIGURE_KEYS = {
     "study": Key(text, "the name of a study of this chapter, or left out with a `law`", None),
     "law": Key(mapping, "a mapping with `effect`, its options and the gaps drawn, instead of a study", None),
@@ -39,7 +44,11 @@ FIGURE_KEYS = {
     "reference": Key(mapping, "a mapping from names to values of the thesis", {}),
     "compare": Key(listed(text), "a list of columns of the figure's CSV", []),
     "module": Key(text, "a module of contactsim.figures with the figure's function, if not that of the chapter", None),
-    "film": Key(positive, "frames a second, for a film through the snapshots of the study beside the figure", None),
+    "film": Key(mapping, "a mapping with frames and frames_per_second, for a film through states with fields", None),
+}
+FILM_KEYS = {
+    "frames": Key(whole(2, MAX_FRAMES), f"a whole number from 2 to {MAX_FRAMES}, of frames at even steps"),
+    "frames_per_second": Key(positive, "a positive number"),
 }
 
 
@@ -84,10 +93,7 @@ def read_figure(name: str, section: object, file: Path, studies: dict[str, Study
     dims = [] if settings["study"] is None else studies[settings["study"]].dimensions
     settings["select"] = read_selection(settings["select"], dims, file, f"{prefix}.select")
     if settings["film"] is not None:
-        study_settings = studies[settings["study"]].settings if dims else {}
-        if not (study_settings.get("slide") and study_settings["snapshots"]) or study_settings["vary"]:
-            allowed = "left out, but for one slide, nothing of it varied, with snapshots"
-            raise InputError(f"{prefix}.film", settings["film"], allowed, file)
+        settings["film"] = read(settings["film"], FILM_KEYS, file, f"{prefix}.film")
     own = settings["module"]
     if own is not None and not module_path(f"contactsim.figures.{own}" if own.isidentifier() else ""):
         raise InputError(f"{prefix}.module", own, "the name of a module of contactsim.figures", file)
@@ -112,8 +118,27 @@ def _check_function(figure: Figure, studies: dict[str, Study], file: Path, prefi
     if parameters[0] == FIELDS:
         _check_map(settings, studies[settings["study"]], file, prefix)
     keywords = [argument.arg for argument in functions[name].kwonlyargs]
-    numbers = dict.fromkeys(keywords, Key(number, "a value of the thesis, a number"))
-    read(settings["reference"], numbers, file, f"{prefix}.reference")
+    if settings["film"] is not None:
+        _check_film(figure, keywords, studies, file, f"{prefix}.film")
+    keys = {word: Key(number, "a value of the thesis, a number") for word in keywords if word != FRAME}
+    read(settings["reference"], keys, file, f"{prefix}.reference")
+
+
+def _check_film(figure: Figure, keywords: list[str], studies: dict[str, Study], file: Path, prefix: str) -> None:
+    """Refuse a film whose figure draws no chosen state, of more than one path, and of too few states with fields."""
+    film = figure.settings["film"]
+    if FRAME not in keywords or figure.settings["study"] is None:
+        allowed = f"left out, but for a function with the keyword `{FRAME}`, of a study"
+        raise InputError(prefix, film, allowed, file)
+    study = studies[figure.settings["study"]]
+    if study.settings["vary"] or study.settings["members"] > 1:
+        raise InputError(prefix, film, f"left out, for {study.name} varies something or has several members", file)
+    loads = study.settings["load"].get("values") if FIELDS in study.settings["keep"] else None
+    states = len(study.settings["snapshots"] or loads or ())
+    if states < film["frames"]:
+        more = "add `snapshots`, or loads and keep `fields`"
+        allowed = f"at most {states}, the states of {study.name} with fields: {more}"
+        raise InputError(f"{prefix}.frames", film["frames"], allowed, file)
 
 
 def _check_map(settings: dict, study: Study, file: Path, prefix: str) -> None:

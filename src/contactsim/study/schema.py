@@ -12,7 +12,7 @@ from typing import Any
 from contactsim.interface.registry import EFFECTS
 from contactsim.study.chapter import CHAPTER_KEYS
 from contactsim.study.claim_plan import CLAIM_KEYS
-from contactsim.study.figure_plan import FIGURE_KEYS
+from contactsim.study.figure_plan import FIGURE_KEYS, FILM_KEYS
 from contactsim.study.keys import (
     BODIES,
     ERROR_RUNS,
@@ -29,7 +29,8 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 def chapter_schema() -> dict[str, Any]:
     """Return the schema of a file config/ch*.yaml."""
-    sections = {"studies": _study(), "figures": _mapping(FIGURE_KEYS), "claims": _mapping(CLAIM_KEYS)}
+    figure = _mapping(FIGURE_KEYS, film=_mapping(FILM_KEYS))
+    sections = {"studies": _study(), "figures": figure, "claims": _mapping(CLAIM_KEYS)}
     sections["findings"] = sections["claims"]
     properties = {name: {"additionalProperties": sections[name], "type": "object"} for name in CHAPTER_KEYS}
     return {"$schema": DIALECT, "title": "Chapter", "type": "object", "properties": properties} | {

@@ -28,7 +28,10 @@ const reveal = () => {
   target.scrollIntoView();
 };
 addEventListener("hashchange", reveal);
-addEventListener("beforeprint", () => all("details").forEach(one => { one.open = true; }));
+addEventListener("beforeprint", () => all("details:not(.film)").forEach(one => { one.open = true; }));
+
+// Films play where the system asks for no less motion; elsewhere the figure above is the still picture.
+if (!matchMedia("(prefers-reduced-motion: reduce)").matches) all(".film").forEach(one => { one.open = true; });
 
 // Search: every word must occur in the text of a figure, a statement or a study.
 const entries = JSON.parse(byId("entries").textContent);
