@@ -14,6 +14,7 @@ from pathlib import Path
 from latex2mathml.converter import convert
 
 import contactsim
+from contactsim.durations import duration_text
 
 DOCS = Path(__file__).parent
 GENERATED = DOCS / "generated"
@@ -117,7 +118,8 @@ def figures_page() -> str:
     with (DOCS / "gallery/gallery.csv").open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             verdicts = [f"{float(count):.0f} {name}" for name, count in list(row.items())[3:8] if float(count or 0)]
-            facts = [*verdicts, *filter(None, [row["errors"]]), f"{float(row['seconds'] or 0):g} s of CPU time"]
+            time = duration_text(float(row["seconds"] or 0))
+            facts = [*verdicts, *filter(None, [row["errors"]]), f"{time} of CPU time"]
             text += f"\n## {row['title']}\n\n![{row['title']}](../gallery/{row['figure']}.png)\n\n{'; '.join(facts)}.\n"
     return text
 

@@ -20,7 +20,8 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 from snakemake_interface_logger_plugins.settings import LogHandlerSettingsBase
 
-from snakemake_logger_plugin_progress.progress import Job, Progress, duration_text
+from contactsim.durations import duration_text
+from snakemake_logger_plugin_progress.progress import Job, Progress
 
 __all__ = ["LogHandler", "LogHandlerSettings", "predict"]
 
@@ -166,7 +167,7 @@ class LogHandler(LogHandlerBase):  # type: ignore[misc]  # Snakemake is not type
         progress, share = self.progress, self.progress.share(now)
         text = f"{100 * share:3.0f} %, {len(progress.done)} of {progress.total} jobs"
         if progress.waiting or progress.running:
-            text += f", about {duration_text(progress.seconds_left(now))} left"
+            text += f", about {duration_text(round(progress.seconds_left(now)))} left"
         return text
 
     def _renew(self) -> None:
@@ -209,7 +210,8 @@ class LogHandler(LogHandlerBase):  # type: ignore[misc]  # Snakemake is not type
     def _summary(self) -> list[str]:
         """Return the lines at the end: what was done, what was made, and where the log is."""
         progress = self.progress
-        text = f"{len(progress.done)} of {progress.total} jobs done in {duration_text(time.monotonic() - self.start)}"
+        elapsed = duration_text(round(time.monotonic() - self.start))
+        text = f"{len(progress.done)} of {progress.total} jobs done in {elapsed}"
         if self.interrupted:
             text = f"Stopped: {text}. What is made is kept; the same command goes on"
         elif progress.failed:

@@ -87,15 +87,3 @@ class Progress:
             return means.get(job.rule, UNKNOWN_SECONDS) if job.predicted is None else factor * job.predicted
 
         return expected
-
-
-def duration_text(seconds: float) -> str:
-    """Return a duration in one or two units."""
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    minutes, rest = divmod(whole, 60)
-    if minutes < 10:
-        return f"{minutes} min {rest} s"
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes} min" if hours else f"{minutes} min"

@@ -93,7 +93,7 @@ def test_a_cell_tells_verdicts_errors_and_time():
     row = {"figure": "fig_1_1", "title": "One", "errors": "grid error up to: κ 0.1", "seconds": 200.0}
     text = gallery.gallery_page(pd.DataFrame([row | dict.fromkeys(VERDICTS, 0) | found]))
     assert 'src="fig_1_1.png"' in text
-    assert "3 reproduced; 1 not reproduced<br>grid error up to: κ 0.1<br>3 min of CPU time" in text
+    assert "3 reproduced; 1 not reproduced<br>grid error up to: κ 0.1<br>3 min 20 s of CPU time" in text
 
 
 def test_words_of_the_config_are_no_html_in_the_gallery():

@@ -11,16 +11,8 @@ import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_progress import LogHandler, LogHandlerSettings
-from snakemake_logger_plugin_progress.progress import Job, Progress, duration_text
+from snakemake_logger_plugin_progress.progress import Job, Progress
 from support.project import Project, wait_for
-
-
-@pytest.mark.parametrize(
-    ("seconds", "text"),
-    [(0.2, "0 s"), (59.4, "59 s"), (61, "1 min 1 s"), (599.6, "10 min"), (3725, "1 h 2 min"), (36000, "10 h 0 min")],
-)
-def test_a_duration_has_one_or_two_units(seconds, text):
-    assert duration_text(seconds) == text
 
 
 def progress_of(*predictions, cores=1):

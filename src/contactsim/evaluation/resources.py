@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
+from contactsim.durations import duration_text
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
 from contactsim.error_control.neglect import expected_neglect
@@ -131,13 +132,5 @@ def summarise_jobs(runs: Sequence[float | None], others: Sequence[float | None],
     known = [seconds for seconds in (*runs, *others) if seconds is not None]
     total, unknown = sum(known), len(runs) + len(others) - len(known)
     text = f"Predicted for {len(runs)} runs and {len(others)} other jobs: "
-    text += f"about {_format_duration(total)} of CPU time, {_format_duration(total / cores)} on {cores} cores"
+    text += f"about {duration_text(total)} of CPU time, {duration_text(total / cores)} on {cores} cores"
     return text + f", and {unknown} jobs of unknown time" * bool(unknown) + "."
-
-
-def _format_duration(seconds: float) -> str:
-    """Return seconds in words, with two digits."""
-    for unit, size in (("h", 3600.0), ("min", 60.0)):
-        if seconds >= 1.5 * size:
-            return f"{float(f'{seconds / size:.1e}'):g} {unit}"
-    return f"{float(f'{seconds:.1e}'):g} s"

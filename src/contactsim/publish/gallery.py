@@ -24,6 +24,7 @@ from contactsim.analysis.deciding import deciding_text
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import printed
 from contactsim.code_digest.modules import source_digest
+from contactsim.durations import duration_text
 from contactsim.provenance import digest
 from contactsim.publish.pictures import reduce_colours
 from contactsim.study.plan import Plan
@@ -162,11 +163,6 @@ def _cell(row: Mapping) -> str:
     picture = f'<a href="{name}.png"><img src="{name}.png" width="260" alt="{title}"></a>'
     width = f"{100 // COLUMNS}%"
     return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(lines)}</sub></td>'
-
-
-def duration_text(seconds: float) -> str:
-    """Return a duration as text: in seconds below two minutes, else in minutes."""
-    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
 
 
 def gallery_settings(plan: Plan, others: Mapping[str, str]) -> dict:

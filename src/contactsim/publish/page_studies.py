@@ -11,7 +11,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.dataset_summary import dataset_summary
-from contactsim.publish.gallery import duration_text
+from contactsim.durations import duration_text
 from contactsim.publish.page_pictures import Picture, sketch_picture
 from contactsim.study.plan import Plan
 
