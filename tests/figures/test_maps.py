@@ -243,12 +243,13 @@ def test_the_figure_shows_one_load_of_the_study_and_says_which(made):
     shown = ch3.maps(data, axes).set_index("map")
     one = data.squeeze()
     assert shown["mean"]["contact"] == float(one.relative_contact_area)
-    assert shown["mean"]["pressure"] == pytest.approx(float(one.mean_pressure), rel=1e-12)
+    unit = float(one.rms_gradient * one.contact_modulus)
+    assert shown["mean"]["pressure"] == pytest.approx(float(one.mean_pressure) / unit, rel=1e-12)
     assert shown["mean"]["gap"] == pytest.approx(float(one.mean_gap), rel=1e-4)  # the residual in contact apart
     places = {"hurst_exponent": one.hurst_exponent.item(), "reduced_pressure": one.reduced_pressure.item()}
     assert all((shown[name] == value).all() for name, value in places.items())
     assert f"$H$ = {places['hurst_exponent']:g}, $p^*$ = {places['reduced_pressure']:g}" in [
         t.get_text() for t in axes[0].texts
     ]
-    written = pd.read_csv(made / "results/quick/figures/maps.csv").set_index("map")
+    written = pd.read_csv(made / "results/quick/figures/maps.csv", low_memory=False).dropna(subset="map")
     assert np.allclose(written["mean"], shown["mean"], rtol=1e-12)

@@ -73,9 +73,9 @@ def test_the_table_has_means_changes_member_by_member_and_limits():
 def test_what_a_grid_costs_is_said_in_words():
     text = "\n".join(resolution.change_texts(resolution.grid_table(COARSER, FINER), "kappa_r", "8 points"))
     for part in (
-        "8 points less 16 points: +0.062 to +0.062",
-        "8 points less 32 points: +0.094",
-        "8 points less the limit: +0.125",
+        "from 16 points to 8 points: +0.062 to +0.062",
+        "from 32 points to 8 points: +0.094",
+        "from the limit to 8 points: +0.125",
         "order observed: 1.0",
     ):
         assert part in text

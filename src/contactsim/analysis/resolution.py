@@ -121,7 +121,7 @@ def change_texts(table: pd.DataFrame, quantity: str, grid: str) -> list[str]:
     ):
         changes = changes.dropna()
         if len(changes):
-            texts.append(f"{grid} less {place}: {changes.min():+.3f} to {changes.max():+.3f}")
+            texts.append(f"from {place} to {grid}: {changes.min():+.3f} to {changes.max():+.3f}")
     if rows.order.notna().any():
         texts.append(f"order observed: {rows.order.min():.1f} to {rows.order.max():.1f}")
     return texts

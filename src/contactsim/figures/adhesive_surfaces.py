@@ -46,7 +46,9 @@ def rough_adhesive_surfaces(data: xr.Dataset, lines: xr.Dataset, axes: list[Axes
         panel.set_xlabel("work of adhesion $w$ (N/m)")
         panel.set_xticks(data.work_of_separation.values, [f"{work:g}" for work in data.work_of_separation.values])
         panel.tick_params(axis="x", which="minor", bottom=False, top=False, labelbottom=False)
-        panel.legend(loc="best")
+    style.add_log_headroom(pull, 0.8)
+    for panel in (pull, energy):
+        panel.legend(loc="upper left")
     style.add_letters(axes)
     return pd.concat([*tables, pd.DataFrame(ends).assign(sticking_work=least)])
 
@@ -71,7 +73,7 @@ def _plot_cycles(axes: Axes, data: xr.Dataset) -> pd.DataFrame:
         tables.append(pd.DataFrame(table).assign(work_of_separation=work))
     axes.axvline(0.0, **style.ZERO)
     axes.set(xlabel=r"$p/(E^*\bar g)$", ylabel="relative area under repulsion")
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
     return pd.concat(tables)
 
 
@@ -85,7 +87,7 @@ def _plot_against_work(
 ) -> dict[str, Array]:
     """Plot the mean over members against the work of adhesion; return mean, error and number of members as columns.
 
-    Bars: standard error, increments and grid, added in squares.
+    Bars: standard error, increments and grid in quadrature.
     """
     mean, error, members = mean_with_increments(data, name)
     error = np.hypot(error, data.get(f"{name}_grid_error", xr.zeros_like(data.work_of_separation)).values)

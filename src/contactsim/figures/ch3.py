@@ -5,6 +5,7 @@ Keyword arguments are values of the thesis, from `reference` in the config.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -233,6 +234,9 @@ def fig_3_5(
 def maps(fields: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Map contact, pressure and gap of one rough surface at one load."""
     surface_fields = SurfaceFields.of_dataset(fields)
+    unit = float(fields.rms_gradient.squeeze() * fields.contact_modulus)
+    reduced = surface_fields.pressure / unit
+    surface_fields = replace(surface_fields, pressure=reduced, pressure_unit=r"$E^*\bar g$")
     places = {dim: fields[dim].item() for dim in fields.status.dims if dim != "member"}
     labels = [f"{find_variable(dim).symbol or dim} = {value:g}" for dim, value in places.items()]
     axes[0].text(1, -0.03, ", ".join(labels), transform=axes[0].transAxes, fontsize=8, ha="right", va="top")

@@ -56,9 +56,9 @@ def fig_4_4(data: xr.Dataset, soft: xr.Dataset, close: xr.Dataset, thick: xr.Dat
     """Plot the contact size against the ratio of works, for several works and bodies (thesis Fig. 4.4)."""
     works, bodies, change = axes
     tables = []
-    colours = style.shades(data.work_of_separation)
-    for work, colour in colours.items():
-        look = {"color": colour, "ls": "-"}
+    colours = style.variable_colours("work_of_separation", data.work_of_separation)
+    for work in data.work_of_separation.values.tolist():
+        look = {"color": colours[work], "ls": "-"}
         label, body = rf"$\varphi_n={work:g}$ N/m", data.sel(work_of_separation=work)
         tables.append(_plot_case(works, body, label, change, **look))
     reference = data.sel(work_of_separation=WORK)
@@ -82,6 +82,12 @@ def fig_4_4(data: xr.Dataset, soft: xr.Dataset, close: xr.Dataset, thick: xr.Dat
     return pd.concat(tables)
 
 
+def _colours(data: xr.Dataset, variable: str) -> dict[float, str]:
+    """Return the colours of the values of a variable of a dataset."""
+    values = data[variable].values.tolist()
+    return {value: style.variable_colours(variable, values)[value] for value in values}
+
+
 def _plot_case(axes: Axes, data: xr.Dataset, label: str, change: Axes | None, **look: Any) -> pd.DataFrame:
     """Plot the contact sizes of one case."""
     table = asperities.plot_sizes(axes, data, label, change, **look)
@@ -92,14 +98,14 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
     """Plot load against approach by the coupled and the uncoupled law without friction (thesis Fig. 4.5)."""
     frictionless = data.sel(work_ratio=0.0)
     tables = []
-    works = style.shades(uncoupled.work_of_separation)
+    works = _colours(uncoupled, "work_of_separation")
     for work, colour in works.items():
         coupled = frictionless.sel(work_of_separation=work)
         other = uncoupled.sel(work_of_separation=work, poisson_ratio=POISSON_RATIO)
         place = {"work_of_separation": work, "poisson_ratio": POISSON_RATIO}
         label = rf"$\varphi_n={work:g}$ N/m"
         tables.append(asperities.plot_both_laws(axes[::2], coupled, other, colour, label, **place))
-    ratios = style.shades(uncoupled.poisson_ratio)
+    ratios = _colours(uncoupled, "poisson_ratio")
     for ratio, colour in ratios.items():
         at_ratio = pulled.sel(work_ratio=0.0) if ratio in pulled.poisson_ratio else None
         coupled = frictionless if at_ratio is None else at_ratio.sel(poisson_ratio=ratio)
@@ -120,7 +126,7 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
 def fig_4_6(pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the deformed surface before the contact closes, for two Poisson's ratios (thesis Fig. 4.6)."""
     tables = []
-    for ratio, colour in style.shades(pulled.poisson_ratio).items():
+    for ratio, colour in _colours(pulled, "poisson_ratio").items():
         data = pulled.sel(poisson_ratio=ratio, work_of_separation=WORK, work_ratio=0.0)
         position, nodes = centred_nodes(data)
         displacement = asperities.at_approach(data, APPROACH_BEFORE_CONTACT).normal_displacement.values[nodes]
@@ -143,7 +149,9 @@ def fig_4_6(pulled: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
 def fig_4_7(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot load against approach for three ratios of works (thesis Fig. 4.7)."""
     tables = []
-    for ratio, colour in style.shades((0.0, 0.1, 1.0)).items():
+    colours = _colours(data, "work_ratio")
+    for ratio in (0.0, 0.1, 1.0):
+        colour = colours[ratio]
         path = data.sel(work_of_separation=WORK, work_ratio=ratio).isel(member=0)
         for leg, panel in zip(LEGS, axes, strict=True):
             load, approach = (float(path[f"pull_off_{name}_{leg}"]) for name in ("load", "approach"))
@@ -162,7 +170,7 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
     slope: the thesis's exponent.
     """
     tables = []
-    colours = style.shades(pulled.work_ratio)
+    colours = _colours(pulled, "work_ratio")
     *loads, slopes = axes
     for panel, ratio in zip(loads, (0.45, 0.1), strict=True):
         body = pulled.sel(poisson_ratio=ratio).isel(member=0)
@@ -196,7 +204,7 @@ def fig_4_8(pulled: xr.Dataset, axes: list[Axes], *, slope: float) -> pd.DataFra
 
 def _plot_local_slopes(axes: Axes, body: xr.Dataset, poisson_ratio: float) -> pd.DataFrame:
     """Plot the local slopes of the frictionless pull-off on loading, and of the model of Maugis and Dugdale."""
-    colour = style.CONTACT if poisson_ratio > POISSON_RATIO else style.WHOLE
+    colour = style.variable_colours("poisson_ratio", poisson_ratio)[poisson_ratio]
     work = body.work_of_separation.values
     middle, slope = local_slopes(work, body.pull_off_load_loading.sel(work_ratio=0.0).values)
     label = rf"$\nu={poisson_ratio:g}$, $\varphi_t=0$"
@@ -232,4 +240,10 @@ def _plot_pull_off_limits(axes: Axes, body: xr.Dataset, poisson_ratio: float, sl
 def stress_field(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Map the stress in the layer under the contact at the largest approach, with friction (Section 2.2)."""
     path = data.sel(work_of_separation=WORK, work_ratio=1.0)
-    return stress.plot_stress(stress_below_contact(asperities.at_approach(path, asperities.LARGEST_APPROACH)), axes)
+    state = asperities.at_approach(path, asperities.LARGEST_APPROACH)
+    edge = float(state.final_contact_length) / 2
+    for panel in axes:
+        edges: dict[str, Any] = {"color": style.EXACT, "ms": 4, "ls": "none", "clip_on": False}
+        edges["label"] = "edges of the contact"
+        panel.plot([-edge, edge], [0.0, 0.0], "v", **edges)
+    return stress.plot_stress(stress_below_contact(state), axes)

@@ -157,11 +157,11 @@ def fig_5_6(
         (axes[0], heights, r"h_{\mathrm{rms}}", " nm"),
         (axes[1], exponents, "H", ""),
     ):
-        others = iter(style.shades(range(len(variants))).values())
-        next(others)  # the colour of the case that both panels show
         for value, variant in variants.items():
             label = f"${symbol}={value:g}${unit}"
-            colour = style.EXACT if variant is strong else next(others)
+            colour = style.hurst_colour(0.8 if variant is strong or variants is heights else value)
+            if variants is heights and variant is not strong:
+                colour = style.variable_colours("surface_rms_height", value)[value]
             tables.append(rough.plot_against_pressure(panel, with_indentation(variant), label, color=colour))
         tables.append(rough.plot_against_pressure(panel, wall, "hard wall", **rough.WALL_LOOK))
         rough.label_pressures(panel)
@@ -201,7 +201,7 @@ def fig_5_7(
 def fig_5_8(data: xr.Dataset, normal: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the area by the coupled law for Poisson's ratios and ratios of works (thesis Fig. 5.8)."""
     tables = []
-    colours = style.shades(data.poisson_ratio)
+    colours = style.variable_colours("poisson_ratio", data.poisson_ratio)
     for ratio, work in product(data.poisson_ratio.values, data.work_ratio.values):
         variant = with_indentation(data.sel(poisson_ratio=ratio, work_ratio=work))
         look = {"color": colours[float(ratio)], "ls": "-" if work else "--", "marker": "s" if work else "o"}
@@ -225,7 +225,7 @@ def _variant_label(ratio: float, work: float) -> str:
 def effects_auto(data: xr.Dataset, whole: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot the area with all effects and without negligible ones, and the work of both (beyond the thesis)."""
     rows, shares = [], {}
-    colours = style.shades(data.poisson_ratio)
+    colours = style.variable_colours("poisson_ratio", data.poisson_ratio)
     for row, (ratio, work) in enumerate(product(data.poisson_ratio.values, data.work_ratio.values)):
         variants = (part.sel(poisson_ratio=ratio, work_ratio=work) for part in (data, whole))
         simplified, complete = map(with_indentation, variants)
@@ -259,9 +259,10 @@ def unloading(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     """Plot cycles of approach and retraction for rms heights, pull-off and dissipated energy (beyond the thesis)."""
     panels = {"normalised_pressure": axes[0], rough.AREA: axes[1]}
     tables = []
-    for height, colour in style.shades(data.surface_rms_height).items():
+    colours = style.variable_colours("surface_rms_height", data.surface_rms_height)
+    for height in data.surface_rms_height.values.tolist():
         path = data.sel(surface_rms_height=height).isel(member=0)
-        cycle = rough.plot_cycle(path, rf"$h_{{\mathrm{{rms}}}}={height:g}$ nm", colour, panels)
+        cycle = rough.plot_cycle(path, rf"$h_{{\mathrm{{rms}}}}={height:g}$ nm", colours[height], panels)
         cycle.insert(0, "rms_height", height)
         tables.append(cycle)
     axes[0].axhline(0.0, **style.ZERO)
@@ -292,7 +293,8 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
         variant = with_indentation(data.sel(work_of_separation=work))
         tables.append(rough.plot_criteria(panel, variant, ratio_panel).assign(work_of_separation=work))
         panel.set_title(rough.work_label(data, work), fontsize=9)
-    axes[0].legend(loc="upper left")
     axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
+    style.add_log_headroom(axes[2], 0.5)
+    axes[2].legend(loc="upper right")
     style.add_letters(axes)
     return pd.concat([*tables, compare_criteria(data.sel(work_of_separation=[weakest, strongest]))])

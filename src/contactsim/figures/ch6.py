@@ -62,7 +62,7 @@ def fig_6_4(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
             for (modulus, ratio), colour in zip(simulated, style.shades(range(len(simulated))).values(), strict=True)
         ]
         error = max(float(np.abs(curve.force - curve.exact).max() / curve.exact.max()) for curve in curves_of_panel)
-        label = f"exact, one degree of freedom\n(apart by {error:.0e} of the force at most)"
+        label = f"exact, one degree of freedom\n(largest difference {100 * error:.1g} %)"
         panel.plot([], [], ".", color=style.EXACT, ms=3, label=label)
         panel.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=flats.prandtl_tomlinson_label(data))
         panel.axhline(0.0, **style.ZERO)
@@ -167,7 +167,7 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
         path_axes.plot(table.force, table.crack, color=colour, lw=0.7, ls=":", label=f"{name}, crack of both modes")
         onset = {"color": "black", "ms": 3.5, "label": f"{name}, onset"}
         path_axes.plot(table.force.iloc[-1], table.area.iloc[-1], "o", **onset)
-        tables.append(table.assign(approach=approach, study="a"))
+        tables.append(table.assign(approach=approach, study="a", quadratic=float(path.quadratic_coefficient)))
     path_axes.set(xlabel=curves.FORCE, ylabel=curves.AREA)
     path_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label="crack of both modes")
     style.add_headroom(path_axes, 0.6)
@@ -180,7 +180,7 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
     onset_axes.set_ylim(bottom=0.0)
     style.add_headroom(onset_axes, 0.25)
     style.add_letters(axes)
-    columns = ["force", "area", "approach", "fit", "crack", "study", "shear_strength", "offset"]
+    columns = ["force", "area", "approach", "fit", "crack", "quadratic", "study", "shear_strength", "offset"]
     return pd.concat(tables)[columns]
 
 
@@ -208,6 +208,8 @@ def friction_loop(data: xr.Dataset, loaded: xr.Dataset, axes: list[Axes]) -> pd.
             table = slide_table(path)
             force.plot(table.relative_slide, table.force, color=colour, lw=0.9, label=label.format(value))
             area.plot(table.relative_slide, table.area, color=colour, lw=0.9, label=label.format(value))
+            for panel, quantity in ((force, "force"), (area, "area")):
+                curves.add_arrows(panel, table.relative_slide.to_numpy(), table[quantity].to_numpy(), colour)
             tables.append(table.assign(held=name, value=value, loop_energy=float(path.loop_energy)))
         force.axhline(0.0, **style.ZERO)
         force.set(xlabel=curves.SLIDE, ylabel=curves.FORCE)

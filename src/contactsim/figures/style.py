@@ -57,6 +57,13 @@ HURST_LOOKS = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
 HURST_COLOURS = {0.2: WHOLE, 0.5: PAIRS, 0.8: CONTACT}
 POISSON_LOOKS = {0.1: ("o", 5.5), 0.45: ("x", 3.2)}
 """Marker and size of Poisson's ratios: the small one fits into the large one where they coincide."""
+HUES = {
+    "work_of_separation": ("Blues", (0.2, 0.4, 0.8, 2.0, 4.0)),
+    "poisson_ratio": ("Oranges", (0.1, 0.3, 0.45)),
+    "work_ratio": ("Purples", (0.0, 0.1, 0.5, 1.0)),
+    "surface_rms_height": ("RdPu", (10.0, 15.0, 20.0, 30.0)),
+}
+"""Hues of variables, so that a colour means the same in all figures of a chapter, and their usual values."""
 SOLVER_NAMES = {
     "active_set": "active set",
     "conjugate_gradients": "conjugate gradients",
@@ -97,6 +104,14 @@ def shades(values: ArrayLike) -> dict[float, str]:
     """Return a colour for each value, from dark to light in their order."""
     keys = [float(value) for value in np.asarray(values, float).ravel()]
     colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.82, len(keys)))
+    return dict(zip(keys, map(mpl.colors.to_hex, colours), strict=True))
+
+
+def variable_colours(variable: str, values: ArrayLike) -> dict[float, str]:
+    """Return a colour for each value of a variable that has a hue of its own, from light to dark in their order."""
+    hue, usual = HUES[variable]
+    keys = sorted({*usual, *map(float, np.asarray(values).ravel())})
+    colours = mpl.colormaps[hue](np.linspace(0.5, 1.0, len(keys)))
     return dict(zip(keys, map(mpl.colors.to_hex, colours), strict=True))
 
 

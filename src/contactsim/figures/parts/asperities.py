@@ -63,7 +63,7 @@ def _plot_profile(axes: Axes, data: xr.Dataset) -> tuple[pd.DataFrame, float]:
     traction = at_approach(data, LARGEST_APPROACH).normal_traction.values[nodes] / strength
     contact = float(data.final_contact_length.isel(member=0))
     label = rf"{work_ratio_label(ratio)}, $l_{{\mathrm{{rep}}}}/R$ = {contact / size:.4f}"
-    colour = style.CONTACT if ratio else style.WHOLE
+    colour = style.variable_colours("work_ratio", ratio)[ratio]
     axes.plot(position / size, traction, color=colour, ls=work_ratio_line(ratio), lw=1.1, label=label)
     table = pd.DataFrame({"position": position, "normal_traction": traction * strength})
     width = float(np.abs(position[np.abs(traction) > NEGLIGIBLE_TRACTION]).max())

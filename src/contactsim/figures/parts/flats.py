@@ -21,7 +21,8 @@ def prandtl_tomlinson_label(data: xr.Dataset) -> str:
     lattice, length = lattice_constant(data), LawScales.of(data).tangential_length
     places = np.linspace(0.0, lattice, 1001)
     sums, sine = springs.spring_sum(places, lattice, length)[1], springs.sine_sum(places, lattice, length)
-    return f"Prandtl–Tomlinson: a sine as high\n(springs' sum apart by {np.abs(sums - sine).max() / sums.max():.0e})"
+    distance = 100 * np.abs(sums - sine).max() / sums.max()
+    return f"Prandtl–Tomlinson: a sine as high\n(differs from the springs' sum by {distance:.1g} %)"
 
 
 def mark_periods(axes: Axes, lattice: float, end: float) -> None:

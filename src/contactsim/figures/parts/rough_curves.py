@@ -174,7 +174,7 @@ def plot_against_height(
 ) -> dict[str, np.ndarray]:
     """Plot the mean over members against the rms height; return mean, error and number of members as columns.
 
-    unit: that the quantity is shown over; bars: standard error and increment error, added in squares
+    unit: that the quantity is shown over; bars: standard error and increment error in quadrature
     """
     mean, error, members = mean_with_increments(data, name)
     scale = 1 / unit

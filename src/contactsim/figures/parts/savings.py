@@ -29,8 +29,9 @@ def plot_simplified(
 
 def label_savings(axes: Axes, shares: Mapping[str, float]) -> None:
     """Label the bars of work; shares: work that was done over that with all effects, by the variant's label."""
-    axes.set(ylim=(0.6 - len(shares), 0.6), xlabel="transforms of all members: full, what was done; faint, all effects")
+    axes.set(ylim=(0.6 - len(shares), 0.6), xlabel="transforms of all members (thousands)")
     axes.set(yticks=-np.arange(len(shares)), yticklabels=list(shares))
-    axes.set_xlim(right=1.3 * axes.get_xlim()[1])
+    axes.set_xlim(right=1.5 * axes.get_xlim()[1])
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value / 1e3:g}")
     for row, share in enumerate(shares.values()):
         axes.text(0.98, -row, f"{share:.2g} of the work", transform=axes.get_yaxis_transform(), ha="right", va="center")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from contactsim.analysis.scales import LawScales
 from contactsim.analysis.slide_tables import FIRST_APPROACH, slide_table, stages
 from contactsim.figures import style
+from contactsim.grid import Array
 
 SLIDE = r"$\bar U_x=U_x/w$"
 SLIDE_NM = r"$U_x$ (nm)"
@@ -95,6 +97,18 @@ def mark_stages(
     for name, state in places.items():
         offset = (2, -9) if name == "D" else (2, 3)
         axes.annotate(name, (x.iloc[state], y.iloc[state]), offset, textcoords="offset points", fontsize=7)
+
+
+def add_arrows(axes: Axes, x: Array, y: Array, colour: str) -> None:
+    """Add arrows along a path to and fro, one in each direction where it is half way through its range."""
+    middle = (x.min() + x.max()) / 2
+    rises = np.diff(x) > 0
+    for forwards in (True, False):
+        passes = np.flatnonzero((rises == forwards) & ((x[:-1] - middle) * (x[1:] - middle) <= 0))
+        if passes.size:
+            start = int(passes[-1])
+            tip, tail = ((x[place], y[place]) for place in (start + 1, start))
+            axes.annotate("", tip, tail, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 0.9})
 
 
 def label_stages(axes: Axes, cases: Sequence[str]) -> None:
