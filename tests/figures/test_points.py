@@ -98,6 +98,24 @@ def test_a_curve_is_named_by_what_the_legend_says_of_its_colour_and_marker(panel
     assert [curve["name"] for curve in figure_points(panel.figure)] == ["κ, H=0.5", "κ_{r}, counted"]
 
 
+def test_a_curve_outside_the_legend_is_named_by_its_label_without_the_underscore(panel):
+    panel.plot([1, 2], [1, 2], label=r"_$H=0.2$, corrected")
+    panel.plot([1, 2], [2, 1], label="listed")
+    panel.legend()
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == ["listed"]
+    assert [curve["name"] for curve in figure_points(panel.figure)] == ["H=0.2, corrected", "listed"]
+
+
+def test_a_map_tells_the_values_that_its_colours_stand_for(panel):
+    panel.set_xscale("linear")
+    mesh = panel.pcolormesh([0, 1, 2], [0, 1], [[3.0, 4.5]])
+    panel.figure.colorbar(mesh, ax=panel, label=r"$\sigma$ (GPa)")
+    (cells,) = figure_points(panel.figure)
+    assert cells["values"] == ["3", "4.5"]
+    assert cells["axes"] == ["x", "κ", "σ (GPa)"]
+    assert cells["x"] == ["0.5", "1.5"]
+
+
 def test_what_a_legend_cannot_tell_apart_is_left_out_of_the_name(panel):
     panel.plot([1, 2], [1, 2], "o-", color=style.WHOLE)
     handles = [Line2D([], [], color=style.GREY, marker="o", label=label) for label in ("one", "other")]
