@@ -66,7 +66,7 @@ def fig_5_3(
     ends, works = np.array([0.0, 2.0]), data.work_of_separation.values.tolist()
     tables = []
     for panel, end in zip(axes, FIG_5_3_ENDS, strict=True):
-        for work, colour in style.shades(works).items():
+        for work, colour in rough.work_colours(works).items():
             variant, label = data.sel(work_of_separation=work), rough.work_label(data, work)
             tables.append(rough.plot_against_pressure(panel, variant, label, reduced=True, end=end, color=colour))
         tables += rough.plot_thin_against_pressure(panel, repulsive, stiff, works, end)

@@ -89,6 +89,12 @@ def work_label(data: xr.Dataset, work: float) -> str:
     return rf"$\varphi_n^*={reduced_work(data, work):.2g}$"
 
 
+def work_colours(works: list[float]) -> dict[float, str]:
+    """Return a colour for each work of separation, the darkest for the strongest adhesion."""
+    colours = style.shades(works)
+    return dict(zip(works, reversed(colours.values()), strict=True))
+
+
 def plot_works(
     axes: Axes, data: xr.Dataset, wall: xr.Dataset, name: str, across: Callable[[xr.Dataset], xr.DataArray]
 ) -> list[pd.DataFrame]:
@@ -97,7 +103,7 @@ def plot_works(
     across: returns the horizontal coordinate of the states of one variant
     """
     tables = []
-    for work, colour in style.shades(data.work_of_separation).items():
+    for work, colour in work_colours(data.work_of_separation.values.tolist()).items():
         variant = data.sel(work_of_separation=work)
         tables.append(plot_path(axes, variant, across(variant), name, work_label(data, work), color=colour, lw=1.0))
     return [*tables, plot_path(axes, wall, across(wall), name, "hard wall", **WALL_LOOK)]
@@ -115,7 +121,7 @@ def plot_repulsions(
 
     works: of all adhesive laws, whose colours the lines have; across: as in `plot_works`
     """
-    colours, tables = style.shades(works), []
+    colours, tables = work_colours(works), []
     for data, line, words in ((repulsive, ":", "repulsion alone"), (stiff, "-.", "stiff repulsion")):
         for work in data.work_of_separation.values:
             variant = data.sel(work_of_separation=work)
@@ -135,7 +141,7 @@ def plot_thin_against_pressure(
 
     works: of all adhesive laws, whose colours the lines have; end: largest pressure over E*
     """
-    colours, tables = style.shades(works), []
+    colours, tables = work_colours(works), []
     for data, line, words in ((repulsive, ":", "repulsion alone"), (stiff, "-.", "stiff repulsion")):
         for work in data.work_of_separation.values:
             means = at_equal_pressure(data.sel(work_of_separation=work), True, AREA, end)
