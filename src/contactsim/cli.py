@@ -28,9 +28,9 @@ def main(arguments: list[str] | None = None) -> None:
     )
     parser.set_defaults(module="commands")
     parser.add_argument("--version", action="version", version=f"contactsim {contactsim.__version__}")
-    commands = parser.add_subparsers(required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_scene_commands(commands)
-    _add_press(commands.add_parser("press", help="press measured heights on a half-space or layer"))
+    _add_press(_add_command(commands, "press", "press measured heights on a half-space or layer"))
     _add_result_commands(commands)
     options = parser.parse_args(arguments)
     logging.basicConfig(level="INFO", format="%(message)s", stream=sys.stderr)
@@ -43,19 +43,24 @@ def main(arguments: list[str] | None = None) -> None:
         sys.exit(f"Error: {error.filename}: {error.strerror}")
 
 
+def _add_command(commands: Any, name: str, text: str) -> argparse.ArgumentParser:
+    """Add a command; the text stands in the list of commands and in its own help."""
+    return commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+
+
 def _add_scene_commands(commands: Any) -> None:
     """Add the commands about a scene; commands: the place for them of argparse."""
-    new = commands.add_parser("new", help="write a scene file to begin with")
+    new = _add_command(commands, "new", "write a scene file to begin with")
     new.add_argument("kind", nargs="?", help="kind of scene; without it all kinds are listed")
     new.add_argument("--output", metavar="FILE", help="file to write, default KIND.yaml")
     new.set_defaults(module="scene_files", command="write_new_scene")
-    explain = commands.add_parser("explain", help="show effects, fields, cost and solvers of a scene")
+    explain = _add_command(commands, "explain", "show effects, fields, cost and solvers of a scene")
     explain.add_argument("scene", help="a scene file, or a study in ./config")
     explain.add_argument("--tier", help="tier of the study, default that of ./config")
     explain.add_argument("--draw", metavar="FILE", help="draw the scene into this .png, .pdf or .svg file")
     _add_set(explain)
     explain.set_defaults(command="explain_scene")
-    run = commands.add_parser("run", help="simulate a scene")
+    run = _add_command(commands, "run", "simulate a scene")
     run.add_argument("scene", help="a scene file, or a study of one run in ./config")
     run.add_argument("--tier", help="tier of the study, default that of ./config")
     run.add_argument("--output", metavar="FILE", help="dataset to write, default the name of the scene with .nc")
@@ -65,7 +70,7 @@ def _add_scene_commands(commands: Any) -> None:
     )
     run.add_argument("--threads", type=int, default=1, help=threads)
     run.set_defaults(command="run_scene")
-    estimate = commands.add_parser("estimate", help="predict cost and error without simulating")
+    estimate = _add_command(commands, "estimate", "predict cost and error without simulating")
     estimate.add_argument("scene", nargs="?", help="a scene file, or a study in ./config; default all figures")
     estimate.add_argument("--tier", help="tier of the study or figures, default that of ./config")
     estimate.add_argument(
@@ -77,16 +82,18 @@ def _add_scene_commands(commands: Any) -> None:
 
 def _add_result_commands(commands: Any) -> None:
     """Add the commands about results of the workflow; commands: the place for them of argparse."""
-    compare = commands.add_parser("compare", help="compare the figures of two tiers")
+    compare = _add_command(commands, "compare", "compare the figures of two tiers")
     compare.add_argument("first", help="a tier, such as quick")
     compare.add_argument("second", help="the tier to which differences are relative")
     compare.add_argument(
         "--within", type=float, default=0.1, help="largest relative difference that passes, default 0.1"
     )
     compare.set_defaults(command="compare_tiers")
-    schema = commands.add_parser("schema", help="print the JSON Schema of a chapter's settings, for editors")
+    schema = _add_command(commands, "schema", "print the JSON Schema of a chapter's settings, for editors")
     schema.set_defaults(command="print_schema")
-    verify = commands.add_parser("verify", help="read all results of a tier and tell which were damaged or replaced")
+    verify = _add_command(
+        commands, "verify", "check all results of a tier, and list those that were damaged or replaced"
+    )
     verify.add_argument("folder", nargs="?", help="a folder such as results/standard, default that of ./config")
     verify.set_defaults(command="verify_results")
 
@@ -100,12 +107,21 @@ def _add_set(command: argparse.ArgumentParser) -> None:
 def _add_press(press: argparse.ArgumentParser) -> None:
     """Add the options of `contactsim press`."""
     press.add_argument("file", help="heights along a line or over an area: npy, npz, csv, txt, xyz, dat, nc, others")
-    press.add_argument("--contact-modulus", type=float, required=True, metavar="E*", help="of the pair, GPa")
     press.add_argument(
-        "--mean-pressure", type=float, nargs="+", required=True, metavar="P", help="over the length or area, GPa"
+        "--contact-modulus", type=float, required=True, metavar="E*", help="E* of the pair of bodies, GPa"
     )
-    press.add_argument("--spacing", type=float, nargs="+", metavar="D", help="of points, nm, or along y and along x")
-    press.add_argument("--unit", help="of what the file states no unit for")
+    press.add_argument(
+        "--mean-pressure",
+        type=float,
+        nargs="+",
+        required=True,
+        metavar="P",
+        help="mean pressures over the length or area, GPa",
+    )
+    press.add_argument(
+        "--spacing", type=float, nargs="+", metavar="D", help="distance of points, nm; two values: along y and x"
+    )
+    press.add_argument("--unit", help="unit of lengths to which the file gives none, such as um")
     press.add_argument("--variable", help="name of the heights in the file")
     press.add_argument("--fill", help="how missing points are filled: linear, nearest or lowest")
     press.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
@@ -127,18 +143,22 @@ def _add_press(press: argparse.ArgumentParser) -> None:
         type=int,
         nargs="+",
         metavar="N",
-        help="points by which it is moved, along x or along y and x",
+        help="points by which the other scan is moved, along x or along y and x",
     )
-    press.add_argument("--thickness", type=float, metavar="H", help="of a layer on a rigid base, nm; else a half-space")
-    press.add_argument("--poisson-ratio", type=float, metavar="NU", help="of the layer")
+    press.add_argument(
+        "--thickness", type=float, metavar="H", help="thickness of a layer on a rigid base, nm; without it a half-space"
+    )
+    press.add_argument("--poisson-ratio", type=float, metavar="NU", help="Poisson's ratio of the layer")
     press.add_argument(
         "--conductivities",
         type=float,
         nargs=2,
         metavar="C",
-        help="thermal conductivities of both bodies, W/(m K): tell the conductance",
+        help="thermal conductivities of both bodies, W/(m K), for the thermal conductance",
     )
-    press.add_argument("--hardness", type=float, metavar="H", help="tell the share of the contact above it, GPa")
+    press.add_argument(
+        "--hardness", type=float, metavar="H", help="hardness, GPa, for the share of the contact above it"
+    )
     press.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
     press.add_argument("--output", metavar="FILE", help="dataset to write, .nc")
     press.set_defaults(module="press_command", command="press_file")

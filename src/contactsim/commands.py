@@ -58,7 +58,9 @@ def explain_scene(options: argparse.Namespace) -> None:
         raise InputError("--draw", options.draw, f"a name ending in one of {', '.join(DRAWN)}")
     study = find_study(options.scene, options.tier, options.changes)
     setup, runs = study.runs()[0].setup, len(study.runs())
-    sys.stdout.write(f"{study.settings['title']}: {setup.points} points, {runs} run{'s' * (runs > 1)}\n")
+    points = " × ".join(map(str, setup.scene.upper.surface.shape(setup.points)))
+    which = "" if runs == 1 else f", the first of {runs} runs"
+    sys.stdout.write(f"{study.settings['title']}: {points} points{which}\n")
     sys.stdout.write(explain_setup(setup, study.settings["neglect"]).text + "\n")
     if options.draw:
         from contactsim.figures.sketch import save_sketch

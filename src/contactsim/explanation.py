@@ -5,7 +5,9 @@ All is read off the scene and the solvers' own declarations, so it is what the s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+import textwrap
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 
 import numpy as np
@@ -73,23 +75,36 @@ class Explanation:
     @property
     def text(self) -> str:
         """The explanation as it is printed."""
-        solvers = [
-            f"{name}: {reason}" if reason else f"{name}{' (chosen)' * (name == self.solver)}"
-            for name, reason in self.solvers.items()
-        ]
+        others = [name for name, reason in self.solvers.items() if not reason and name != self.solver]
         parts = {
-            "above": [self.bodies[0]],
-            "below": [self.bodies[1]],
-            "effects on": [f"{name}: {text}" for name, text in self.effects.items()],
+            "upper body": [self.bodies[0]],
+            "lower body": [self.bodies[1]],
+            "effects": [line for name, text in self.effects.items() for line in f"{name}: {text}".split("\n")],
             "pairing": [self.pairing],
-            "fields that exist": list(self.fields),
-            "left out, and why": [f"{name}: {reason}" for name, reason in self.missing.items()],
+            "fields": list(self.fields),
+            "left out": _reason_lines(self.missing),
             "unknowns": [f"{self.unknowns} at each of {self.steps} load steps"],
-            **({"increments": [self.increments]} if self.increments else {}),
-            "cost": [f"{self.transforms:g} real transforms an iteration, about {self.megabytes:.3g} MB"],
-            "solvers": solvers,
+            "increments": [self.increments],
+            "cost": [f"{self.transforms:g} real transforms in each iteration; arrays of about {self.megabytes:.3g} MB"],
+            "solver": [self.solver],
+            "other solvers that can solve it": others,
+            "solvers that cannot": _reason_lines({name: reason for name, reason in self.solvers.items() if reason}),
         }
-        return "\n".join(f"{head}\n" + "\n".join(f"  {line}" for line in lines) for head, lines in parts.items())
+        parts = {head: lines for head, lines in parts.items() if any(lines)}
+        return "\n".join(line for head, lines in parts.items() for line in (head, *map(_indent, lines)))
+
+
+def _indent(line: str) -> str:
+    """Return a line below a head, broken where it is long."""
+    return textwrap.fill(f"  {line}", 120, subsequent_indent="    ", break_on_hyphens=False)
+
+
+def _reason_lines(reasons: Mapping[str, str]) -> list[str]:
+    """Return a line for each reason, with the names that it holds for before it."""
+    return [
+        f"{', '.join(name for name, other in reasons.items() if other == reason)}: {reason}"
+        for reason in dict.fromkeys(reasons.values())
+    ]
 
 
 def explain_setup(setup: Setup, neglected: Sequence[str] = ()) -> Explanation:
@@ -155,20 +170,21 @@ def _effect_name(effect: Effect) -> str:
 
 
 def _describe_effect(effect: Effect) -> str:
-    """Return what an effect is, reads and exerts."""
+    """Return what an effect is, and on a second line what it reads and exerts."""
     reads, exerts = (" and ".join(COMPONENTS[c] for c in sorted(parts)) for parts in (effect.reads, effect.exerts))
-    return f"{_first_sentence(effect)}; reads the {reads} gap, exerts {exerts} traction"
+    return f"{_first_sentence(effect)}\n  It reads the {reads} gap and exerts {exerts} traction"
 
 
 def _describe_options(item: object) -> str:
     """Return the first sentence of an object's class, and its options."""
-    options = ", ".join(f"{name} {value}" for name, value in _field_values(item).items())
-    return _first_sentence(item) + f" ({options})" * bool(options)
+    options = ", ".join(f"{name} = {value}" for name, value in _field_values(item).items())
+    return _first_sentence(item) + f"; {options}" * bool(options)
 
 
 def _first_sentence(item: object) -> str:
-    """Return the first line of the docstring of an object's class."""
-    return (type(item).__doc__ or "").split("\n")[0].rstrip(".")
+    """Return the first sentence of the docstring of an object's class, without its full stop."""
+    paragraph = " ".join((type(item).__doc__ or "").split("\n\n")[0].split())
+    return re.split(r"\.(?= [A-Z])|\.$", paragraph)[0]
 
 
 def _field_values(item: object) -> dict[str, object]:
@@ -189,32 +205,34 @@ def _describe_slide(scene: Scene) -> str:
 
 def _missing_parts(scene: Scene) -> dict[str, str]:
     """Return the parts that do not exist in a scene, and why."""
-    unused = "no effect reads or exerts them" if scene.slips else "the surfaces do not slip: laws have no slip to feel"
+    unused = "no effect reads or exerts them" if scene.slips else "the surfaces do not slip"
     parts = {
         f"{COMPONENTS[component]} displacement and traction": unused
         for component in COMPONENTS
         if component not in scene.components
     }
+    follows = "no effect exerts this traction; the displacement follows the normal one, wave by wave"
     parts |= {
-        f"{COMPONENTS[component]} unknowns": "no effect exerts it: it follows the normal displacement, wave by wave"
-        for component in scene.components
-        if component not in scene.exerted
+        f"{COMPONENTS[component]} unknowns": follows for component in scene.components if component not in scene.exerted
     }
     for side, body in (("upper", scene.upper), ("lower", scene.lower)):
         if body.elasticity is None:
-            parts[f"deformation of the {side} body"] = "rigid: absent, not stiff"
+            parts[f"deformation of the {side} body"] = "it is rigid"
     if len(scene.elasticities) == 2:
         parts["the second displacement field"] = "aligned bodies: their compliances add"
     if scene.compliance(np.zeros(1))[0] == 0 and scene.repeats:
-        free, fixed = "free on a half-space: zero by convention", "zero: an incompressible layer keeps its volume"
+        free, fixed = "zero by convention, as on a half-space it is free", "an incompressible layer keeps its volume"
         parts["mean displacement"] = free if Trait.HALF_SPACE in scene.traits else fixed
     unlisted = [name for name, kind in EFFECTS.items() if not any(isinstance(effect, kind) for effect in scene.effects)]
-    return parts | dict.fromkeys(unlisted, "does not act")
+    return parts | dict.fromkeys(unlisted, "not among the effects of the scene")
 
 
 def _refusal(scene: Scene, name: str) -> str:
     """Return the reason for which a solver cannot solve a scene; empty if it can."""
     if not is_installed(name):
-        return "is not installed"
-    missing = sorted(trait.value for trait in scene.traits - solver_class(name).accepts)
-    return f"does not take {missing[0]}" if missing else ""
+        return "not installed"
+    missing = [trait for trait in Trait if trait in scene.traits - solver_class(name).accepts]
+    if not missing:
+        return ""
+    words, _, meaning = missing[0].value.partition(": ")
+    return f"not made for {words}" + f" ({meaning})" * bool(meaning)

@@ -131,7 +131,7 @@ def _press_table(data: xr.Dataset) -> str:
     ]
     widths = [max(map(len, column)) for column in zip(heads, units, *rows, strict=True)]
     lines = [align_right(row, widths).rstrip() for row in (heads, units, *rows)]
-    return "\n".join([*lines, "± change with every second point"])
+    return "\n".join([*lines, "±: how much a number changes if every second point is left out"])
 
 
 def _with_error(data: xr.Dataset, name: str) -> str:

@@ -327,7 +327,7 @@ def test_a_peer_that_is_not_installed_is_refused_and_said_to_be_missing(monkeypa
     with pytest.raises(InputError, match="pip install tamaas"):
         make_solver("tamaas")
     scene = Scene(Body(Flat(1.0), HalfSpace(1.0)), Body(Flat(1.0)), (HardWall(),), loading.pressures([1.0]))
-    assert "tamaas: is not installed" in explain_setup(Setup(scene, RunOptions(64))).text
+    assert "tamaas: not installed" in explain_setup(Setup(scene, RunOptions(64))).text
 
 
 def test_one_solver_serves_several_threads_at_once():
