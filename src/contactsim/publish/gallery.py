@@ -159,7 +159,7 @@ def _cell(row: Mapping) -> str:
     counts = [f"{row[verdict]:.0f} {verdict}" for verdict in VERDICTS if row[verdict] > 0]
     lines = ["; ".join(counts)] * bool(counts)
     lines += [html.escape(str(row["errors"]))] * (isinstance(row["errors"], str) and row["errors"] != "")
-    lines += [f"{duration_text(row['seconds'])} of CPU time"] * (row["seconds"] > 0)
+    lines += [f"{duration_text(row['seconds'])} of CPU time"] if row["seconds"] > 0 else []
     picture = f'<a href="{name}.png"><img src="{name}.png" width="260" alt="{title}"></a>'
     width = f"{100 // COLUMNS}%"
     return f'<td width="{width}" valign="top">{picture}<br><b>{title}</b><br><sub>{"<br>".join(lines)}</sub></td>'
