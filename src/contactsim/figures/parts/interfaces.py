@@ -93,7 +93,9 @@ def nodes_around(data: xr.Dataset, place: float, share: float) -> slice:
     count = data.x.size
     width = int(count * share)
     middle = int(np.clip(round(place * count), width // 2, count - width // 2))
-    return slice(middle - width // 2, middle + width // 2, -(-width // MAX_NODES))
+    step = -(-width // MAX_NODES)
+    half = width // 2 // step * step  # the place itself is among the nodes
+    return slice(middle - half, middle + half, step)
 
 
 def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> None:
