@@ -33,10 +33,15 @@ class Status(Enum):
         """True where there is a solution, or one interpolated between solutions."""
         return self in (Status.CONVERGED, Status.INTERPOLATED)
 
+    @property
+    def summary(self) -> str:
+        """Meaning in a word where there is a solution, else in a sentence."""
+        return self.sentence.partition(":")[0] if self.solved else self.sentence
 
-def status_sentence(number: int) -> str:
-    """Return the meaning of the number of a status."""
-    return next(status.sentence for status in Status if status.value[0] == number)
+
+def status_summary(number: int) -> str:
+    """Return the meaning of the number of a status; see `Status.summary`."""
+    return next(status.summary for status in Status if status.value[0] == number)
 
 
 def is_solved(numbers: xr.DataArray) -> xr.DataArray:

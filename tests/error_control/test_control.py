@@ -322,6 +322,13 @@ def test_a_forecast_is_near_what_a_run_takes(family):
     assert forecast.points == choose_options(setup, 0.03).points
 
 
+def test_a_forecast_is_printed_in_words():
+    text = str(contactsim.estimate_cost(CYLINDER, accuracy=0.01))
+    heads = [line.split()[0] for line in text.splitlines()]
+    assert heads[:6] == ["grid", "unknowns", "transforms", "time", "memory", "error"]
+    assert "e+" not in text
+
+
 def test_a_forecast_says_what_it_does_not_know():
     setup = setup_of(LINE_SCENE)
     with refused("solver.kind", "were not measured"):

@@ -14,6 +14,7 @@ from functools import cache
 
 import numpy as np
 
+from contactsim.durations import duration_text
 from contactsim.error_control.knobs import PATH_TOLERANCE, grid_features
 from contactsim.error_control.measured import is_measured
 from contactsim.error_control.options import choose_options, coarsen, expect_error
@@ -24,6 +25,7 @@ from contactsim.grid import Grid
 from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 from contactsim.solvers.registry import default_solver_name, make_solver, solver_class
+from contactsim.traits import Trait
 
 TIMINGS, UNIT_POINTS, BATCH = 7, 4096, 100
 """How the unit of forecast times is timed: the best of some batches of transforms of a grid."""
@@ -70,6 +72,22 @@ class Forecast:
     def seconds(self) -> float:
         """CPU seconds on one thread, here and now."""
         return self.units * transform_seconds()
+
+    def __str__(self) -> str:
+        """Return the forecast in lines of words."""
+        return "\n".join(self.lines())
+
+    def lines(self, grid: str = "", before: str = "") -> list[str]:
+        """Return the forecast in lines of words; grid, before: what follows the points and the transforms."""
+        return [
+            f"grid         {self.points} points{grid}",
+            f"unknowns     {self.unknowns} at each of {self.steps} load steps",
+            f"transforms   {_rounded(self.transforms)} of that grid{before}",
+            f"time         {duration_text(self.seconds)} of CPU on one thread",
+            f"memory       {_rounded(self.megabytes)} MB of arrays",
+            f"error        {_describe_errors(self)}",
+            *_describe_guess(self.unsure),
+        ]
 
 
 def forecast_run(setup: Setup) -> Forecast:
@@ -155,26 +173,29 @@ def transform_seconds() -> float:
 def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -> str:
     """Return forecasts in words: grid and cost of the first run, and the cost of all together."""
     first, setup = forecasts[0], setups[0]
-    grid = f"{first.points} points, tolerance {setup.options.tolerance:.2g}"
+    grid = f", tolerance {setup.options.tolerance:.2g}"
     if setup.scene.path.increment is not None:
         increments = type(setup.options.increments).__name__.lower()
-        grid += f", increments of {setup.scene.path.increment:g} {increments}"
+        unit = "GPa" if setup.scene.path.steps[-1].control is Trait.MEAN_PRESSURE else "nm"
+        grid += f", increments of {setup.scene.path.increment:g} {unit}, {increments}"
     before = ", a coarser run before included" * (setup.options.accuracy is not None)
-    lines = [
-        f"grid         {grid}",
-        f"unknowns     {first.unknowns} at each of {first.steps} load steps",
-        f"transforms   {first.transforms:.3g} of that grid{before}",
-        f"seconds      {first.seconds:.2g} of CPU on one thread",
-        f"memory       {first.megabytes:.3g} MB of arrays",
-        f"error        {_describe_errors(first)}",
-    ]
+    unsure = tuple(dict.fromkeys(name for forecast in forecasts for name in forecast.unsure))
+    lines = replace(first, unsure=()).lines(grid, before)
     if len(setups) > 1:
         seconds = sum(forecast.seconds for forecast in forecasts)
         transforms = sum(forecast.transforms for forecast in forecasts)
-        lines.append(f"all {len(setups):4d} runs {seconds:.3g} s, {transforms:.3g} transforms")
-    unsure = dict.fromkeys(name for forecast in forecasts for name in forecast.unsure)
-    lines += [f"beyond what was measured, so a guess: {', '.join(unsure)}"] * bool(unsure)
-    return "\n".join(lines) + "\n"
+        lines.append(f"all {len(setups)} runs: {duration_text(seconds)}, {_rounded(transforms)} transforms")
+    return "\n".join([*lines, *_describe_guess(unsure)]) + "\n"
+
+
+def _rounded(number: float) -> str:
+    """Return a number as text, to three digits and without a power of ten."""
+    return f"{float(f'{number:.3g}'):.0f}" if number >= 100 else f"{number:.3g}"
+
+
+def _describe_guess(unsure: Sequence[str]) -> list[str]:
+    """Return a line on the features in which scenes lie beyond all that was measured; none where there are none."""
+    return [f"beyond what was measured, so a guess: {', '.join(unsure)}"] if unsure else []
 
 
 def _describe_errors(forecast: Forecast) -> str:

@@ -30,7 +30,7 @@ from contactsim.observables.contact import DEFAULT_KEPT, KEPT
 from contactsim.paths.reuse import Point
 from contactsim.paths.wall_numbers import ARRAY_DIMENSIONS, BIN_CENTRES, height_numbers, read_point
 from contactsim.solvers.base import HardWallSolver, solve
-from contactsim.status import status_sentence
+from contactsim.status import status_summary
 
 logger = logging.getLogger(__name__)
 
@@ -109,7 +109,7 @@ def _solve_steps(
         logger.info(
             "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s",
             *(count + 1, len(steps), step.text, point.numbers["max_contact_gap"]),
-            *(point.numbers["transforms"], point.seconds, remaining, status_sentence(int(point.numbers["status"]))),
+            *(point.numbers["transforms"], point.seconds, remaining, status_summary(int(point.numbers["status"]))),
         )
     return points
 

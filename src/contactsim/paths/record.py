@@ -151,7 +151,7 @@ def _log_progress(state: PathState, count: int, steps: int, transforms: float, s
         "step %d/%d %s residual %.1e transforms %.0f %.2f s, %.0f s left: %s%s",
         *(count + 1, steps, state.step.text, state.residual, transforms, seconds),
         seconds / (count + 1) * (steps - count - 1),
-        state.status.sentence,
+        state.status.summary,
         f"; jumped {state.jump:.3g} nm" if state.jump else "",
     )
 
