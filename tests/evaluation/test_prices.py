@@ -70,21 +70,39 @@ def test_a_scene_whose_costs_are_not_known_is_solved_until_one_run_takes_too_lon
     assert np.isnan(data.thesis_error)
 
 
+def draw(scenes, folder, told):
+    """Draw the figure of scenes, (data, spent) by name, with files in the order of their names; return its table."""
+    files = {"data": [], "costs": [], "equal": []}
+    for name, (data, spent) in sorted(scenes.items()):
+        dataset.write(dataset.stamp(data, "prices", {}, "source"), folder / f"{name}.nc")
+        (folder / f"{name}.json").write_text(json.dumps(spent))
+        equal = {"knob": ["tolerance"] * 3, "error": [0.1, 0.01, 0.01], "solver": ["verlet", "verlet", "polonsky_keer"]}
+        seconds = {"work": [1.0, 2.0, 3.0], "seconds": [10.0, 10.0 * len(name), 5.0]}
+        table = folder / f"{price_figure.EQUAL_TABLE.format(name)}.csv"
+        pd.DataFrame(equal | seconds).to_csv(table, index=False)
+        for kind, path in zip(files, (folder / f"{name}.nc", folder / f"{name}.json", table), strict=True):
+            files[kind].append(str(path))
+    titles = {name: name for name in scenes}
+    targets = {kind: str(folder / f"prices.{kind}") for kind in PICTURE_ENDINGS}
+    price_figure.write_prices(told | {"titles": titles, "cases": titles}, files, targets)
+    return pd.read_csv(targets["csv"])
+
+
 def test_the_figure_shows_what_was_solved_and_forecast_and_the_factor_of_the_method_of_the_thesis(cylinder, tmp_path):
-    told = prices_figure_job(PRICES, "quick")
-    told |= {"titles": {"cylinder": "cylinder"}, "cases": {"cylinder": "cylinder"}}
-    files = {"data": [str(tmp_path / "a.nc")], "costs": [str(tmp_path / "a.json")], "equal": [str(tmp_path / "a.csv")]}
-    data, spent = cylinder
-    dataset.write(dataset.stamp(data, "prices", {}, "source"), files["data"][0])
-    (tmp_path / "a.json").write_text(json.dumps(spent))
-    equal = {"knob": ["tolerance"] * 3, "error": [0.1, 0.01, 0.01], "solver": ["verlet", "verlet", "polonsky_keer"]}
-    pd.DataFrame(equal | {"work": [1.0, 2.0, 3.0], "seconds": [10.0, 20.0, 5.0]}).to_csv(files["equal"][0], index=False)
-    targets = {kind: str(tmp_path / f"prices.{kind}") for kind in PICTURE_ENDINGS}
-    price_figure.write_prices(told, files, targets)
-    shown = pd.read_csv(targets["csv"])
+    shown = draw({"cylinder": cylinder}, tmp_path, prices_figure_job(PRICES, "quick"))
     assert shown.seconds.notna().all()
-    assert set(shown.factor) == {20.0}
+    assert set(shown.factor) == {10.0 * len("cylinder")}
     assert (tmp_path / "prices.png").stat().st_size > 10_000
+
+
+def test_every_scene_has_its_own_numbers_whatever_the_order_of_files_and_titles(cylinder, tmp_path):
+    data, spent = cylinder
+    slower = data.assign(predicted_units=2 * data.predicted_units), spent
+    shown = draw({"slow_cylinder": slower, "cylinder": cylinder}, tmp_path, prices_figure_job(PRICES, "quick"))
+    for name, factor in (("cylinder", 1.0), ("slow_cylinder", 2.0)):
+        rows = shown[shown.scene == name]
+        assert rows.predicted_units.to_numpy() == pytest.approx(factor * data.predicted_units.values)
+        assert set(rows.factor) == {10.0 * len(name)}
 
 
 def test_without_the_method_of_the_thesis_there_is_no_factor():

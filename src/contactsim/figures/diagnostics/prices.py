@@ -30,6 +30,8 @@ LOOKS = {
 """Marker and colour of each kind: red for lines and blue for surfaces at a hard wall, green with adhesion, violet with
 friction."""
 OTHER_LOOK = ("h", style.BROWN)
+EQUAL_TABLE = "accuracy_{}_at_equal_error"
+"""Name of the table in which a case compares solvers, without its ending."""
 METHODS = ("verlet", "damped_verlet")
 """The method of the thesis, at a hard wall and with cohesive laws."""
 LEVEL, LEVEL_RATIO = 0.01, 5.0
@@ -41,7 +43,7 @@ TIMES = {1.0: "1 s", 60.0: "1 min", 3600.0: "1 h"}
 TICKS = (0.1, 0.01, 1e-3, 1e-4)
 """Errors with a label."""
 LABEL_PLACE, HIGHEST_LABEL = 0.77, 0.97
-"""Where labels begin, and the highest of them, over width and height of the panel."""
+"""Where labels of lines that reach the smallest error begin, and the highest of them, over width and height."""
 LABEL_GAP = 0.045
 """Least distance of labels, over the height of the panel."""
 LABEL_ROOM = 0.42
@@ -55,24 +57,31 @@ def write_prices(plan: Mapping[str, Any], files: Mapping[str, Sequence[str]], ta
     Parameters
     ----------
     plan : of `contactsim.evaluation.work_precision.prices.prices_figure_job`
-    files : data and costs of all scenes, in the order of the plan; equal, of the cases that compare solvers
+    files : data and costs, named after their scenes; equal, tables of cases (`EQUAL_TABLE`); in any order
     targets : png, pdf, svg and csv
     """
-    factors = {name: method_factor(pd.read_csv(path)) for name, path in zip(plan["cases"], files["equal"], strict=True)}
+    data, costs, equal = ({Path(path).stem: path for path in files[kind]} for kind in ("data", "costs", "equal"))
+    factors = {
+        scene: method_factor(pd.read_csv(equal[EQUAL_TABLE.format(case)])) for scene, case in plan["cases"].items()
+    }
     tables = [
-        price_table(data, costs).assign(scene=name, factor=factors.get(name, np.nan))
-        for name, data, costs in zip(plan["titles"], files["data"], files["costs"], strict=True)
+        price_table(data[scene], costs[scene]).assign(scene=scene, factor=factors.get(scene, np.nan))
+        for scene in plan["titles"]
     ]
     table = pd.concat(tables, ignore_index=True)
-    solved = table[table.accuracy_reached >= 0]
-    footer = (
-        f"{plan['tier']} tier · {len(solved)} runs solved, {int((solved.accuracy_reached == 1).sum())} within the error"
-    )
-    ratio = (solved.seconds / solved.predicted_seconds).median()
-    footer += f" · {ratio:.2g} times the forecast (median)" if np.isfinite(ratio) else ""
-    figure, (panel,) = empty_figure(plan["settings"] | {"panels": 1}, footer)
+    figure, (panel,) = empty_figure(plan["settings"] | {"panels": 1}, footer_text(table, plan["tier"]))
     plot_prices(panel, table, plan["titles"])
     save(figure, table, targets)
+
+
+def footer_text(table: pd.DataFrame, tier: str) -> str:
+    """Return how many runs were solved, and how their time compares with the forecast."""
+    solved = table[table.accuracy_reached >= 0]
+    text = f"{tier} tier · {len(solved)} runs solved, {int((solved.accuracy_reached == 1).sum())} within the error"
+    ratios = (solved.seconds / solved.predicted_seconds).dropna()
+    if ratios.empty:
+        return text
+    return f"{text} · time over forecast: {ratios.min():.2g} to {ratios.max():.2g}, median {ratios.median():.2g}"
 
 
 def price_table(data: str, costs: str) -> pd.DataFrame:
@@ -108,12 +117,12 @@ def plot_prices(axes: Axes, table: pd.DataFrame, titles: Mapping[str, str]) -> N
             part = rows[rows.accuracy_reached == reached]
             axes.plot(part.requested_error, part.seconds, ls="", marker=marker, ms=5, color=colour, mfc=face)
         first = rows.iloc[0]
-        for symbol, size in (("x", 11), (marker, 4)):
-            axes.plot(first.thesis_error, first.thesis_seconds, marker=symbol, ms=size, color=colour, ls="")
+        for symbol, size, face in (("o", 11, "none"), (marker, 4, colour)):
+            axes.plot(first.thesis_error, first.thesis_seconds, marker=symbol, ms=size, color=colour, mfc=face, ls="")
         seconds = rows.predicted_seconds.fillna(rows.seconds)
         last = seconds.last_valid_index()
         if last is not None:
-            factor = f" (× {first.factor:.2g})" if np.isfinite(first.factor) else ""
+            factor = f" ({first.factor:.2g} ×)" if np.isfinite(first.factor) else ""
             ends[titles[str(name)] + factor] = rows.requested_error[last], seconds[last], marker, colour
     axes.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="CPU time on one core (s)")
     axes.set_xlim(most * 1.3, least * (least / most) ** LABEL_ROOM)
@@ -136,25 +145,25 @@ def _add_times(axes: Axes) -> None:
 
 
 def _add_labels(axes: Axes, ends: Mapping[str, tuple[float, float, str, str]]) -> None:
-    """Write a label beside the end of each line, in the order of their ends and apart from each other."""
+    """Write a label beside the end of each line; those that reach the smallest error one above the other."""
+    least = min((error for error, *_ in ends.values()), default=0.0)
+    column = {text: end for text, end in ends.items() if end[0] == least}
+    for text, (error, seconds, marker, colour) in ends.items():
+        if text not in column:
+            axes.plot(error, seconds, marker=marker, ms=4, ls="", color=colour)
+            look: dict[str, Any] = {"fontsize": 7.5, "color": colour, "ha": "right", "va": "bottom"}
+            axes.annotate(text, (error, seconds), (-4, 6), textcoords="offset points", **look)
     low, high = np.log(axes.get_ylim())
-    order = sorted(ends, key=lambda text: ends[text][1])
+    order = sorted(column, key=lambda text: column[text][1])
     places: list[float] = []
     for text in order:
-        place = float((np.log(ends[text][1]) - low) / (high - low))
+        place = float((np.log(column[text][1]) - low) / (high - low))
         places.append(max(place, places[-1] + LABEL_GAP) if places else place)
     excess = max(places[-1] - HIGHEST_LABEL, 0.0) if places else 0.0
     for text, place in zip(order, places, strict=True):
-        error, seconds, marker, colour = ends[text]
-        look: dict[str, Any] = {"color": colour, "transform": axes.transAxes, "clip_on": False}
-        axes.plot(LABEL_PLACE - 0.015, place - excess, marker=marker, ms=4, ls="", **look)
-        axes.annotate(
-            text,
-            (error, seconds),
-            (LABEL_PLACE, place - excess),
-            textcoords=axes.transAxes,
-            fontsize=7.5,
-            color=colour,
-            va="center",
-            arrowprops={"arrowstyle": "-", "lw": 0.4, "color": colour, "shrinkA": 8, "shrinkB": 2, "relpos": (0, 0.5)},
-        )
+        error, seconds, marker, colour = column[text]
+        mark = LABEL_PLACE - 0.015, place - excess
+        axes.plot(*mark, marker=marker, ms=4, ls="", color=colour, transform=axes.transAxes, clip_on=False)
+        axes.text(LABEL_PLACE, mark[1], text, transform=axes.transAxes, fontsize=7.5, color=colour, va="center")
+        leader = {"arrowstyle": "-", "lw": 0.4, "color": colour, "shrinkA": 4, "shrinkB": 2}
+        axes.annotate("", (error, seconds), mark, textcoords=axes.transAxes, arrowprops=leader)
