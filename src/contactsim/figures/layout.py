@@ -25,6 +25,8 @@ LINE_HEIGHT = 0.125
 """Height of a line of caption or footer, inches."""
 CAPTION_LETTERS, FOOTER_LETTERS = 18.5, 22
 """Letters of caption and footer in an inch."""
+CAPTION_TEXT = 7.0
+"""Size of captions, points; larger in figures that are wider than print."""
 PRINT_WIDTH, SMALLEST_TEXT = 7.2, 6.0
 """Width at which a figure is printed at most, inches (two columns of a journal), and its smallest text then, points."""
 FOOTER = "footer"
@@ -105,17 +107,19 @@ def empty_figure(
     figure, panels : the figure, higher than its panels by the text below them; the panels row by row
     """
     width, height = settings["size"]
-    caption = textwrap.wrap(printed(settings["caption"]), int(width * CAPTION_LETTERS))
-    scale = max(1.0, width / PRINT_WIDTH)
-    footer_lines = textwrap.wrap(footer, int(width * FOOTER_LETTERS / scale))
-    below = (len(caption) + len(footer_lines) + 1.2) * LINE_HEIGHT
+    smallest = SMALLEST_TEXT * max(1.0, width / PRINT_WIDTH)
+    size = max(CAPTION_TEXT, smallest)
+    caption = textwrap.wrap(printed(settings["caption"]), int(width * CAPTION_LETTERS * CAPTION_TEXT / size))
+    footer_lines = textwrap.wrap(footer, int(width * FOOTER_LETTERS * SMALLEST_TEXT / smallest))
+    line = LINE_HEIGHT * size / CAPTION_TEXT
+    below = (len(caption) + len(footer_lines) + 1.2) * line
     figure = Figure(figsize=(width, height + below), layout="constrained")
     share = below / (height + below)
     figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
     figure.suptitle(printed(settings["title"]), fontsize=9.5, x=0.01, ha="left")
-    bottom = LINE_HEIGHT * 0.4 / (height + below)
-    figure.text(0.01, share - 0.3 * LINE_HEIGHT / (height + below), "\n".join(caption), fontsize=7, va="top")
-    look: dict[str, Any] = {"fontsize": SMALLEST_TEXT * scale, "color": style.GREY, "va": "bottom", "gid": FOOTER}
+    bottom = line * 0.4 / (height + below)
+    figure.text(0.01, share - 0.3 * line / (height + below), "\n".join(caption), fontsize=size, va="top")
+    look: dict[str, Any] = {"fontsize": smallest, "color": style.GREY, "va": "bottom", "gid": FOOTER}
     figure.text(0.01, bottom, "\n".join(footer_lines), **look)
     return figure, list(figure.subplots(rows, settings["panels"], squeeze=False, width_ratios=widths).flat)
 

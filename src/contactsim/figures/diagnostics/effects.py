@@ -26,8 +26,10 @@ EFFECTS = {
 """Columns of the table, with their heads."""
 CHANGES = {"largest_pull": ("largest pull", style.WHOLE), "contact_length_at_load": ("contact length", style.CONTACT)}
 """Numbers whose change is shown, with label and colour."""
-LARGEST_CHANGE = 20.0
-"""Change in per cent at which bars are cut; the number beside them is not."""
+CHANGE_TICKS = (-100, -10, -1, 0, 1, 10, 100)
+"""Changes in per cent with a label; the axis is linear within the smallest and logarithmic beyond."""
+CHANGE_ENDS = (-1000, 1000)
+"""Ends of that axis in per cent, with room for the numbers beside the bars."""
 WIDTHS = (1.1, 0.9, 1.1)
 """Widths of the panels."""
 BAR, SIDE = 0.56, 11
@@ -81,11 +83,11 @@ def plot_effects(axes: Axes, table: pd.DataFrame) -> None:
 def plot_costs(axes: Axes, table: pd.DataFrame) -> None:
     """Plot the cost of each scene over that of the first."""
     seconds = table.seconds / table.seconds[0]
-    axes.barh(range(len(table)), table.cost, color=style.GREY, height=BAR, label="transforms")
+    axes.barh(range(len(table)), table.cost, color=style.GREY, height=BAR, label="Fourier transforms")
     axes.barh(np.arange(len(table)) + 0.68 * BAR, seconds, color=style.BROWN, height=0.25 * BAR, label="CPU time")
     for row, cost in enumerate(table.cost):
         axes.text(cost, row, f" {cost:.2f}", va="center", fontsize=8)
-    axes.set(xlim=(0, 1.25 * max(table.cost.max(), seconds.max())), xlabel="cost over that of all effects")
+    axes.set(xlim=(0, 1.25 * max(table.cost.max(), seconds.max())), xlabel="cost / cost with all effects")
     axes.legend(loc="lower right", fontsize=6.5)
     _share_rows(axes, len(table))
 
@@ -96,13 +98,15 @@ def plot_changes(axes: Axes, table: pd.DataFrame) -> None:
     for place, (name, (label, colour)) in enumerate(CHANGES.items()):
         changes = 100 * table[f"{name}_change"].to_numpy()[1:]
         rows = np.arange(1, len(table)) + (place - (len(CHANGES) - 1) / 2) * height
-        shown = np.clip(changes, -LARGEST_CHANGE, LARGEST_CHANGE)
-        axes.barh(rows, shown, color=colour, height=0.86 * height, label=label)
-        for row, end, change in zip(rows, shown, changes, strict=True):
+        axes.barh(rows, changes, color=colour, height=0.86 * height, label=label)
+        for row, change in zip(rows, changes, strict=True):
             side = "left" if change >= 0 else "right"
-            axes.text(end, row, f" {change:.1f} % ", va="center", ha=side, fontsize=6.5)
+            axes.text(change, row, f" {change:.1f} % ", va="center", ha=side, fontsize=6.5)
     axes.axvline(0, **style.ZERO)
-    axes.set(xlim=(-1.6 * LARGEST_CHANGE, 1.6 * LARGEST_CHANGE), xlabel="change when left out (%)")
+    axes.set_xscale("symlog", linthresh=CHANGE_TICKS[4])
+    axes.set(xlim=CHANGE_ENDS, xlabel="change when left out (%)")
+    axes.set_xticks(CHANGE_TICKS, [f"{value:g}" for value in CHANGE_TICKS])
+    axes.minorticks_off()
     axes.legend(loc="upper left", fontsize=6.5)
     _share_rows(axes, len(table))
 

@@ -13,16 +13,10 @@ from matplotlib.colors import ListedColormap
 
 from contactsim import dataset
 from contactsim.evaluation.robustness.outcome import Outcome
-from contactsim.figures.diagnostics.stability import COLOURS, add_outcome_legend
+from contactsim.figures.diagnostics.stability import COLOURS, WORDS, add_outcome_legend
 from contactsim.solvers.registry import DEFAULT_SOLVERS
 
-WORDS = {
-    Outcome.EXACT: "right: the exact answer",
-    Outcome.CERTIFIED: "certified: right by its residual",
-    Outcome.REFUSED: "refused with a reason",
-    Outcome.FAILED: "failed and says so",
-    Outcome.WRONG: "wrong",
-}
+SHOWN = {outcome: words for outcome, words in WORDS.items() if outcome is not Outcome.NON_FINITE}
 """What colours mean; an answer that is not finite is wrong."""
 WITHOUT_ANSWER = [outcome.value[0] for outcome in (Outcome.REFUSED, Outcome.FAILED)]
 """Outcomes without an answer, whose number of cases is written."""
@@ -44,14 +38,14 @@ def robustness(data: xr.Dataset, axes: Axes, families: Sequence[tuple[str, Seque
     severities = data.severity.values
     worst = table.pivot_table("outcome", "family", "severity", "max").loc[names, severities]
     unanswered = table[table.outcome.isin(WITHOUT_ANSWER)].groupby(["family", "severity"]).size().to_dict()
-    colours = ListedColormap([COLOURS[outcome] for outcome in WORDS])
-    look: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(WORDS) - 0.5, "edgecolors": "white", "lw": 0.6}
+    colours = ListedColormap([COLOURS[outcome] for outcome in SHOWN])
+    look: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(SHOWN) - 0.5, "edgecolors": "white", "lw": 0.6}
     axes.pcolormesh(np.arange(severities.size + 1), np.arange(len(names) + 1), worst.values, **look)
     for (family, severity), count in unanswered.items():
         place = list(severities).index(severity) + 0.5, names.index(family) + 0.5
         axes.text(*place, str(count), fontsize=7, ha="center", va="center")
     sizes = table.groupby("family").hazard.nunique()
-    axes.set_yticks(np.arange(len(names)) + 0.5, [f"{name} ({sizes[name]})" for name in names])
+    axes.set_yticks(np.arange(len(names)) + 0.5, [f"{name}: {sizes[name]} hazards" for name in names])
     ticks = np.unique(np.linspace(0, severities.size - 1, min(severities.size, TICKS)).round().astype(int))
     axes.set_xticks(ticks + 0.5, [f"{severities[place]:g}" for place in ticks])
     axes.set(ylim=(len(names), 0), xlabel="severity, from easy (0) to far beyond what is usual (100)")
@@ -59,7 +53,7 @@ def robustness(data: xr.Dataset, axes: Axes, families: Sequence[tuple[str, Seque
     axes.spines[:].set_visible(False)
     wrong = int((table.outcome == Outcome.WRONG.value[0]).sum())
     axes.set_title(f"{len(table)} cases, {wrong} wrong", fontsize=11, loc="left", weight="bold")
-    add_outcome_legend(axes, WORDS, table.outcome.to_numpy())
+    add_outcome_legend(axes, SHOWN, table.outcome.to_numpy())
     return table
 
 

@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 from contactsim import dataset
 from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.figures import style
+from contactsim.solvers.registry import DEFAULT_SOLVERS
 
 COLOURS = {
     Outcome.EXACT: "#56b4e9",
@@ -27,6 +28,15 @@ COLOURS = {
     Outcome.NON_FINITE: "#000000",
 }
 """Distinct without red and green, and in grey (Okabe and Ito)."""
+WORDS = {
+    Outcome.EXACT: "right: the exact answer",
+    Outcome.CERTIFIED: "certified: right by its residual",
+    Outcome.REFUSED: "refused with a reason",
+    Outcome.FAILED: "failed and says so",
+    Outcome.WRONG: "wrong",
+    Outcome.NON_FINITE: "not finite",
+}
+"""What colours mean."""
 CELL_LOOK: dict[str, Any] = {"fontsize": 5.2, "ha": "center", "va": "center"}
 """Text in cells, which fits 21 columns."""
 HEAD_HEIGHT = 1.25
@@ -48,7 +58,7 @@ def stability(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     for panel, own in zip(axes, panels, strict=True):
         _plot_blocks(panel, own, height)
     outcomes = np.concatenate([block.outcome.values.ravel() for block in blocks])
-    add_outcome_legend(axes[0], {outcome: outcome.value[1] for outcome in Outcome}, outcomes)
+    add_outcome_legend(axes[0], WORDS, outcomes)
     names = {outcome.value[0]: outcome.name.lower() for outcome in Outcome}
     table = data[["outcome", "transforms", "reason"]].to_dataframe().reset_index()
     return table.assign(outcome=table.outcome.map(names))
@@ -81,7 +91,7 @@ def _plot_blocks(axes: Axes, blocks: list[xr.Dataset], height: float) -> None:
         top = bottom + HEAD_HEIGHT - 0.15
         bottom += block.solver.size + HEAD_HEIGHT
         _plot_block(axes, block, top)
-        ticks |= {top + row + 0.5: style.solver_name(name) for row, name in enumerate(block.solver.values)}
+        ticks |= {top + row + 0.5: _row_name(str(name)) for row, name in enumerate(block.solver.values)}
     severity = blocks[0].severity
     axes.set(xlim=(0, severity.size), ylim=(height, 0), xlabel="severity")
     axes.set_yticks(list(ticks), list(ticks.values()), fontsize=6)
@@ -89,6 +99,11 @@ def _plot_blocks(axes: Axes, blocks: list[xr.Dataset], height: float) -> None:
     axes.set_xticks(columns + 0.5, [f"{value:g}" for value in severity.values[columns]], fontsize=7)
     axes.tick_params(length=0, top=False, right=False)
     axes.spines[:].set_visible(False)
+
+
+def _row_name(solver: str) -> str:
+    """Return the name of a solver, with an arrow where it is the default one of its kind of case."""
+    return f"→ {style.solver_name(solver)}" if solver in DEFAULT_SOLVERS.values() else style.solver_name(solver)
 
 
 def _plot_block(axes: Axes, block: xr.Dataset, top: float) -> None:
@@ -142,5 +157,5 @@ def footer(data: xr.Dataset) -> str:
     tier = dataset.settings_of(data)["tier"]
     wrong, non_finite = (int((data.outcome == bad.value[0]).sum()) for bad in (Outcome.WRONG, Outcome.NON_FINITE))
     hidden = int((data.applicable == 0).sum()) * data.severity.size
-    text = f" · refused and left out, as their solver does not take the kind of case: {hidden}" if hidden else ""
+    text = f" · {hidden} cells left out, whose solver does not take the kind of case" if hidden else ""
     return f"{tier} tier · {data.outcome.size} cells{text} · {wrong} wrong, {non_finite} not finite"
