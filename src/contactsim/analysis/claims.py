@@ -18,7 +18,7 @@ from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import Cause, cause_text
 from contactsim.analysis.cell_rules import cell_texts
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
-from contactsim.analysis.conditions import find_condition
+from contactsim.analysis.conditions import ConditionSearch
 from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
@@ -85,7 +85,8 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
     number = estimate(comparison)
     if claim["is_finding"]:
         return row | _entries([Verdict(FINDING)] * 3, number)
-    decisions = [_decide(comparison, number, scale) for scale in (1.0, *SCALES.values())]
+    search = ConditionSearch(comparison)
+    decisions = [_decide(claim, number, scale, search) for scale in (1.0, *SCALES.values())]
     return row | _entries([result for result, _ in decisions], number) | decisions[0][1]
 
 
@@ -135,9 +136,10 @@ def _entries(results: Sequence[Verdict], number: Estimate) -> dict[str, object]:
     return vars(results[0]) | vars(number) | others
 
 
-def _decide(comparison: Comparison, number: Estimate, scale: float) -> tuple[Verdict, dict[str, object]]:
+def _decide(
+    claim: Mapping, number: Estimate, scale: float, search: ConditionSearch
+) -> tuple[Verdict, dict[str, object]]:
     """Return the verdict on a number with a scaled band, and the entries of the condition under which it holds."""
-    claim = comparison.claim
 
     def holds(candidate: Estimate) -> bool:
         """Return True where the claim holds."""
@@ -146,7 +148,7 @@ def _decide(comparison: Comparison, number: Estimate, scale: float) -> tuple[Ver
     result = judge_number(claim, number, scale)
     if result.verdict != NOT_REPRODUCED:
         return result, {}
-    condition = find_condition(comparison, band(claim, scale), holds)
+    condition = search.find(band(claim, scale), holds)
     if condition is None:
         return result, {}
     words = ", ".join(range_text(dim, *ends) for dim, ends in condition.block.items())

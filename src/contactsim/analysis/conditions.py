@@ -9,6 +9,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.reductions import REDUCTIONS
@@ -42,36 +43,68 @@ class Condition:
     number: Estimate
 
 
-def find_condition(
-    comparison: Comparison, band: tuple[float, float], holds: Callable[[Estimate], bool]
-) -> Condition | None:
-    """Return the largest block in which a claim holds; None without one of at least `MIN_SHARE` of the selection.
+@dataclass(frozen=True)
+class Candidate:
+    """A block that may be the condition; its numbers are computed once, and only if somebody asks.
+
+    Attributes
+    ----------
+    block, share
+        As of `Condition`.
+    part
+        What the claim compares there.
+    """
+
+    block: Block
+    share: float
+    part: Comparison
+
+    @cached_property
+    def numbers(self) -> tuple[float, float]:
+        """The number of the block, with and without the bias of extremes."""
+        return self.part.number(self.part.data), self.part.unbiased_number(self.part.data)
+
+    @cached_property
+    def estimate(self) -> Estimate:
+        """The number of the block with its errors."""
+        return estimate(self.part)
+
+
+class ConditionSearch:
+    """Search for the condition of a claim, with one band after another.
 
     Parameters
     ----------
     comparison
         What the claim compares, where it selects it.
-    band
-        Smallest and largest value that the statement allows.
-    holds
-        Function of a number with its errors that is True where the statement holds.
     """
-    low, high = band
-    promising = (
-        (block, share, part)
-        for block, share in narrower_blocks(comparison)
-        if not (part := comparison.select(block)).is_empty and _is_within(part, low, high)
-    )
-    for block, share, part in itertools.islice(promising, MAX_BLOCKS):
-        number = estimate(part)
-        if holds(number):
-            return Condition(block, share, number)
-    return None
 
+    def __init__(self, comparison: Comparison) -> None:
+        self._comparison = comparison
 
-def _is_within(part: Comparison, low: float, high: float) -> bool:
-    """Return True if the number of a block lies in a band, with or without the bias of extremes."""
-    return low < part.number(part.data) < high or low < part.unbiased_number(part.data) < high
+    @cached_property
+    def _candidates(self) -> list[Candidate]:
+        """All blocks that are not empty, the largest first."""
+        blocks = narrower_blocks(self._comparison)
+        candidates = (Candidate(block, share, self._comparison.select(block)) for block, share in blocks)
+        return [candidate for candidate in candidates if not candidate.part.is_empty]
+
+    def find(self, band: tuple[float, float], holds: Callable[[Estimate], bool]) -> Condition | None:
+        """Return the largest block in which the claim holds; None without one of at least `MIN_SHARE` of the selection.
+
+        Parameters
+        ----------
+        band
+            Smallest and largest value that the statement allows.
+        holds
+            Function of a number with its errors that is True where the statement holds.
+        """
+        low, high = band
+        promising = (one for one in self._candidates if any(low < number < high for number in one.numbers))
+        for candidate in itertools.islice(promising, MAX_BLOCKS):
+            if holds(candidate.estimate):
+                return Condition(candidate.block, candidate.share, candidate.estimate)
+        return None
 
 
 def narrower_blocks(comparison: Comparison) -> Iterator[tuple[Block, float]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -22,8 +21,6 @@ HEADS = ("statement", "reading", "allowed", "value ± errors", "verdict", "margi
 ESTIMATOR_HEADS = ("statement", "as in the thesis", "verdict (margin)", "corrected", "verdict (margin)", "counted")
 EDGE_NOTE, EDGE_WIDTH = "at the edge of the band", 0.1
 """Note at a verdict whose place is near 1, and how near."""
-OURS = "Ours."
-"""First word of the reason for a band that is not derived from the text."""
 INTRODUCTION = """# Verdicts on the statements of the thesis
 
 Each row is a sentence of the thesis, held against our own data; [the rules](judging.md)
@@ -209,9 +206,8 @@ def _band_text(row: Mapping) -> str:
 
 
 def _band_reason(row: Mapping) -> str:
-    """Return the first sentence of the reason for a band, after the word that the band is ours."""
-    sentences = re.split(r"(?<=[.])\s+(?=[A-Z0-9κφ])", _text(row, "rationale"))
-    return printed(" ".join(sentences[: 1 + (sentences[0] == OURS)]))
+    """Return the reason for a band, whole: it says what was known when the band was set."""
+    return printed(_text(row, "rationale"))
 
 
 def _verdict_text(row: Mapping, prefix: str) -> str:
