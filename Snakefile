@@ -26,7 +26,7 @@ rule all:
 
 rule unknown_target:
     output: "{name}"
-    wildcard_constraints: name=r"[A-Za-z0-9_]+"
+    wildcard_constraints: name=r"[A-Za-z0-9_.=-]+"
     input: PAGES.refuse_target
 
 

@@ -426,6 +426,8 @@ def test_no_target_lists_the_targets_with_a_line_each(fresh: Project) -> None:
     ("arguments", "words"),
     [
         (("--", "fig_9_9"), ("no target 'fig_9_9'", "fig_8_1", "fig_9_1", "smooth")),
+        (("--", "fig_9.1"), ("no target 'fig_9.1'; did you mean fig_9_1?",)),
+        (("--", "fig_9_1", "TIER=quick"), ("'TIER=quick' is no target", "--config tier=quick")),
         (("--config", "tier=nonsense", "--", "all"), ("config/tiers.yaml", "tier", "'nonsense'", "quick, standard")),
         (("--config", "other=1", "--", "all"), ("--config", "'other'", "tier=NAME")),
     ],

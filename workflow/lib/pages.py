@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 from products import Products
@@ -52,7 +53,15 @@ class Pages:
 
     def refuse_target(self, wildcards: Wildcards) -> None:
         """Exit with the list of targets, since the one that was asked for does not exist."""
-        sys.exit(f"Error: there is no target {wildcards.name!r}; there are:\n{self.target_lines()}")
+        name, lines = str(wildcards.name), self.target_lines()
+        if "=" in name:
+            sys.exit(
+                f"Error: {name!r} is no target. A tier is chosen so: make TARGET TIER=quick, or --config tier=quick"
+            )
+        names = [line.split()[0] for line in lines.splitlines()]
+        near = get_close_matches(name.replace(".", "_"), names, 1)
+        hint = f"Error: there is no target {name!r}" + (f"; did you mean {near[0]}?" if near else "")
+        sys.exit(f"{hint}\nThere are:\n{lines}")
 
     def report_inputs(self) -> list[Path]:
         """Return the files that the report and the gallery show."""

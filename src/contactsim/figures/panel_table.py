@@ -47,13 +47,13 @@ LEAST_PERCENT = 0.01
 
 
 def error_texts(table: pd.DataFrame) -> list[str]:
-    """Return how long error bars are, relative to the values; nothing without error bars.
+    """Return the median error bar of each panel, relative to the values, the least and the largest; nothing without.
 
-    It is the range over panels of the medians of their error bars. table: of `panel_table`
+    table: of `panel_table`
     """
     medians = (100 * table.relative_error.groupby(table.panel).median()).dropna()
     ends = list(dict.fromkeys(_percent(end) for end in (medians.min(), medians.max()))) if len(medians) else []
-    return [f"error bars {' to '.join(ends)} %"] if ends else []
+    return [f"median error bar of a panel {' to '.join(ends)} %"] if ends else []
 
 
 def _percent(value: float) -> str:

@@ -12,6 +12,7 @@ import re
 import typing
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from types import MappingProxyType
 
 import numpy as np
@@ -50,7 +51,9 @@ def read(section: object, keys: Mapping[str, Key], file: object, prefix: str = "
     dotted = f"{prefix}." if prefix else ""
     for name in section:
         if name not in keys:
-            raise InputError(f"{dotted}{name}", section[name], f"no such key; known keys: {', '.join(keys)}", file)
+            near = get_close_matches(str(name), keys, 1)
+            hint = f", did you mean {near[0]}?" if near else ";"
+            raise InputError(f"{dotted}{name}", section[name], f"no such key{hint} known keys: {', '.join(keys)}", file)
     values = {}
     for name, key in keys.items():
         if name not in section:

@@ -127,7 +127,7 @@ class Header:
         for name, (line, text) in self._statements.items():
             factor = FACTOR.fullmatch(name)
             if factor:
-                return self._number(line, text) * io.unit_factor("heights", factor["unit"], None, self.file)
+                return self._number(line, text) * io.unit_factor("heights", factor["unit"], unit, self.file)
         named = self._statement(UNIT)
         return io.unit_factor("heights", stated or (named[1] if named else None), unit, self.file)
 
