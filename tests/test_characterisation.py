@@ -143,6 +143,20 @@ def test_the_command_tells_what_it_repaired_and_what_it_cannot_read(tmp_path, ca
             main(["press", str(tmp_path / "scan.npy"), *loads, *options])
 
 
+def test_the_command_says_how_it_presses_and_doubts_what_is_probably_not_meant(tmp_path, capsys):
+    np.save(tmp_path / "scan.npy", np.random.default_rng(0).normal(size=(20, 20)))
+    press = ["press", str(tmp_path / "scan.npy"), "--contact-modulus", "1", "--spacing", "10", "--mean-pressure"]
+    main([*press, "1e-3"])
+    text = capsys.readouterr().out
+    assert "E* 1 GPa, plane subtracted, pressed alone on a half-space, not repeated" in text
+    assert "E*: pressures are in GPa" not in text
+    main([*press, "1e-3", "100", "--periodic", "--spikes", "2", "--detrend", "none"])
+    text = capsys.readouterr().out
+    assert "E* 1 GPa, pressed repeated without end" in text
+    assert "contact everywhere at 100 GPa and more, which is 100 E*: pressures are in GPa" in text
+    assert "% of the points are no spikes: a larger threshold may be meant" in text
+
+
 def test_the_figure_has_four_panels_with_bars():
     data = cs.characterise(surface(), contact_modulus=1.0, mean_pressures=LOADS, periodic=True)
     panels = plot_characterisation(data).axes

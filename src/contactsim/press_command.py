@@ -19,7 +19,7 @@ from contactsim.commands import DRAWN
 from contactsim.errors import InputError
 from contactsim.evaluation.estimate import align_right
 from contactsim.status import Status, describe_excess, is_solved
-from contactsim.surfaces.preparation import prepare_topography
+from contactsim.surfaces.preparation import USUAL_DETREND, prepare_topography
 from contactsim.surfaces.topography import Topography, read_topography
 
 COLUMNS = {
@@ -31,6 +31,8 @@ COLUMNS = {
     "yielding_share": ("yielding", "of the contact"),
 }
 """Numbers that are printed of heights that were pressed: their heads and units."""
+MANY_SPIKES = 0.01
+"""Share of the points above which they are hardly spikes."""
 PLAIN_EXPONENTS = range(-3, 5)
 """Powers of ten of numbers that are written without them."""
 
@@ -58,7 +60,8 @@ def press_file(options: argparse.Namespace) -> None:
         )
     except InputError as error:
         raise error.renamed("other", f"--other {options.other}").renamed("offset", "--offset") from error
-    sys.stdout.write(f"{_describe_heights([heights, other], data)}\n{_press_table(data)}\n")
+    remarks = "".join(f"{words}\n" for words in [*_describe_pressing(heights, options), *_doubts(heights, data)])
+    sys.stdout.write(f"{_describe_heights([heights, other], data)}\n{remarks}{_press_table(data)}\n")
     if options.output:
         title, source = f"Contact of {Path(options.file).name}", source_digest("contactsim.characterisation")
         settings = {key: value for key, value in vars(options).items() if key not in ("module", "command")}
@@ -112,6 +115,28 @@ def _describe_scan(heights: Topography) -> str:
     text = f"{' × '.join(map(str, heights.values.shape))} points on {size} nm"
     repairs = {"filled": heights.filled, "replaced as spikes": heights.spikes}
     return text + "".join(f", {share:.2%} of the points {what}" for what, share in repairs.items() if share)
+
+
+def _describe_pressing(heights: Topography, options: argparse.Namespace) -> list[str]:
+    """Return how heights are pressed, in words."""
+    repeats = heights.periodic or options.periodic
+    ends = "repeated without end" if repeats else "alone on a half-space, not repeated"
+    detrend = options.detrend or USUAL_DETREND[heights.values.ndim]
+    removed = "" if detrend == "none" else f", {detrend} subtracted"
+    return [f"E* {options.contact_modulus:g} GPa{removed}, pressed {ends}"]
+
+
+def _doubts(heights: Topography, data: xr.Dataset) -> list[str]:
+    """Return in words what is probably not meant: spikes that are many, and pressures that close all gaps."""
+    doubts = []
+    if heights.spikes > MANY_SPIKES:
+        doubts.append(f"{heights.spikes:.2%} of the points are no spikes: a larger threshold may be meant")
+    closed = data.mean_pressure[data.relative_contact_area_subgrid.values >= 1]
+    if closed.size:
+        first = float(closed[0])
+        ratio = first / float(data.contact_modulus)
+        doubts.append(f"contact everywhere at {first:g} GPa and more, which is {ratio:.3g} E*: pressures are in GPa")
+    return doubts
 
 
 def _press_table(data: xr.Dataset) -> str:

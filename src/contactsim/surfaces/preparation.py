@@ -54,6 +54,10 @@ def _level_by_steps(heights: Array) -> Array:
     return heights - np.concatenate([[0.0], moves])[:, None]
 
 
+USUAL_DETREND = {1: "linear", 2: "plane"}
+"""What is subtracted where nothing else is named, by dimension."""
+
+
 def _remove_spikes(heights: Array, threshold: float) -> tuple[Array, float]:
     """Return the heights with spikes replaced by the median about them, and the share of the points replaced."""
     from scipy.ndimage import median_filter  # takes longer to import than most files to read
@@ -168,8 +172,7 @@ def prepare_topography(
         if not is_positive(spikes):
             raise InputError("spikes", spikes, f"{POSITIVE}, of standard deviations", topography.source)
         heights, replaced = _remove_spikes(heights, float(spikes))
-    if detrend is None:
-        detrend = "linear" if dimensions == 1 else "plane"
+    detrend = USUAL_DETREND[dimensions] if detrend is None else detrend
     for key, name, operations in (
         ("level", level, LEVEL),
         ("detrend", detrend, DETREND),

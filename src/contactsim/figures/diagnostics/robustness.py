@@ -16,7 +16,7 @@ from contactsim.evaluation.robustness.outcome import Outcome
 from contactsim.figures.diagnostics.stability import COLOURS, WORDS, add_outcome_legend
 from contactsim.solvers.registry import DEFAULT_SOLVERS
 
-SHOWN = {outcome: words for outcome, words in WORDS.items() if outcome is not Outcome.NON_FINITE}
+SHOWN: dict[Outcome, str] = {outcome: words for outcome, words in WORDS.items() if outcome is not Outcome.NON_FINITE}
 """What colours mean; an answer that is not finite is wrong."""
 WITHOUT_ANSWER = [outcome.value[0] for outcome in (Outcome.REFUSED, Outcome.FAILED)]
 """Outcomes without an answer, whose number of cases is written."""
