@@ -340,7 +340,7 @@ def test_a_family_shows_its_worst_outcome_by_the_default_solver_and_how_often_th
     table = robustness(data, axes, FAMILIES)
     assert len(table) == 9
     assert set(table.solver) == {"active_set"}
-    assert [text.get_text() for text in axes.get_yticklabels()] == ["spikes (1)", "loads (2)"]
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["spikes: 1 hazard", "loads: 2 hazards"]
     worst = axes.collections[0].get_array().reshape(2, 3)
     assert set(worst[1].tolist()) == {Outcome.REFUSED.value[0]}  # tension
     assert worst[0].max() < Outcome.REFUSED.value[0]
@@ -368,7 +368,7 @@ def test_the_map_says_why_a_case_was_refused(drawn):
 
 def test_solvers_of_the_other_dimension_are_left_out_and_counted(drawn):
     data = dataset.load_dataset(drawn / "stability.nc")
-    assert "refused and left out, as their solver does not take the kind of case: 36 ·" in footer(data)
+    assert "36 cells left out, whose solver does not take the kind of case ·" in footer(data)
     one = data.sel(hazard="low_spike")
     assert supported(one).solver.values.tolist() == ["active_set", "polonsky_keer", "verlet"]
     alone = one.sel(solver=["conjugate_gradients"])

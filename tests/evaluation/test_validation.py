@@ -62,7 +62,7 @@ def test_a_trial_is_the_same_each_time_but_for_its_seconds(tried):
 def test_errors_are_asked_for_by_turns():
     settings = read_trials(ROOT / "config", {}, "standard")
     for kind in settings.kinds:
-        asked = [validation.requested_error(settings.errors, kind, count) for count in range(3)]
+        asked = [validation.requested_error(settings.errors, kind, count) for count in range(len(settings.errors))]
         assert sorted(asked) == settings.errors
     jobs = [validation.trial_job(settings, LINE, count) for count in range(3)]
     errors = [validation.Trial.from_settings(job).requested_error for job in jobs]

@@ -54,9 +54,14 @@ def _remedy(plan: Plan, name: str) -> str:
 
 
 def _read_numbers(plan: Plan, name: str) -> pd.DataFrame:
-    """Return the numbers that a figure shows."""
+    """Return the numbers that a figure shows, without the points that it draws from them."""
     try:
-        return pd.read_csv(_path(plan, name))
+        table = pd.read_csv(_path(plan, name))
     except FileNotFoundError as error:
         allowed = f"a file that is there; {_remedy(plan, name)}"
         raise InputError(f"figures.{name}", Words("no file"), allowed, _path(plan, name)) from error
+    if "point" not in table:
+        return table
+    numbers = table[table.point.isna()]
+    words = [column for column in numbers.select_dtypes(exclude="number") if numbers[column].isna().all()]
+    return numbers.drop(columns=words)  # those of the points

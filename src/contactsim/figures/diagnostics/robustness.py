@@ -45,7 +45,7 @@ def robustness(data: xr.Dataset, axes: Axes, families: Sequence[tuple[str, Seque
         place = list(severities).index(severity) + 0.5, names.index(family) + 0.5
         axes.text(*place, str(count), fontsize=7, ha="center", va="center")
     sizes = table.groupby("family").hazard.nunique()
-    axes.set_yticks(np.arange(len(names)) + 0.5, [f"{name}: {sizes[name]} hazards" for name in names])
+    axes.set_yticks(np.arange(len(names)) + 0.5, [f"{name}: {_hazards(int(sizes[name]))}" for name in names])
     ticks = np.unique(np.linspace(0, severities.size - 1, min(severities.size, TICKS)).round().astype(int))
     axes.set_xticks(ticks + 0.5, [f"{severities[place]:g}" for place in ticks])
     axes.set(ylim=(len(names), 0), xlabel="severity, from easy (0) to far beyond what is usual (100)")
@@ -55,6 +55,11 @@ def robustness(data: xr.Dataset, axes: Axes, families: Sequence[tuple[str, Seque
     axes.set_title(f"{len(table)} cases, {wrong} wrong", fontsize=11, loc="left", weight="bold")
     add_outcome_legend(axes, SHOWN, table.outcome.to_numpy())
     return table
+
+
+def _hazards(count: int) -> str:
+    """Return a number of hazards in words."""
+    return f"{count} hazard{'s' * (count > 1)}"
 
 
 def outcome_table(data: xr.Dataset, families: Mapping[str, Sequence[str]]) -> pd.DataFrame:
