@@ -116,3 +116,13 @@ def test_contact_by_five_criteria_is_shown_for_both_ends_of_the_works(studies):
     shown = ch5.thresholds(studies["rough_adhesive"], panels(3))
     assert set(shown.criterion) == {"contact_length", *INTERACTING}
     assert sorted(shown.work_of_separation.unique()) == [0.07, 10.5]
+
+
+def test_means_end_where_the_path_of_one_member_does(studies):
+    data = studies["rough_adhesive"]
+    status, last = data.status.copy(), data.step.size - 3
+    status.loc[{"member": status.member[0], "step": status.step[last:]}] = np.nan
+    assert data.member.size > 1
+    shown = ch5.thresholds(data.assign(status=status), panels(3))
+    means = shown[shown.criterion.eq(CRITERION) & shown.area.notna()].groupby("work_of_separation").size()
+    assert (means == last).all()

@@ -10,6 +10,7 @@ import xarray as xr
 from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
 from contactsim.observables.linearity import values_at_loads
+from contactsim.status import is_solved
 
 EQUAL_PRESSURES = 60
 """Number of pressures at which curves are averaged."""
@@ -96,6 +97,14 @@ def at_equal_pressure(data: xr.Dataset, reduced: bool, area: str, end: float) ->
 def _gradient(data: xr.Dataset) -> xr.DataArray:
     """Return the rms gradient over the contact: by the usual criterion, or at a hard wall."""
     return data["rms_gradient_interacting" if "rms_gradient_interacting" in data else "rms_gradient_contact"]
+
+
+def states_of_all_members(data: xr.Dataset) -> Array:
+    """Return the numbers of the states that every member has, (states,); a path may end at complete contact.
+
+    A mean over the members that go on would be one of other surfaces at each state. data: paths of one variant
+    """
+    return np.flatnonzero(is_solved(data.status).all("member").values)
 
 
 def member_mean(values: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:

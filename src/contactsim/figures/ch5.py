@@ -78,7 +78,9 @@ def fig_5_3(
     axes[0].set(xlim=rough.plotted_range(axes[0], -0.015, 0.06), ylim=(0, 1.02))
     axes[1].set(xlim=(-0.004, 0.012), ylim=(0, 0.5))
     axes[1].xaxis.set_major_locator(MaxNLocator(5))
-    axes[1].legend(loc="upper left", bbox_to_anchor=(0.0, 0.93))
+    handles = [*rough.repulsion_handles(), rough.falling_handle()]
+    axes[0].legend(handles=handles, loc="center right", bbox_to_anchor=(1.0, 0.52))
+    axes[1].legend(loc="upper left", bbox_to_anchor=(0.0, 0.87), labelspacing=0.3)
     style.add_letters(axes)
     return pd.concat(tables)
 
@@ -98,6 +100,7 @@ def fig_5_4(
         panel.set(xlabel=rough.LABELS["indentation"], ylabel=rough.LABELS[name], xlim=(-7, 24.5))
     _add_pulls(axes[0])
     axes[1].set_ylim(0.5, 1.15)
+    axes[1].legend(handles=rough.repulsion_handles(), loc="lower right")
     axes[2].legend(loc="upper left")
     style.add_letters(axes)
     return tables[names[0]]
@@ -292,8 +295,9 @@ def thresholds(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
     for panel, work, ratio_panel in ((axes[0], strongest, axes[2]), (axes[1], weakest, None)):
         variant = with_indentation(data.sel(work_of_separation=work))
         tables.append(rough.plot_criteria(panel, variant, ratio_panel).assign(work_of_separation=work))
+        rough.shade_overlap(panel, variant)
         panel.set_title(rough.work_label(data, work), fontsize=9)
-    axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above a hundredth", yscale="log")
+    axes[2].set(xlabel=rough.LABELS["indentation"], ylabel="area over that above $10^{-2}$", yscale="log")
     style.add_log_headroom(axes[2], 0.5)
     axes[2].legend(loc="upper right")
     style.add_letters(axes)

@@ -55,7 +55,7 @@ PLACE_TOLERANCE = 1e-6
 HURST_LOOKS = {0.2: ("o", "-"), 0.5: ("s", "--"), 0.8: ("^", ":")}
 """Marker and line of the thesis's Hurst exponents."""
 HURST_COLOURS = {0.2: WHOLE, 0.5: PAIRS, 0.8: CONTACT}
-POISSON_LOOKS = {0.1: ("o", 5.5), 0.45: ("x", 3.2)}
+POISSON_LOOKS = {0.1: ("o", 5.5), 0.45: ("x", 3.8)}
 """Marker and size of Poisson's ratios: the small one fits into the large one where they coincide."""
 HUES = {
     "work_of_separation": ("Blues", (0.2, 0.4, 0.8, 2.0, 4.0)),

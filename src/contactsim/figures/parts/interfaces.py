@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from contactsim.figures import style
 from contactsim.figures.parts.rough_curves import work_label
@@ -25,11 +26,12 @@ MANY_WAVES, FEW_WAVES = 512, 64
 
 
 def plot_interface(
-    axes: Axes, data: xr.Dataset, nodes: slice, *, colour: str, label: str, filled: bool = True
+    axes: Axes, data: xr.Dataset, nodes: slice, *, colour: str, label: str, filled: bool = True, width: float = 0.9
 ) -> pd.DataFrame:
     """Plot the rigid profile and the deformed surface of the first member, over a part of the period.
 
-    filled: the profile is grey; otherwise it is a faint line in the colour of the surface, beside one that is grey
+    filled: the profile is grey; otherwise it is a faint line in the colour of the surface, beside one that is grey;
+    width: of the line of the surface
     """
     state = data.isel(member=0).sel(snapshot=INDENTATION, method="nearest", tolerance=style.PLACE_TOLERANCE)
     x = state.x.values[nodes]
@@ -38,11 +40,15 @@ def plot_interface(
     if filled:
         axes.fill_between(x, rigid, rigid.max() + 5.0, color="#cccccc", lw=0, zorder=0)
     axes.margins(x=0)
-    rigid_look: dict[str, Any] = {"color": style.GREY if filled else colour, "lw": 0.6, "alpha": 1.0 if filled else 0.5}
-    axes.plot(x, rigid, **rigid_look, label=f"_{label}, rigid profile")
-    axes.plot(x, surface, lw=0.9, color=colour, label=label)
+    axes.plot(x, rigid, **_rigid_look(colour, filled), label=f"_{label}, rigid profile")
+    axes.plot(x, surface, lw=width, color=colour, label=label)
     axes.set(xlabel="$x$ (nm)", ylabel="$z$ (nm)")
     return pd.DataFrame({"x": x, "rigid": rigid, "surface": surface})
+
+
+def _rigid_look(colour: str, filled: bool) -> dict[str, Any]:
+    """Return the look of the rigid profile above a surface of a colour, which is grey if it is filled."""
+    return {"color": style.GREY if filled else colour, "lw": 0.6, "alpha": 1.0 if filled else 0.5}
 
 
 def plot_beside_wall(axes: Axes, data: xr.Dataset, wall: xr.Dataset, share: float) -> pd.DataFrame:
@@ -99,12 +105,15 @@ def nodes_around(data: xr.Dataset, place: float, share: float) -> slice:
 
 
 def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> None:
-    """Plot the interface around the highest point, with many and with few short waves."""
-    place = highest_place(many)
-    for data, waves, colour in ((many, MANY_WAVES, style.CONTACT), (few, FEW_WAVES, style.WHOLE)):
-        nodes = nodes_around(data, place, share)
-        plot_interface(axes, data, nodes, colour=colour, label=waves_label(waves), filled=data is many)
-    axes.legend(loc="lower right")
+    """Plot the interface around the highest point, with many (thick) and with few short waves (thin)."""
+    place, handles = highest_place(many), []
+    for data, waves, colour, width in ((many, MANY_WAVES, style.CONTACT, 2.0), (few, FEW_WAVES, style.WHOLE, 0.8)):
+        nodes, filled, label = nodes_around(data, place, share), data is many, waves_label(waves)
+        plot_interface(axes, data, nodes, colour=colour, label=label, filled=filled, width=width)
+        handles.append(Line2D([], [], color=colour, lw=width, label=label))
+        handles.append(Line2D([], [], label=f"{label}, rigid", **_rigid_look(colour, filled)))
+    style.add_headroom(axes, 0.0, below=0.25)
+    axes.legend(handles=handles, loc="lower center", ncols=2, fontsize=7, columnspacing=0.8, handlelength=1.2)
     add_magnification(axes)
 
 

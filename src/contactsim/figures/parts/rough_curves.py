@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from contactsim.analysis.ensemble import converged
 from contactsim.analysis.rough_paths import (
@@ -19,11 +20,13 @@ from contactsim.analysis.rough_paths import (
     on_full_grid,
     reduced_pressure,
     relative_areas,
+    states_of_all_members,
 )
 from contactsim.analysis.scales import reduced_work
 from contactsim.figures import style
 from contactsim.observables.adhesion import CRITERION, INTERACTING
 from contactsim.observables.path_summary import LEGS, legs
+from contactsim.status import FLAGS, LIMITS
 
 COLUMNS = (
     "normalised_pressure",
@@ -43,6 +46,8 @@ LABELS = {
 }
 LARGEST_PRESSURE = 0.03
 """Largest pressure over E* up to which curves are averaged at equal pressure."""
+BAR_SPACING = 10
+"""Number of states between the error bars of a curve."""
 WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
 """Look of a hard wall beside adhesive contacts."""
 
@@ -50,7 +55,7 @@ WALL_LOOK = {"color": style.EXACT, "ls": "--", "lw": 1.0, "marker": "x"}
 def plot_path(axes: Axes, data: xr.Dataset, x: xr.DataArray, name: str, label: str, **look: Any) -> pd.DataFrame:
     """Plot the ensemble means of a quantity along a path.
 
-    All states are a line; those solved on the full grid have markers and standard errors.
+    All states that every member has are a line; those solved on the full grid have markers and standard errors.
 
     Parameters
     ----------
@@ -66,6 +71,8 @@ def plot_path(axes: Axes, data: xr.Dataset, x: xr.DataArray, name: str, label: s
     table : of all means along the path, one row a state
     """
     marker = look.pop("marker", "o")
+    states = states_of_all_members(data)
+    data, x = data.isel(step=states), x.isel(step=states)
     mean, error = data[f"{name}_mean"], data[f"{name}_standard_error"]
     axes.plot(x, mean, **look, label=f"_{label}")
     full = on_full_grid(data)
@@ -125,6 +132,7 @@ def plot_repulsions(
     for data, line, words in ((repulsive, ":", "repulsion alone"), (stiff, "-.", "stiff repulsion")):
         for work in data.work_of_separation.values:
             variant = data.sel(work_of_separation=work)
+            variant = variant.isel(step=states_of_all_members(variant))
             x, mean = across(variant), variant[f"{name}_mean"]
             label = f"_{work_label(data, work)}, {words}"
             axes.plot(x, mean, color=colours[float(work)], ls=line, lw=0.6, label=label)
@@ -149,6 +157,16 @@ def plot_thin_against_pressure(
             axes.plot(means.abscissa, means.area, color=colours[float(work)], ls=line, lw=0.6, label=label)
             tables.append(pd.DataFrame(vars(means)).assign(case=f"{words}, {work:g} N/m"))
     return tables
+
+
+def repulsion_handles() -> list[Line2D]:
+    """Return legend handles of the thin lines of other repulsions."""
+    return style.line_handles({"repulsion alone": ":", "repulsion of the strongest": "-."})
+
+
+def falling_handle() -> Line2D:
+    """Return the legend handle of the states before the load rises for the last time."""
+    return Line2D([], [], color=style.EXACT, lw=0.6, alpha=style.FAINT, label="load still falls")
 
 
 def indentation(data: xr.Dataset) -> xr.DataArray:
@@ -232,7 +250,7 @@ def label_pressures(axes: Axes) -> None:
     """Label a panel of area against pressure, and limit it to contact that is not yet complete."""
     axes.set(xlabel=LABELS["normalised_pressure"], ylabel=LABELS["relative_interacting_area"])
     axes.set(xlim=plotted_range(axes, -0.006, 0.03), ylim=(0, 1.02))
-    axes.legend(loc="best", fontsize=7)
+    axes.legend(handles=[*axes.get_legend_handles_labels()[0], falling_handle()], loc="best", fontsize=7)
 
 
 def plotted_range(axes: Axes, low: float, high: float) -> tuple[float, float]:
@@ -244,19 +262,47 @@ def plotted_range(axes: Axes, low: float, high: float) -> tuple[float, float]:
 
 
 def plot_criteria(axes: Axes, data: xr.Dataset, ratio_axes: Axes | None) -> pd.DataFrame:
-    """Plot the mean area by every criterion, and on other axes over the area by the usual one."""
+    """Plot the mean area by every criterion, and on other axes over the area by the usual one.
+
+    Means end where the path of the first member does.
+    """
+    data = data.isel(step=states_of_all_members(data))
     areas = relative_areas(data, ["contact_length", *INTERACTING])
     usual, _ = member_mean(areas[CRITERION])
     tables = []
-    for (name, area), colour in zip(areas.items(), style.shades(range(len(areas))).values(), strict=True):
+    for place, ((name, area), colour) in enumerate(
+        zip(areas.items(), style.shades(range(len(areas))).values(), strict=True)
+    ):
         mean, error = member_mean(area)
-        label = f"above {INTERACTING[name]:g} of the strength" if name in INTERACTING else "repulsive"
+        label = criterion_label(name)
         axes.plot(data.indentation, mean, color=colour, lw=1.0, label=label)
-        look = style.BARS | {"color": colour, "label": f"_{label}, error at the end"}
-        axes.errorbar(data.indentation[-1], mean[-1], error[-1], **look)
+        some = slice(place - len(areas), None, -BAR_SPACING)
+        look = style.BARS | {"color": colour, "ls": "none", "label": f"_{label}, errors"}
+        axes.errorbar(data.indentation[some], mean[some], error[some], **look)
         if ratio_axes is not None:
             ratio_axes.plot(data.indentation, mean / usual, color=colour, lw=1.0, label=label)
         table = {"indentation": data.indentation, "area": mean, "standard_error": error}
         tables.append(pd.DataFrame(table).assign(criterion=name))
     axes.set(xlabel=LABELS["indentation"], ylabel=LABELS[AREA], ylim=(0, 1))
     return pd.concat(tables)
+
+
+def criterion_label(name: str) -> str:
+    """Return the label of a criterion of contact, by the name of its length."""
+    if name not in INTERACTING:
+        return "repulsive"
+    return rf"above $10^{{{round(np.log10(INTERACTING[name]))}}}$ of the strength"
+
+
+def shade_overlap(axes: Axes, data: xr.Dataset) -> None:
+    """Shade the approaches at which bodies overlap by more than the law describes, in any member.
+
+    data: of one variant, of `contactsim.analysis.rough_paths.with_indentation`
+    """
+    flags = data.validity_flags.fillna(0).astype(int) & FLAGS["max_interpenetration"]
+    beyond = data.indentation.values[(flags > 0).any("member").values]
+    if beyond.size:
+        axes.axvspan(beyond.min(), axes.get_xlim()[1], color=style.LIGHT_GREY, alpha=0.2, lw=0)
+        axes.margins(x=0)
+        words = rf" overlap above {LIMITS['max_interpenetration'][0]:g} $\delta_n$"
+        axes.text(beyond.min(), 0.98, words, transform=axes.get_xaxis_transform(), fontsize=7, va="top")

@@ -18,6 +18,8 @@ HALF_SPACE = 1e8
 """Thickness (nm) from which a layer is a half-space to rounding."""
 CHANGE_OPACITIES = {"kappa_r": 1.0, "relative_contact_area": style.FAINT}
 """Opacity of the changes of each quantity."""
+SHIFT = 1.06
+"""Factor between the pressures at which the points of neighbouring bodies are drawn beside each other."""
 FACTOR_OPACITIES = {"Eq. 3.8": 1.0, "pairs in contact": style.FAINT}
 """Opacity of κ_r and of its grid error, by definition."""
 
@@ -34,21 +36,28 @@ def plot_bodies(data: xr.Dataset, axes: list[Axes]) -> None:
     There is a curve for each Hurst exponent, Poisson's ratio and thickness. κ_r of the thickest body is plotted over
     pairs of points in contact too.
     """
-    for hurst_exponent, ratio, thickness in product(
-        data.hurst_exponent.values, data.poisson_ratio.values, data.thickness.values
-    ):
+    for hurst_exponent, (place, (ratio, thickness)) in product(data.hurst_exponent.values, _placed_bodies(data)):
         body = data.sel(hurst_exponent=hurst_exponent, poisson_ratio=ratio, thickness=thickness)
         look = style.poisson_look(ratio) | {"color": style.hurst_colour(hurst_exponent), "linewidth": 0.9}
         look["linestyle"] = thickness_line(data, thickness)
         look["label"] = rf"_$H={hurst_exponent:g}$, $\nu={ratio:g}$, {_body_label(thickness)}"
-        _plot_body(body, axes, look, thickness == data.thickness.max())
+        _plot_body(body, axes, look, thickness == data.thickness.max(), SHIFT**place)
 
 
-def _plot_body(body: xr.Dataset, axes: list[Axes], look: dict[str, Any], thickest: bool) -> None:
-    """Plot the curves of one body; of the thickest there is no change, but κ_r over pairs."""
+def _placed_bodies(data: xr.Dataset) -> list[tuple[float, tuple[float, float]]]:
+    """Return Poisson's ratio and thickness of each body, with its place beside the others, 0 in their middle."""
+    bodies = list(product(data.poisson_ratio.values, data.thickness.values))
+    return [(place - (len(bodies) - 1) / 2, body) for place, body in enumerate(bodies)]
+
+
+def _plot_body(body: xr.Dataset, axes: list[Axes], look: dict[str, Any], thickest: bool, shift: float) -> None:
+    """Plot the curves of one body; of the thickest there is no change, but κ_r over pairs.
+
+    shift: factor of the pressure at which points are drawn, but not those of the area
+    """
     area, factor, change, error = axes
-    pressure = body.reduced_pressure_contact_mean
-    style.plot_means(area, pressure, body, "relative_contact_area", **look)
+    style.plot_means(area, body.reduced_pressure_contact_mean, body, "relative_contact_area", **look)
+    pressure = body.reduced_pressure_contact_mean * shift
     style.plot_means(factor, pressure, body, "kappa_r", **look)
     pairs = look | {"alpha": style.FAINT, "label": f"{look['label']}, pairs in contact"}
     if thickest:
@@ -59,7 +68,7 @@ def _plot_body(body: xr.Dataset, axes: list[Axes], look: dict[str, Any], thickes
         for name, alpha in CHANGE_OPACITIES.items():
             changes = body[f"{name}_change"], body[f"{name}_change_standard_error"]
             label = f"{look['label']}, {RESULTS[name].symbol}"
-            style.errorbars(change, body.reduced_pressure, *changes, **look | {"alpha": alpha, "label": label})
+            style.errorbars(change, body.reduced_pressure * shift, *changes, **look | {"alpha": alpha, "label": label})
 
 
 def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
@@ -80,7 +89,8 @@ def label_panels(data: xr.Dataset, axes: list[Axes], kappa_r: float) -> None:
     opacities = {RESULTS[name].symbol: alpha for name, alpha in CHANGE_OPACITIES.items()}
     change.legend(handles=style.opacity_handles(opacities), loc="lower right")
     factor.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="upper right")
-    error.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="lower left")
+    style.add_log_headroom(error, 0.15)
+    error.legend(handles=style.opacity_handles(FACTOR_OPACITIES), loc="upper right", ncols=2)
 
 
 def _body_label(thickness: float) -> str:
