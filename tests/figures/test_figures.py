@@ -226,7 +226,7 @@ def test_surfaces_are_drawn_with_the_values_of_the_thesis_and_their_distance_fro
     axes = list(Figure().subplots(1, 4))
     ch3.fig_3_4(surface, axes, kappa=2.2, kappa_r=1.88)
     assert {2.2, 1.88} <= {line.get_ydata()[0] for line in axes[1].lines if len(set(line.get_ydata())) == 1}
-    drawn = axes[2].containers[2].lines[0].get_ydata()  # corrected κ of the first Hurst exponent
+    drawn = axes[2].containers[0].lines[0].get_ydata()  # corrected κ of the first Hurst exponent
     assert np.allclose(drawn, 100 * (surface.kappa_corrected_mean.sel(hurst_exponent=0.2) / 2.2 - 1))
 
 

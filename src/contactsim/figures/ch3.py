@@ -157,8 +157,7 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
     proportionality.plot_grid_errors(error, data, levels)
     proportionality.plot_persson(area, factor, data)
     for name, value in levels.items():
-        look = {"color": proportionality.FACTOR_COLOURS[name], "lw": 0.8, "ls": style.THESIS}
-        factor.axhline(value, label=f"thesis, {value:.2f}", **look)
+        factor.axhline(value, color=proportionality.FACTOR_COLOURS[name], lw=0.6, label=f"thesis, {value:.2f}")
     factor.set(ylabel=r"$\kappa^{2D}$, $\kappa_r^{2D}$")
     distance.set(ylabel=rf"above {kappa:.2f} ($\kappa^{{2D}}$), {kappa_r:.2f} ($\kappa_r^{{2D}}$) (%)")
     error.set(ylabel=r"grid error of $\kappa^{2D}$, $\kappa_r^{2D}$ (%)")
@@ -167,9 +166,12 @@ def fig_3_4(data: xr.Dataset, axes: list[Axes], *, kappa: float, kappa_r: float)
     style.add_letters(axes)
     area.legend(handles=_handles(data), loc="upper left")
     style.add_log_headroom(area, 0.2)
-    lines = {f"thesis, {kappa:.2f} and {kappa_r:.2f}": style.THESIS} | PERSSON
-    factor.legend(handles=_gradient_handles(lines), loc="upper right")
-    style.add_headroom(factor, 0.45)
+    thesis = [
+        Line2D([], [], color=proportionality.FACTOR_COLOURS[name], lw=0.6, label=f"thesis, {value:.2f}")
+        for name, value in levels.items()
+    ]
+    factor.legend(handles=_gradient_handles(PERSSON) + thesis, loc="upper right")
+    style.add_headroom(factor, 0.55)
     error.legend(handles=proportionality.estimator_handles(), loc="upper right")
     style.add_log_headroom(error, 0.25)
     return style.mean_table(data, AVERAGES)

@@ -7,7 +7,7 @@ of points: a pixel shows the fraction of its points in contact, and no load is l
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
@@ -195,6 +195,8 @@ def _plot_map(
     low, high = (0.0, 1.0) if name == "contact" else (low, high)
     look = {"cmap": COLOURS[name], "vmin": low * factor, "vmax": high * factor}
     image = axes.imshow(pixels * factor, origin="lower", extent=extent, label=LABELS[name], **look)
+    if name == "gap":
+        _blacken_contact(axes, block_means(touching(fields.pressure).astype(float), block), extent)
     axes.set(xlim=(0.0, length_x), ylim=(0.0, length_y), xticks=[], yticks=[])
     label = LABELS[name] + (f" ({shown_unit})" if shown_unit else "")
     bar = axes.figure.colorbar(image, ax=axes, label=label, aspect=22, pad=0.03)
@@ -207,6 +209,13 @@ def _plot_map(
         | numbers
         | {"shown_least": low, "shown_largest": high, "pixel_points": block}
     )
+
+
+def _blacken_contact(axes: Axes, contact: Array, extent: tuple[float, float, float, float]) -> None:
+    """Draw pixels black of which more than half is in contact; contact: part of each pixel in contact."""
+    in_contact = np.ma.masked_less_equal(contact, 0.5)
+    look: dict[str, Any] = {"cmap": ListedColormap(["black"]), "vmin": 0.0, "vmax": 1.0, "label": "_contact"}
+    axes.imshow(in_contact, origin="lower", extent=extent, **look)
 
 
 def block_means(values: Array, block: int) -> Array:

@@ -61,13 +61,14 @@ def plot_factors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None:
 
 
 def plot_distances(axes: Axes, data: xr.Dataset, levels: Mapping[str, float]) -> None:
-    """Plot how far mean factors lie above given values, in per cent, by both estimators; levels: the values."""
-    for means, end, look in _curves(data):
+    """Plot how far corrected mean factors lie above given values, in per cent; levels: the values."""
+    corrected = (curve for curve in _curves(data) if curve[1] == ESTIMATORS[CORRECTED][0])
+    for means, end, look in corrected:
         for name, level in levels.items():
             distance = 100 * (means[f"{name}{end}_mean"] / level - 1)
             error = 100 * _bars(means, name, end) / level
             style.errorbars(axes, _pressure(means, name + end), distance, error, **_factor_look(name, look))
-    axes.axhline(0, color=style.EXACT, lw=0.8, ls=style.THESIS, label="thesis")
+    axes.axhline(0, **style.ZERO)
 
 
 def plot_grid_errors(axes: Axes, data: xr.Dataset, names: Iterable[str]) -> None:

@@ -35,6 +35,8 @@ def plot_contact_map(axes: Axes, state: xr.Dataset) -> None:
     axes.imshow(kinds, origin="lower", extent=extent, cmap=colours, **look)
     axes.axis("off")
     add_scale_bar(axes, length, "nm")
+    words = f"contact blue; heights ${heights.min():.0f}$ (dark)\nto ${heights.max():.0f}$ nm (light) in equal steps"
+    axes.text(1.0, -0.03, words, transform=axes.transAxes, fontsize=7, ha="right", va="top")
 
 
 def plot_bodies(axes: Axes, position: Array, state: xr.Dataset, nodes: Array, approach: float) -> None:
