@@ -1,7 +1,7 @@
 """Chapter 4: smooth adhesive asperities. Each function plots one figure and returns the numbers that it shows.
 
-Keyword arguments are values of the thesis, from `reference` in the config. Loads are per unit thickness; as in the
-thesis they are divided by πRφ0 with φ0 = 1 N/m, which leaves a number only for a thickness of 1 µm.
+Keyword arguments are values of the thesis, from `reference` in the config. Loads are per length along the cylinder; as
+in the thesis they are divided by πRφ0 with φ0 = 1 N/m, which leaves a number only for a length of 1 µm.
 """
 
 from __future__ import annotations
@@ -114,10 +114,11 @@ def fig_4_5(data: xr.Dataset, uncoupled: xr.Dataset, pulled: xr.Dataset, axes: l
         coupled = coupled.sel(work_of_separation=WORK)
         tables.append(asperities.plot_both_laws(axes[1::2], coupled, other, colour, rf"$\nu={ratio:g}$", **place))
     lines = style.line_handles(asperities.COUPLING_LINES)
-    labels = {rf"$\varphi_n={work:g}$ N/m": colour for work, colour in works.items()}
-    axes[0].legend(handles=style.colour_handles(labels) + lines, loc="upper left")
-    labels = {rf"$\nu={ratio:g}$": colour for ratio, colour in ratios.items()}
-    axes[1].legend(handles=style.colour_handles(labels) + lines, loc="upper left")
+    of_works = {rf"$\varphi_n={work:g}$ N/m": colour for work, colour in works.items()}
+    of_ratios = {rf"$\nu={ratio:g}$": colour for ratio, colour in ratios.items()}
+    for panel, labels in zip(axes, (of_works, of_ratios) * len(LEGS), strict=True):
+        panel.legend(handles=style.colour_handles(labels) + lines, loc="upper left")
+    style.share_vertical_range(axes)
     fixed = rf"$\nu={POISSON_RATIO:g}$", rf"$\varphi_n={WORK:g}$ N/m"
     load_curves.label_panels(axes, tuple(f"{leg}, {value}" for leg in LEGS for value in fixed))
     return pd.concat(tables)

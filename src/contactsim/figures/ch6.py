@@ -25,6 +25,8 @@ LATTICES = (1.0, 1.5, 2.0, 2.44, 4.88)
 STICK_SLIP = ((70.0, 0.1), (140.0, 0.1), (70.0, 0.05))
 SMOOTH = ((70.0, 0.01), (70.0, 0.005), (400.0, 0.05))
 """Young's modulus (GPa) and ratio of works of the curves of Figs 6.4a and 6.4b."""
+VARIED = (("o", 5.5, "$E$ varied"), ("x", 3.2, r"$\varphi_t$ varied, $E=70$ GPa"))
+"""Marker, its size and label of what is varied in Fig. 6.5b: the small one fits into the large one."""
 CASES = {"I": (-2.0, 0), "II": (5.0, 0), "III": (5.0, 1)}
 """Approach (nm) of the cases of Fig. 6.7, and which of the two studies they belong to."""
 
@@ -82,38 +84,49 @@ def fig_6_5(
 
     Weaker interfaces lie on the curves of stiffer layers of their thickness.
     """
-    tables = []
+    tables, ends = [], []
     for studies, colour in zip(((thin, weaker), (thick, weaker_thick)), (style.CONTACT, style.WHOLE), strict=True):
         by_modulus, by_work = (slide_tables.friction_against_modulus(data) for data in studies)
         thickness, critical = by_modulus.thickness.iloc[0], by_modulus.critical.iloc[0]
         largest = max(table.modulus_over_strength.max() for table in (by_modulus, by_work))
         flats.plot_friction(axes[0], by_modulus, colour, rf"$h={thickness:g}$ nm")
-        for table, marker, fill, words in ((by_modulus, "o", colour, "$E$"), (by_work, "D", "none", r"$\varphi_t$")):
-            look = style.marker_look(colour, marker, size=3.5, fill=fill)
-            look |= {"label": rf"_$h={thickness:g}$ nm, {words} varied"}
+        for table, (marker, size, words) in zip((by_modulus, by_work), VARIED, strict=True):
+            look = style.marker_look(colour, marker, size, fill="none")
+            look |= {"label": rf"_$h={thickness:g}$ nm, {words}"}
             axes[1].plot(table.modulus_over_strength, table.relative_friction, ls="none", **look)
         ratios = np.geomspace(by_modulus.modulus_over_strength.min(), largest, 60)
         sine = slide_tables.friction_by_prandtl_tomlinson(studies[0], ratios)
         axes[1].plot(ratios, sine, color=colour, lw=0.8, ls=":", label=rf"_$h={thickness:g}$ nm, Prandtl–Tomlinson")
-        if critical < largest:
-            flats.shade_smooth(axes[0], critical, 1.3 * largest, thickness, colour)
+        ends.append((critical, largest, thickness, colour))
         errors = ["mean_friction_increment_error", "average_friction_increment_error"]
         tables += [table.drop(columns=errors) for table in (by_modulus, by_work)]
+    _label_friction(axes, thin)
+    right = 1.3 * max(largest for _, largest, *_ in ends)
+    for critical, largest, thickness, colour in ends:
+        if critical < largest:
+            flats.shade_smooth(axes[0], critical, right, thickness, colour)
+    axes[0].set_xlim(right=right)
+    return pd.concat(tables)
+
+
+def _label_friction(axes: list[Axes], thin: xr.Dataset) -> None:
+    """Add labels and legends to the panels of friction against modulus over strength."""
     lines = style.line_handles({r"$(F_s+F_k)/2$ (Eq. 6.7)": "-", "mean over whole periods": "--"})
     axes[0].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"friction $\langle\bar F\rangle$")
     axes[1].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"$\langle F\rangle/(w\tau_{\max})$")
     for panel in axes:
         panel.axhline(0.0, **style.ZERO)
     style.add_headroom(axes[0], 0.35)
-    axes[0].legend(handles=[*axes[0].get_legend_handles_labels()[0], *lines], loc="upper right", ncols=2)
-    looks = (("$E$ varied", "o", style.EXACT), (r"$\varphi_t$ varied, $E=70$ GPa", "D", "none"))
-    for label, marker, fill in looks:
-        axes[1].plot([], [], ls="none", label=label, **style.marker_look(style.EXACT, marker, size=3.5, fill=fill))
+    thicknesses = axes[0].get_legend_handles_labels()
+    axes[0].legend(handles=[*thicknesses[0], *lines], loc="upper right", ncols=2)
+    for label, colour in zip(thicknesses[1], (style.CONTACT, style.WHOLE), strict=True):
+        axes[1].plot([], [], color=colour, lw=1.5, label=label)
+    for marker, size, label in VARIED:
+        axes[1].plot([], [], ls="none", label=label, **style.marker_look(style.EXACT, marker, size, fill="none"))
     axes[1].plot([], [], color=style.EXACT, lw=0.8, ls=":", label=flats.prandtl_tomlinson_label(thin))
-    style.add_headroom(axes[1], 0.35)
+    style.add_headroom(axes[1], 0.55)
     axes[1].legend(loc="upper right")
     style.add_letters(axes)
-    return pd.concat(tables)
 
 
 def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:

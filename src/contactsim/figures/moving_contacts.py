@@ -55,8 +55,8 @@ def jump_and_pull_off(data: xr.Dataset, axes: list[Axes], *, frame: int | None =
     axes[0].set(xlabel=r"$x$ (µm)", ylabel="$z$ (nm)", xlim=(-1.5, 1.5), ylim=(-6, 24))
     length, load = LawScales.of(path).normal_length, reduced_line_load(converged(path.line_load, path).values, path)
     tables = [
-        load_curves.plot_leg(axes[1], path, leg, color=colour, lw=1.1, label=leg).assign(leg=leg)
-        for leg, colour in zip(LEGS, (style.CONTACT, style.WHOLE), strict=True)
+        load_curves.plot_leg(axes[1], path, leg, color=colour, lw=width, label=leg).assign(leg=leg)
+        for leg, colour, width in zip(LEGS, (style.CONTACT, style.WHOLE), (2.2, 0.9), strict=True)
     ]
     axes[0].set_title(rf"$\delta={path.approach.values[step] / length:.2f}\,\delta_n$", fontsize=9)
     states.mark_state(axes[1], path.approach.values[step] / length, float(load[step]), style.EXACT)
@@ -85,9 +85,10 @@ def peel_and_slip(data: xr.Dataset, axes: list[Axes], *, frame: int | None = Non
     gap.axhline(0.0, **style.ZERO)
     gap.set(ylabel="gap (nm)", ylim=(-0.3, 1.2))
     gap.set_title(f"$U_x={float(state.snapshot):.1f}$ nm", fontsize=9)
-    slip.set(
-        ylabel="tangential gap (nm)", ylim=_range(path.tangential_gap.values[:, nodes][:, np.abs(position) < PROBE])
+    gaps = np.array(
+        [line.get_ydata() for line in slip.lines] if frame is None else path.tangential_gap.values[:, nodes]
     )
+    slip.set(ylabel="tangential gap (nm)", ylim=_range(gaps[:, np.abs(position) < PROBE]))
     for panel in (gap, slip):
         panel.set(xlabel=curves.POSITION, xlim=(-PROBE, PROBE), xticks=np.linspace(-PROBE, PROBE, 5))
     style.add_letters(axes)
@@ -98,7 +99,7 @@ def _plot_stages(path: xr.Dataset, table: pd.DataFrame, axes: list[Axes]) -> Non
     """Plot the gaps of the states A to E, and mark these on the curves."""
     gap, force, slip, area = axes
     position, nodes = node_positions(path)
-    places = curves.passed_stages(path, table)
+    places = _stages_with_fields(path, table)
     for name, colour in zip(places, style.shades(range(len(curves.STAGES))).values(), strict=False):
         passed = path.sel(snapshot=float(table.slide[places[name]]), method="nearest")
         look: dict[str, Any] = {"color": colour, "lw": 0.9, "label": f"{name}, {float(passed.snapshot):g} nm"}
@@ -110,9 +111,19 @@ def _plot_stages(path: xr.Dataset, table: pd.DataFrame, axes: list[Axes]) -> Non
         style.add_headroom(panel, 0.06, 0.06)
 
 
+def _stages_with_fields(path: xr.Dataset, table: pd.DataFrame) -> dict[str, int]:
+    """Return the states with fields that are nearest to the stages A to E, by their letters."""
+    slides = path.sliding_distance.values[snapshot_steps(path)]
+    near = {
+        name: slides[np.abs(slides - table.slide[state]).argmin()]
+        for name, state in curves.passed_stages(path, table).items()
+    }
+    return {name: int((table.slide - slide).abs().idxmin()) for name, slide in near.items()}
+
+
 def rough_slide_forces(data: xr.Dataset, axes: list[Axes], *, frame: int | None = None) -> pd.DataFrame:
     """Plot gap and shear traction of a rough surface at one sliding distance, force and contact of all."""
-    path = data.isel(member=0)
+    path, film = data.isel(member=0), frame is not None
     frame = states_after_jumps(path)[0] - 1 if frame is None else frame
     gap, force, traction, area = axes
     table, state = slide_table(path), path.isel(snapshot=frame)
@@ -123,7 +134,8 @@ def rough_slide_forces(data: xr.Dataset, axes: list[Axes], *, frame: int | None 
     traction.plot(x, 1e3 * state.tangential_traction.values, color=style.PAIRS, lw=0.8, label="_shear")
     traction.axhline(0.0, **style.ZERO)
     traction.set(xlabel="$x/w$", ylabel="shear traction (MPa)", xlim=(0, 1))
-    traction.set(ylim=_range(1e3 * path.tangential_traction.values))
+    shown = path if film else state
+    traction.set(ylim=_range(1e3 * shown.tangential_traction.values))
     states.plot_slide(force, table, "force", float(state.snapshot), style.CONTACT, curves.FORCE)
     states.plot_slide(area, table, "area", float(state.snapshot), style.WHOLE, curves.AREA)
     style.add_letters(axes)

@@ -15,6 +15,9 @@ from contactsim.analysis.slide_tables import slide_table
 from contactsim.figures import style
 from contactsim.reference import springs
 
+BAND_TOP = 0.74
+"""Upper end of the shaded range, as a part of the panel: the legend is above it."""
+
 
 def prandtl_tomlinson_label(data: xr.Dataset) -> str:
     """Return the label of the model of Prandtl and Tomlinson, with the distance of the springs' sum to its sine."""
@@ -56,8 +59,8 @@ def plot_friction(axes: Axes, table: pd.DataFrame, colour: str, label: str) -> N
 
 
 def shade_smooth(axes: Axes, critical: float, end: float, thickness: float, colour: str) -> None:
-    """Shade the range in which flats slide without stick-slip."""
-    axes.axvspan(critical, end, color=colour, alpha=0.12, lw=0)
-    axes.axvline(critical, color=colour, lw=0.8, ls=":", label=f"_smooth at $h={thickness:g}$ nm")
+    """Shade the range in which flats slide without stick-slip, to the end of the axis."""
+    axes.axvspan(critical, end, ymax=BAND_TOP, color=colour, alpha=0.12, lw=0)
+    axes.axvline(critical, ymax=BAND_TOP, color=colour, lw=0.8, ls=":", label=f"_smooth at $h={thickness:g}$ nm")
     look: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "fontsize": 7, "va": "top", "color": colour}
     axes.text(1.04 * critical, 0.3, f"smooth at\n$h={thickness:g}$ nm", **look)

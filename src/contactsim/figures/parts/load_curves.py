@@ -14,7 +14,7 @@ from contactsim.analysis.scales import LawScales, reduced_line_load
 from contactsim.figures import style
 from contactsim.observables.path_summary import LEGS, legs
 
-LOAD_LABEL = r"$\bar L=L/(\pi R\varphi_0)$, thickness 1 µm"
+LOAD_LABEL = r"$\bar L=L\times 1\,\mathrm{µm}/(\pi R\varphi_0)$"
 NEGLIGIBLE_LOAD = 0.01
 """Part of the largest load below which a curve is not shown."""
 

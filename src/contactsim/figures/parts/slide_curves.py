@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
 
 from contactsim.analysis.scales import LawScales
 from contactsim.analysis.slide_tables import FIRST_APPROACH, slide_table, stages
@@ -66,6 +67,8 @@ def plot_stages(
     mark_stages(path_axes, table.relative_slide, table.area, names, colour, f"_{label}, A to E")
     for number, (stage, point) in enumerate(zip(STAGES, points.itertuples(), strict=True)):
         x = number + STAGE_SPACING * case
+        if not point.area > 0:
+            stage_axes.text(x, 0.0, "no contact", rotation=90, color=colour, fontsize=7, ha="center", va="center")
         look = {"color": colour, "lw": 5, "solid_capstyle": "butt", "label": f"{label}, {stage}"}
         stage_axes.plot([x, x], [point.trailing, point.leading], **look)
     ends = [STAGE_SPACING * case - 0.5, STAGE_SPACING * case + 4.5]
@@ -94,9 +97,17 @@ def mark_stages(
     states = list(places.values())
     look = style.marker_look(colour, size=3.5) | {"ls": "none", "label": label}
     axes.plot(x.iloc[states], y.iloc[states], **look)
-    for name, state in places.items():
-        offset = (2, -9) if name == "D" else (2, 3)
-        axes.annotate(name, (x.iloc[state], y.iloc[state]), offset, textcoords="offset points", fontsize=7)
+    offsets = _letter_offsets(y.iloc[list(places.values())].tolist()) if places else []
+    for (name, state), offset in zip(places.items(), offsets, strict=True):
+        text = {"color": colour, "fontsize": 7, "path_effects": [withStroke(linewidth=2, foreground="white")]}
+        axes.annotate(name, (x.iloc[state], y.iloc[state]), offset, textcoords="offset points", **text)
+
+
+def _letter_offsets(values: list[float]) -> list[tuple[int, int]]:
+    """Return where the letters of the stages A to E stand off a curve, points; values: of the curve there."""
+    beside = (-8, 3) if values[2] > values[0] else (2, 3)
+    around_slip = [(2, 3), (2, -9)] if values[3] > values[4] else [(2, -9), (2, 3)]
+    return [beside, beside, (-9, -3), *around_slip]
 
 
 def add_arrows(axes: Axes, x: Array, y: Array, colour: str) -> None:
