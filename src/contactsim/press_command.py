@@ -60,8 +60,8 @@ def press_file(options: argparse.Namespace) -> None:
         )
     except InputError as error:
         raise error.renamed("other", f"--other {options.other}").renamed("offset", "--offset") from error
-    remarks = "".join(f"{words}\n" for words in [*_describe_pressing(heights, options), *_doubts(heights, data)])
-    sys.stdout.write(f"{_describe_heights([heights, other], data)}\n{remarks}{_press_table(data)}\n")
+    described = _describe_heights([heights, other], data), _describe_pressing(heights, options)
+    sys.stdout.write("\n".join([*described, *_doubts(heights, data), _press_table(data)]) + "\n")
     if options.output:
         title, source = f"Contact of {Path(options.file).name}", source_digest("contactsim.characterisation")
         settings = {key: value for key, value in vars(options).items() if key not in ("module", "command")}
@@ -117,13 +117,13 @@ def _describe_scan(heights: Topography) -> str:
     return text + "".join(f", {share:.2%} of the points {what}" for what, share in repairs.items() if share)
 
 
-def _describe_pressing(heights: Topography, options: argparse.Namespace) -> list[str]:
+def _describe_pressing(heights: Topography, options: argparse.Namespace) -> str:
     """Return how heights are pressed, in words."""
     repeats = heights.periodic or options.periodic
     ends = "repeated without end" if repeats else "alone on a half-space, not repeated"
     detrend = options.detrend or USUAL_DETREND[heights.values.ndim]
     removed = "" if detrend == "none" else f", {detrend} subtracted"
-    return [f"E* {options.contact_modulus:g} GPa{removed}, pressed {ends}"]
+    return f"E* {options.contact_modulus:g} GPa{removed}, pressed {ends}"
 
 
 def _doubts(heights: Topography, data: xr.Dataset) -> list[str]:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from contactsim import dataset
 from contactsim.analysis.rough_paths import EQUAL_PRESSURES
 from contactsim.analysis.scales import LawScales
-from contactsim.figures import ch5
+from contactsim.figures import adhesive_lines, ch5
 from contactsim.observables.adhesion import CRITERION, INTERACTING
 from contactsim.observables.linearity import values_at_loads
 from contactsim.status import Status
@@ -104,7 +104,7 @@ def test_the_pictures_show_the_rigid_profile_above_both_surfaces(studies):
 
 def test_the_cycle_dissipates_less_on_rougher_lines_and_pulls_more_when_it_is_pulled_off(studies):
     data = studies["rough_adhesive_unloading"]
-    shown = ch5.unloading(data, panels(4))
+    shown = adhesive_lines.unloading(data, panels(4))
     ends = shown[shown.indentation.isna()].set_index("rms_height")
     assert (np.diff(ends.dissipated_work_mean) < 0).all()
     assert (ends.dissipated_work_mean > -ends.dissipated_work_error).all()
@@ -113,7 +113,7 @@ def test_the_cycle_dissipates_less_on_rougher_lines_and_pulls_more_when_it_is_pu
 
 
 def test_contact_by_five_criteria_is_shown_for_both_ends_of_the_works(studies):
-    shown = ch5.thresholds(studies["rough_adhesive"], panels(3))
+    shown = adhesive_lines.thresholds(studies["rough_adhesive"], panels(3))
     assert set(shown.criterion) == {"contact_length", *INTERACTING}
     assert sorted(shown.work_of_separation.unique()) == [0.07, 10.5]
 
@@ -123,6 +123,6 @@ def test_means_end_where_the_path_of_one_member_does(studies):
     status, last = data.status.copy(), data.step.size - 3
     status.loc[{"member": status.member[0], "step": status.step[last:]}] = np.nan
     assert data.member.size > 1
-    shown = ch5.thresholds(data.assign(status=status), panels(3))
+    shown = adhesive_lines.thresholds(data.assign(status=status), panels(3))
     means = shown[shown.criterion.eq(CRITERION) & shown.area.notna()].groupby("work_of_separation").size()
     assert (means == last).all()

@@ -53,7 +53,6 @@ def join_rows(first: pd.DataFrame, second: pd.DataFrame, keys: list[str]) -> pd.
 
 def _snap(values: Array, references: Array) -> Array:
     """Return the values, each replaced by the reference that is the same to rounding."""
-    references = references[np.isfinite(references)]
     if references.size == 0:
         return values
     nearest = references[np.abs(values[:, None] - references).argmin(axis=1)]

@@ -11,22 +11,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from contactsim.analysis.ensemble import converged
 from contactsim.analysis.rough_paths import (
     ENDS,
     at_equal_pressure,
-    mean_with_increments,
-    member_mean,
     on_full_grid,
     reduced_pressure,
-    relative_areas,
     states_of_all_members,
 )
 from contactsim.analysis.scales import reduced_work
 from contactsim.figures import style
-from contactsim.observables.adhesion import CRITERION, INTERACTING
-from contactsim.observables.path_summary import LEGS, legs
-from contactsim.status import FLAGS, LIMITS
 
 COLUMNS = (
     "normalised_pressure",
@@ -174,39 +167,6 @@ def indentation(data: xr.Dataset) -> xr.DataArray:
     return data.indentation
 
 
-def plot_cycle(data: xr.Dataset, label: str, colour: str, axes: dict[str, Axes]) -> pd.DataFrame:
-    """Plot both legs of one path against the indentation, each quantity in its panel.
-
-    data: of one member; label: of the loading leg
-    """
-    indentation = (data.approach - data.approach_first_touch).values
-    table = {"indentation": indentation}
-    for name, panel in axes.items():
-        table[name] = converged(data[name], data).values
-        for leg, states in zip(LEGS, legs(indentation), strict=True):
-            states = slice(max(states.start - 1, 0), states.stop)
-            first = leg == LEGS[0]
-            leg_label = label if first else f"_{label}, {leg}"
-            look = {"color": colour, "lw": 1.0, "ls": "-" if first else "--", "label": leg_label}
-            panel.plot(indentation[states], table[name][states], **look)
-        panel.set(xlabel=LABELS["indentation"], ylabel=LABELS[name])
-    return pd.DataFrame(table)
-
-
-def plot_against_height(
-    axes: Axes, data: xr.Dataset, name: str, unit: float, label: str, colour: str, fill: str
-) -> dict[str, np.ndarray]:
-    """Plot the mean over members against the rms height; return mean, error and number of members as columns.
-
-    unit: that the quantity is shown over; bars: standard error and increment error in quadrature
-    """
-    mean, error, members = mean_with_increments(data, name)
-    scale = 1 / unit
-    look = style.marker_look(colour, fill=fill) | {"ls": "-", "lw": 0.8, "label": label}
-    axes.errorbar(data.surface_rms_height.values, scale * mean, scale * error, **look, **style.BARS)
-    return {f"{name}_mean": mean, f"{name}_error": error, f"{name}_members": members}
-
-
 def plot_against_pressure(
     axes: Axes, data: xr.Dataset, label: str, *, reduced: bool = False, end: float = LARGEST_PRESSURE, **look: Any
 ) -> pd.DataFrame:
@@ -259,50 +219,3 @@ def plotted_range(axes: Axes, low: float, high: float) -> tuple[float, float]:
     x = x[np.isfinite(x) & (x > low) & (x < high)]
     margin = 0.06 * np.ptp(x)
     return max(x.min() - margin, low), min(x.max() + margin, high)
-
-
-def plot_criteria(axes: Axes, data: xr.Dataset, ratio_axes: Axes | None) -> pd.DataFrame:
-    """Plot the mean area by every criterion, and on other axes over the area by the usual one.
-
-    Means end where the path of the first member does.
-    """
-    data = data.isel(step=states_of_all_members(data))
-    areas = relative_areas(data, ["contact_length", *INTERACTING])
-    usual, _ = member_mean(areas[CRITERION])
-    tables = []
-    for place, ((name, area), colour) in enumerate(
-        zip(areas.items(), style.shades(range(len(areas))).values(), strict=True)
-    ):
-        mean, error = member_mean(area)
-        label = criterion_label(name)
-        axes.plot(data.indentation, mean, color=colour, lw=1.0, label=label)
-        some = slice(place - len(areas), None, -BAR_SPACING)
-        look = style.BARS | {"color": colour, "ls": "none", "label": f"_{label}, errors"}
-        axes.errorbar(data.indentation[some], mean[some], error[some], **look)
-        if ratio_axes is not None:
-            ratio_axes.plot(data.indentation, mean / usual, color=colour, lw=1.0, label=label)
-        table = {"indentation": data.indentation, "area": mean, "standard_error": error}
-        tables.append(pd.DataFrame(table).assign(criterion=name))
-    axes.set(xlabel=LABELS["indentation"], ylabel=LABELS[AREA], ylim=(0, 1))
-    return pd.concat(tables)
-
-
-def criterion_label(name: str) -> str:
-    """Return the label of a criterion of contact, by the name of its length."""
-    if name not in INTERACTING:
-        return "repulsive"
-    return rf"above $10^{{{round(np.log10(INTERACTING[name]))}}}$ of the strength"
-
-
-def shade_overlap(axes: Axes, data: xr.Dataset) -> None:
-    """Shade the approaches at which bodies overlap by more than the law describes, in any member.
-
-    data: of one variant, of `contactsim.analysis.rough_paths.with_indentation`
-    """
-    flags = data.validity_flags.fillna(0).astype(int) & FLAGS["max_interpenetration"]
-    beyond = data.indentation.values[(flags > 0).any("member").values]
-    if beyond.size:
-        axes.axvspan(beyond.min(), axes.get_xlim()[1], color=style.LIGHT_GREY, alpha=0.2, lw=0)
-        axes.margins(x=0)
-        words = rf" overlap above {LIMITS['max_interpenetration'][0]:g} $\delta_n$"
-        axes.text(beyond.min(), 0.98, words, transform=axes.get_xaxis_transform(), fontsize=7, va="top")
