@@ -5,6 +5,7 @@ Run `make all` and `make gallery` before.
 
 import re
 import shutil
+import sys
 from pathlib import Path
 
 from contactsim.publish import gallery
@@ -25,6 +26,8 @@ def between(text: str, name: str, new: str) -> str:
     return re.sub(marks, lambda found: found[1] + new + found[2], text, flags=re.DOTALL)
 
 
+if not (RESULTS / "gallery").is_dir():
+    sys.exit(f"{RESULTS / 'gallery'} does not exist: run `make all` and `make gallery` before")
 shutil.rmtree(DOCS / "gallery", ignore_errors=True)
 shutil.copytree(RESULTS / "gallery", DOCS / "gallery")
 write_verdict_pages(DOCS)

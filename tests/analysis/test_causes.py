@@ -11,11 +11,13 @@ import pytest
 from contactsim.analysis.candidate_shares import FILE
 from contactsim.analysis.causes import Cause, cause_text, claims_without_cause
 from contactsim.analysis.cell_rules import CellRule, admitted_cells, cell_texts, separate_cells
+from contactsim.analysis.claims import cause_numbers
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.verdict import DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, band
 from contactsim.errors import InputError
+from contactsim.study.claim_plan import Claim
 from contactsim.study.plan import Plan
-from support.claims import claim
+from support.claims import claim, made_up
 from support.places import ROOT
 
 PLAN = Plan.read(ROOT / "config", "standard")
@@ -59,9 +61,44 @@ def test_a_number_that_the_row_does_not_have_is_not_known():
     assert cause_text(Cause("physics", "{beside_value}, {cells_right}"), ROW, {}) == "Physics: not known, not known"
 
 
+def test_a_number_of_the_data_is_put_into_a_cause():
+    numbers = {"end": {"reduce": "largest"}, "coarse": {"study": "rough_line_many", "quantity": "kappa"}}
+    settings = claim(cause={"kind": "physics", "numbers": numbers, "text": "From {value} to {end} ({coarse:%})."})
+    assert Claim("test", settings).studies == ["rough_line", "rough_line_many"]
+    cause = Cause(**settings["cause"])
+    assert cause.numbers["end"]["quantity"] == settings["quantity"]
+    data = {"rough_line": made_up(1.5, tilt=0.5), "rough_line_many": made_up(0.5)}
+    assert cause_numbers(cause, data) == pytest.approx({"end": 2.0, "coarse": 0.5})
+    row = ROW | {"value": 1.5, "ensemble_error": 0.01, "grid_error": 0.0}
+    assert cause_text(cause, row, {}, cause_numbers(cause, data)) == "Physics: From 1.500 to 2 (50 %)."
+
+
+@pytest.mark.parametrize(("number", "texts"), [(0.9965, ("0.997", "100 %")), (1118.0, ("1118", "111800 %"))])
+def test_a_number_of_the_data_has_three_digits_and_two_in_percent(number, texts):
+    written = [
+        cause_text(Cause("physics", text, numbers={"it": {}}), ROW, {}, {"it": number}) for text in ("{it}", "{it:%}")
+    ]
+    assert written == [f"Physics: {text}" for text in texts]
+
+
+def test_a_number_that_no_state_gives_is_not_known():
+    assert cause_text(Cause("physics", "{it}", numbers={"it": {}}), ROW, {}, {"it": math.nan}) == "Physics: not known"
+
+
+def test_a_number_with_another_reduction_keeps_no_dimension_of_the_claim():
+    spread = {"reduce": "spread", "along": "hurst_exponent", "quantity": "kappa_r"}
+    settings = claim(**spread, cause={"kind": "physics", "numbers": {"it": {"reduce": "mean"}}, "text": "{it}"})
+    assert settings["cause"]["numbers"]["it"]["along"] is None
+
+
 @pytest.mark.parametrize(
     ("cause", "key", "allowed"),
     [
+        ({"text": "It is.", "numbers": {"end": {"reduce": "largest"}}}, "numbers.end", "used in `text`"),
+        ({"text": "It is {end}.", "numbers": {"end": {}}}, "numbers.end", "at least one of study"),
+        ({"text": "It is {end}.", "numbers": {"end": {"expect": 2}}}, "numbers.end.expect", "quantity"),
+        ({"text": "It is {end}.", "numbers": {"end": {"quantity": "kapa"}}}, "numbers.end.quantity", "kappa_r"),
+        ({"text": "It is {end:.3f}.", "numbers": {"end": {"reduce": "largest"}}}, "text", "%"),
         ({"text": "It is {valu}."}, "text", "ensemble_error"),
         ({"text": "It is {boundary}."}, "text", "cells_holding"),
         ({"text": "It is {value:.3f}."}, "text", "%"),
@@ -132,7 +169,8 @@ def test_no_statement_of_the_shipped_table_that_fails_lacks_a_cause():
     for row in SHIPPED.to_dict("records"):
         cause = CAUSES.get(row["claim"])
         numbers = cell_texts(candidates, row["claim"], cause.cell) if cause else {}
-        texts.append(cause_text(cause, row, numbers))
+        own = dict.fromkeys(cause.numbers, 1.0) if cause else {}
+        texts.append(cause_text(cause, row, numbers, own))
     assert claims_without_cause(SHIPPED.assign(cause=texts)) == []
     assert [text for text in texts if "not known" in text or "{" in text] == []
 

@@ -44,11 +44,21 @@ def test_no_number_of_members_makes_up_for_the_error_of_the_grid(ensemble_error,
     assert told.startswith("an error of grid and increments below 0.0005;")
 
 
+def test_a_line_through_few_onsets_wants_more_of_them():
+    told = deciding_text(row(1.0, 0.0, 0.8) | {"fitted_over": "approaches"})
+    assert told == "onsets at more approaches, until leaving out one of them changes the number by less than 0.5"
+
+
 def test_nothing_is_told_where_an_error_is_not_known():
     assert deciding_text(row(1.0, float("nan"), 0.1)) == ""
 
 
-def test_a_claim_tells_how_many_members_it_was_judged_with():
+def test_a_claim_tells_with_which_data_it_was_judged():
     judged = judge_claims({"one": claim()}, {"rough_line": made_up(2.0, grid=0.01)}).iloc[0]
     assert judged.deciding_study == "rough_line"
+    assert judged.data == "`rough_line`: 4 members of 262144 points, 3 loads"
+    both = {"rough_line": made_up(), "rough_line_many": made_up(members=2, points=65536)}
+    ratio = claim(relative_to="rough_line_many", select={"reduced_pressure": [0.001, 0.001]})
+    text = "`rough_line`: 4 members of 262144 points, 1 load; over `rough_line_many`: 2 members of 65536 points, 1 load"
+    assert judge_claims({"one": ratio}, both).iloc[0]["data"] == text
     assert judged.members == made_up(2.0, grid=0.01).sizes.get("member", 1)

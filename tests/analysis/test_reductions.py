@@ -26,9 +26,10 @@ CUBE = array(
 LOAD = array([1.0, 10.0, 100.0], reduced_pressure=LOADS)
 ALONG_LOAD, ALONG_RATIO = {"along": "reduced_pressure"}, {"along": "work_ratio"}
 CASES = [
-    ("mean", BOTH, {}, 2.0),
+    ("mean", BOTH, {}, (3.25 + 1) / 2),
+    ("mean", GRID, {}, 104 / 6),
     ("spread", BOTH, ALONG_LOAD, (2 / 3 + 0) / 2),
-    ("spread", BOTH, {"along": "hurst_exponent"}, (1 / 1.5 + 3 / 2.5 + 2 / 2) / 3),
+    ("spread", BOTH, {"along": "hurst_exponent"}, (1 / 1.5 + 2 * 3 / 2.5 + 2 / 2) / 4),
     ("spread", -BOTH, ALONG_LOAD, (2 / 3 + 0) / 2),
     ("largest_spread", GRID, ALONG_RATIO, 10 / (71 / 3)),
     ("largest_spread", array([[1, 2], [3, 4], [5, 6.0]], poisson_ratio=[0, 1, 2], work_ratio=[0, 1]),
@@ -67,6 +68,16 @@ CASES = [
     ("largest_size", array([[-3.0, 1.0], [2.0, 2.5]], poisson_ratio=[0, 1], work_ratio=[0, 1]), {}, 3.0),
     ("ratio_size", -BOTH, {"against": LOAD}, 2.0),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("loads", [[0.001, 0.1], [0.001, 0.01, 0.1], [0.001, 0.0011, 0.0012, 0.07, 0.1]])
+def test_a_mean_over_loads_depends_on_their_range_and_not_on_their_number(loads):
+    values = array(5 + np.log10(loads), reduced_pressure=loads)
+    assert REDUCTIONS["mean"](values) == pytest.approx(3.0)
+
+
+def test_a_mean_over_one_load_is_the_value_there():
+    assert REDUCTIONS["mean"](array([3.0], reduced_pressure=[0.01])) == 3.0
 
 
 @pytest.mark.parametrize(("name", "values", "inputs", "expected"), CASES, ids=[case[0] for case in CASES])

@@ -33,7 +33,8 @@ def verdicts():
 
 def test_each_statement_stands_with_its_number_and_failures_with_their_cause(verdicts):
     page = verdict_page(verdicts)
-    cells = "mean of κ | 2 ± 0.1<br><sub>A test.</sub> | 2.051 ± none ± 0.011 | reproduced | 4.4 | 0.51 |"
+    reading = "mean of κ<br><sub>`rough_line`: 4 members of 262144 points, 3 loads</sub>"
+    cells = f"{reading} | 2 ± 0.1<br><sub>A test.</sub> | 2.051 ± none ± 0.011 | reproduced | 4.4 | 0.51 |"
     assert f"| κ is 2, a value that holds.<br><sub>Section 0 · `holds`</sub> | {cells}" in page
     block = page[page.index("**κ is 3.** Not reproduced (Section 0).") :]
     assert block.index("- Found 2.051 ± none ± 0.011, allowed 3 ± 0.1;") < block.index("- Estimator: Off by 0.3.")
@@ -79,7 +80,7 @@ def test_a_block_tells_its_condition_its_cases_and_other_bands(verdicts):
     assert "- Holds for H = 0.2 (50% of all): 2.950 ± 0.010 ± 0.020." in page
     assert "- Cases: light: reproduced (2.9); heavy: not reproduced (2.1).\n- The case that decides: heavy." in page
     assert "- With half the band; with double: not reproduced; reproduced." in page
-    assert "mean of κ: heavy |" in page
+    assert "mean of κ: heavy<br>" in page
 
 
 def test_changes_are_listed_with_their_reasons(verdicts):

@@ -1,7 +1,7 @@
 """Causes of verdicts that are not plainly "reproduced": their kinds, and their text in a table of verdicts.
 
-The text of a cause names numbers of its row in braces, such as {value}; they are put in when the row is made, so that
-no number of the table stands in the config.
+The text of a cause names numbers in braces: those of its row, such as {value}, and others of the same data, which the
+cause defines as `numbers`. They are put in when the row is made, so that no number of the data stands in the config.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import string
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import pandas as pd
 
@@ -57,11 +57,14 @@ class Cause:
         A short text with the numbers that show it; those of the row stand in braces.
     cell
         Measure of the cell that separates candidates in which the statement holds and fails: an exponent by length.
+    numbers
+        Further numbers of the data by name, each with the settings of a claim.
     """
 
     kind: str
     text: str
     cell: Mapping[str, float] | None = None
+    numbers: Mapping[str, Mapping] = field(default_factory=dict)
 
     @property
     def named_numbers(self) -> list[tuple[str, str]]:
@@ -72,13 +75,14 @@ class Cause:
     @property
     def known_names(self) -> tuple[str, ...]:
         """Names that may stand in braces."""
-        return (*ROW_NUMBERS, *CELL_NUMBERS, *(RULE_NUMBERS if self.cell else ()))
+        return (*ROW_NUMBERS, *self.numbers, *CELL_NUMBERS, *(RULE_NUMBERS if self.cell else ()))
 
-    def filled(self, row: Mapping, cells: Mapping[str, str]) -> str:
-        """Return kind and text as one sentence, with the numbers of a row and of the candidates put in."""
-        numbers = {name: _Text(text) for name, text in _row_texts(row).items()}
-        numbers |= {name: _Text({"": cells.get(name, UNKNOWN_NUMBER)}) for name in (*CELL_NUMBERS, *RULE_NUMBERS)}
-        return f"{self.kind.capitalize()}: {' '.join(self.text.split())}".format(**numbers)
+    def filled(self, row: Mapping, cells: Mapping[str, str], numbers: Mapping[str, float]) -> str:
+        """Return kind and text as one sentence, with the numbers of a row, of the candidates and its own put in."""
+        texts = _row_texts(row) | {name: _number_texts(number) for name, number in numbers.items()}
+        parts = {name: _Text(text) for name, text in texts.items()}
+        parts |= {name: _Text({"": cells.get(name, UNKNOWN_NUMBER)}) for name in (*CELL_NUMBERS, *RULE_NUMBERS)}
+        return f"{self.kind.capitalize()}: {' '.join(self.text.split())}".format(**parts)
 
 
 class _Text(dict):
@@ -103,7 +107,22 @@ def _row_texts(row: Mapping) -> dict[str, dict[str, str]]:
     return texts
 
 
-def cause_text(cause: Cause | None, row: Mapping, cells: Mapping[str, str]) -> str:
+def _number_texts(number: float) -> dict[str, str]:
+    """Return a number that is not of the row as texts by format."""
+    if math.isnan(number):
+        return {"": UNKNOWN_NUMBER, PERCENT: UNKNOWN_NUMBER}
+    return {"": _digits(number, 3), PERCENT: f"{_digits(100 * number, 2)} %"}
+
+
+def _digits(number: float, digits: int) -> str:
+    """Return a number with so many significant digits; all digits of a whole number of more."""
+    text = f"{number:.{digits}g}"
+    return f"{number:.0f}" if "e+" in text else text
+
+
+def cause_text(
+    cause: Cause | None, row: Mapping, cells: Mapping[str, str], numbers: Mapping[str, float] | None = None
+) -> str:
     """Return the cause as it is printed with a verdict: nothing with one that does not fail.
 
     Parameters
@@ -114,10 +133,12 @@ def cause_text(cause: Cause | None, row: Mapping, cells: Mapping[str, str]) -> s
         Row of the statement, with its verdict and numbers.
     cells
         Numbers of the candidates, of `contactsim.analysis.cell_rules.cell_texts`.
+    numbers
+        The numbers that the cause defines.
     """
     if row["verdict"] not in FAILING:
         return ""
-    return UNKNOWN if cause is None else cause.filled(row, cells)
+    return UNKNOWN if cause is None else cause.filled(row, cells, numbers or {})
 
 
 def claims_without_cause(claims: pd.DataFrame) -> list[str]:

@@ -15,8 +15,9 @@ import xarray as xr
 from contactsim.analysis.admissible import Choice, candidate_choices, candidate_entries, choice_entries, read_candidates
 from contactsim.analysis.carried import carried_name
 from contactsim.analysis.cases import join_cases
-from contactsim.analysis.causes import Cause, cause_text
+from contactsim.analysis.causes import FAILING, Cause, cause_text
 from contactsim.analysis.cell_rules import cell_texts
+from contactsim.analysis.claim_data import data_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import ConditionSearch
 from contactsim.analysis.formulas import FORMULAS
@@ -179,8 +180,23 @@ def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, obj
         words = {"measure": measure, "expected": band_text(counted), "beside": counted["beside"] or ""}
         words |= {"deciding_study": settings["study"] or ""}
         members = studied[0].sizes.get("member", 1) if studied else 1
+        words |= {"data": data_text(counted, studied), "fitted_over": _fitted_over(counted, studied)}
         rows[name] = words | judge(counted, studied) | {"members": members}
     return join_cases(rows)
+
+
+def _fitted_over(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
+    """Return "approaches" for a number of a line through the onsets at several; nothing for others."""
+    return "approaches" if any(f"{claim['quantity']}_approach_error" in study for study in data) else ""
+
+
+def cause_numbers(cause: Cause, data: Mapping[str, xr.Dataset]) -> dict[str, float]:
+    """Return the numbers that a cause defines; data: dataset of each study."""
+    numbers = {}
+    for name, settings in cause.numbers.items():
+        comparison = Comparison(settings, _studied(settings, data)).select(settings["select"])
+        numbers[name] = NAN if comparison.is_empty else comparison.unbiased_number(comparison.data)
+    return numbers
 
 
 def _studied(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[xr.Dataset]:
@@ -210,12 +226,13 @@ def judge_claims(
         row |= choice_entries(row, choices, candidate_choices(candidates, name)) | candidate_entries(candidates, name)
         cause = None if settings["cause"] is None else Cause(**settings["cause"])
         cells = cell_texts(candidates, name, cause.cell) if cause else {}
+        numbers = cause_numbers(cause, data) if cause and row["verdict"] in FAILING else {}
         rows.append(
             {
                 "claim": name,
                 **{key: settings[key] for key in ("source", "statement")},
                 **row,
-                "cause": cause_text(cause, row, cells),
+                "cause": cause_text(cause, row, cells, numbers),
                 "rationale": settings["rationale"],
                 **{key: settings[key] or "" for key in ("study", *SECOND_STUDY)},
             }

@@ -1,4 +1,4 @@
-"""What would decide a statement that is not decidable: more members, or a smaller error of grid and increments."""
+"""What would decide a statement that is not decidable: more members, a smaller error of the grid, or more onsets."""
 
 from __future__ import annotations
 
@@ -35,13 +35,16 @@ def distance_to_edge(row: Mapping[str, Any]) -> float:
 def deciding_text(row: Mapping[str, Any]) -> str:
     """Return in words what would decide a statement, and its cost; nothing where an error is not known.
 
-    row: as in `members_needed`, and with `seconds`, the CPU time of the members there are.
+    row: as in `members_needed`, with `seconds`, the CPU time of the members there are, and `fitted_over`, which is
+    "approaches" for a line through the onsets at several
     """
     if not math.isfinite(distance_to_edge(row)):
         return ""
     needed, members = members_needed(row), row["members"]
+    most = distance_to_edge(row) / MIN_MARGIN
+    if row.get("fitted_over") == "approaches":
+        return f"onsets at more approaches, until leaving out one of them changes the number by less than {most:.2g}"
     if math.isinf(needed):
-        most = distance_to_edge(row) / MIN_MARGIN
         return f"an error of grid and increments below {most:.2g}; more members alone do not"
     hours = (needed / members - 1) * row["seconds"] / 3600
     cost = f", {short_number(hours)} hours of one core more" if hours > 0 else ""

@@ -19,7 +19,14 @@ Places = Any
 
 
 def mean(values: xr.DataArray) -> float:
-    """Return the mean over all points."""
+    """Return the mean over all points, over loads by trapezoids in their logarithm.
+
+    So it does not depend on how many loads a study has, nor on where they are dense.
+    """
+    for load in LOADS:
+        if load in values.dims and values.sizes[load] > 1:
+            values = values.assign_coords({load: _logarithm(values[load])})
+            values = values.integrate(load) / (values[load][-1] - values[load][0])
     return float(values.mean(skipna=False))
 
 
@@ -172,7 +179,7 @@ def slopes(values: xr.DataArray, against: xr.DataArray, along: str) -> xr.DataAr
 
 
 def ranges(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
-    """Return the difference between two places along a dimension over |mean|, without coordinates.
+    """Return the difference between two places along a dimension over |mean|.
 
     ends: as `ends_of_range` gives them, with all other dimensions of the values
     """
@@ -181,7 +188,8 @@ def ranges(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
         np.take_along_axis(values.values, np.expand_dims(end.transpose(*others).values, axis), axis).squeeze(axis)
         for end in ends
     )
-    return xr.DataArray((high - low) / abs(values.values.mean(axis)), dims=others)
+    places = {dim: values[dim] for dim in others if dim in values.coords}
+    return xr.DataArray((high - low) / abs(values.values.mean(axis)), places, dims=others)
 
 
 def ends_of_range(values: xr.DataArray, along: str) -> Places:

@@ -24,11 +24,12 @@ EDGE_NOTE, EDGE_WIDTH = "at the edge of the band", 0.1
 INTRODUCTION = """# Verdicts on the statements of the thesis
 
 Each row is a sentence of the thesis, held against our own data; [the rules](judging.md)
-stand on a page of their own, and [all numbers](gallery/verdicts.csv) in a table, with the study of each statement. The
+stand on a page of their own, and [all numbers](gallery/verdicts.csv) in a table. The
 data are those of the standard tier: `make all`, `make gallery` and `python docs/renew.py` make this page again.
 
 - *Statement*: with its place in the thesis, and its name in the table and in `config/`.
-- *Reading*: the number that we compute for the sentence. Of several cases the worst one counts; it is named.
+- *Reading*: the number that we compute for the sentence, and the study that gives it: `make rough_line` makes the
+  data of the study `rough_line`, whose settings stand in `config/`. Of several cases the worst one counts; it is named.
 - *Allowed*: the band of values that agree with the sentence, and why that band.
 - *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and that of grid,
   increments, jumps and approaches together, rounded to two digits of both. *None*: there is no such error; *not
@@ -122,7 +123,7 @@ def _statement_cells(row: Mapping) -> tuple[str, ...]:
     """Return the cells of a statement."""
     return (
         _statement_text(row),
-        _reading_text(row),
+        _with_note(_reading_text(row), _text(row, "data")),
         _with_note(_band_text(row), _band_reason(row)),
         number_text(row),
         _with_note(row["verdict"], EDGE_NOTE if _is_at_edge(row) else ""),

@@ -65,12 +65,13 @@ CLAIM_KEYS = {
     "case": Key(text, "the name of the claim's own case, with `cases`", None),
     "cases": Key(mapping, "a mapping from the name of a case to the keys that it replaces", None),
     "admissible": Key(mapping, "a mapping from what the text leaves open to its alternatives", None),
-    "cause": Key(mapping, "a mapping with `kind` and `text`, and `cell` where one separates candidates", None),
+    "cause": Key(mapping, "a mapping with `kind`, `text`, and if needed `numbers` and `cell`", None),
 }
 CAUSE_KEYS = {
     "kind": Key(choice(KINDS), f"one of {', '.join(KINDS)}"),
-    "text": Key(text, "a short text with the number that shows it; numbers of the row in braces"),
-    "cell": Key(mapping, "a mapping from lengths of the cell to their exponents", None),
+    "text": Key(text, "a short text with the numbers that show it, each by its name in braces"),
+    "numbers": Key(mapping, "a mapping from a name to the keys of the claim that it replaces", {}),
+    "cell": Key(mapping, "what separates candidates: a mapping from lengths of the cell to their exponents", None),
 }
 CELL_KEYS = {name: Key(number, "an exponent", None) for name in CELL}
 EDGES = ("at_least", "at_most")
@@ -81,6 +82,10 @@ REPLACED = (
 )
 CASE_KEYS = {key: CLAIM_KEYS[key] for key in REPLACED}
 """Keys that a further case of a statement may replace."""
+DATA_KEYS = ("study", "relative_to", "minus", "select")
+MEASURE_KEYS = ("reduce", "along", "across", "against")
+NUMBER_KEYS = {key: CLAIM_KEYS[key] for key in (*DATA_KEYS, "quantity", *MEASURE_KEYS, "absent")}
+"""Keys that a number of a cause may replace: where the data come from, and what is done with them."""
 CHOICE_KEYS = {key: CLAIM_KEYS[key] for key in (*REPLACED, "cases")}
 """Keys that an admissible alternative may replace."""
 
@@ -97,6 +102,8 @@ class Claim:
         """Names of the studies that answer the claim: none, one, two for a comparison, those of cases and readings."""
         choices = [self.settings, *(self.settings["admissible"] or {}).values()]
         readings = [part for choice in choices for part in (choice, *(choice["cases"] or {}).values())]
+        cause = self.settings["cause"]
+        readings += cause["numbers"].values() if cause else []
         names = [reading[key] for reading in readings for key in ("study", *SECOND_STUDY)]
         return list(dict.fromkeys(name for name in names if name is not None))
 
@@ -122,23 +129,28 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
     InputError
         If a key is unknown, missing or of no use to the claim, or names what the studies do not have.
     """
-    prefix = f"{part}.{name}"
-    is_finding = part == "findings"
+    return Claim(name, _read_settings(f"{part}.{name}", section, file, studies, part == "findings"))
+
+
+def _read_settings(
+    prefix: str, section: object, file: object, studies: Mapping[str, Study], is_finding: bool = False
+) -> dict:
+    """Return the checked settings of a claim, or of a number without a verdict; prefix: place of the section."""
     settings = read(section, CLAIM_KEYS, file, prefix) | {"is_finding": is_finding}
-    settings["cause"] = read_cause(settings["cause"], file, f"{prefix}.cause")
     if is_finding:
         check_no_verdict(settings, file, prefix)
+    settings["cause"] = read_cause(settings, file, f"{prefix}.cause", studies)
     if settings["formula"] is not None or (settings["study"] is None and not is_finding):
         check_without_study(settings, file, prefix)
-        return Claim(name, settings)
+        return settings
     alternatives, settings["admissible"] = settings["admissible"] or {}, None
     given = dict(settings)
     cases, settings["cases"] = settings["cases"] or {}, None
     if cases and (settings["case"] is None or settings["case"] in cases):
         raise InputError(f"{prefix}.case", settings["case"], "a name of the claim's own case beside `cases`", file)
     check_one_of(settings, "study", studies, file, prefix)
-    claim = Claim(name, settings)
-    dims = list(dict.fromkeys(dim for study in claim.studies for dim in study_dimensions(studies, study)))
+    compared = [settings[key] for key in ("study", *SECOND_STUDY) if settings[key] is not None]
+    dims = list(dict.fromkeys(dim for study in compared for dim in study_dimensions(studies, study)))
     check_quantities(settings, studies, dims, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
     all_dims = list(dict.fromkeys(dim for study in studies for dim in study_dimensions(studies, study)))
@@ -150,20 +162,35 @@ def read_claim(name: str, section: object, file: object, studies: Mapping[str, S
         raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)
     settings["cases"] = read_cases(given, cases, file, f"{prefix}.cases", studies)
     settings["admissible"] = read_alternatives(given, alternatives, file, f"{prefix}.admissible", studies)
-    return claim
+    return settings
 
 
-def read_cause(section: Mapping | None, file: object, prefix: str) -> dict | None:
-    """Return the cause of a failure as settings; None where the config gives none.
+def read_cause(claim: Mapping, file: object, prefix: str, studies: Mapping[str, Study]) -> dict | None:
+    """Return the cause of a claim's failure as settings; None where the config gives none.
+
+    Parameters
+    ----------
+    claim
+        Keys of the claim as given, with defaults.
+    file
+        The file of the chapter.
+    prefix
+        Place of the cause in the file.
+    studies
+        Studies of the chapter by name.
 
     Raises
     ------
     InputError
-        If a key is unknown or missing, or the text names a number in braces that no row has.
+        If a key is unknown or missing, or the text names a number in braces that there is not.
     """
-    if section is None:
+    if claim["cause"] is None:
         return None
-    settings = read(section, CAUSE_KEYS, file, prefix)
+    settings = read(claim["cause"], CAUSE_KEYS, file, prefix)
+    settings["numbers"] = {
+        name: _read_number(claim, replaced, file, f"{prefix}.numbers.{name}", studies)
+        for name, replaced in settings["numbers"].items()
+    }
     if settings["cell"] is not None:
         exponents = read(settings["cell"], CELL_KEYS, file, f"{prefix}.cell")
         settings["cell"] = {name: power for name, power in exponents.items() if power is not None}
@@ -175,9 +202,29 @@ def read_cause(section: Mapping | None, file: object, prefix: str) -> dict | Non
     for name, form in numbers:
         if name not in cause.known_names:
             raise InputError(f"{prefix}.text", name, f"in braces one of {', '.join(cause.known_names)}", file)
-        if form not in ("", PERCENT) or (form and name not in ROW_NUMBERS):
+        if form not in ("", PERCENT) or (form and name not in (*ROW_NUMBERS, *cause.numbers)):
             raise InputError(f"{prefix}.text", f"{name}:{form}", f"no format, or `{PERCENT}` of a number", file)
+    for name in settings["numbers"]:
+        if name not in dict(numbers):
+            raise InputError(f"{prefix}.numbers.{name}", settings["numbers"][name], "used in `text`", file)
     return asdict(cause)
+
+
+def _read_number(claim: Mapping, replaced: object, file: object, place: str, studies: Mapping[str, Study]) -> dict:
+    """Return the settings of a number of a cause, checked as a finding is.
+
+    It has the keys of the claim where it does not replace them. With another study it keeps no selection and no second
+    study of the claim; with another reduction it keeps no dimension and no quantity that the claim's one needs.
+    """
+    changes = {key: value for key, value in read(replaced, NUMBER_KEYS, file, place).items() if value is not None}
+    if not changes:
+        raise InputError(place, replaced, f"at least one of {', '.join(NUMBER_KEYS)}", file)
+    kept = set(NUMBER_KEYS) - {"absent"}
+    for first, keys in (("study", DATA_KEYS), ("reduce", MEASURE_KEYS)):
+        kept -= {*keys} if first in changes else set()
+    words = ("source", "statement", "rationale")
+    given = {key: claim[key] for key in (*words, *kept) if claim[key] is not None}
+    return _read_settings(place, given | changes, file, studies, is_finding=True)
 
 
 def read_alternatives(
@@ -232,4 +279,4 @@ def _changed_claim(
     elif {*EDGES} & set(changes):
         dropped |= {"expect", "tolerance", *EDGES}
     given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
-    return read_claim(place.removeprefix("claims."), given | changes, file, studies).settings
+    return _read_settings(place, given | changes, file, studies)
