@@ -82,9 +82,9 @@ def _add_scene_commands(commands: Any) -> None:
 
 def _add_result_commands(commands: Any) -> None:
     """Add the commands about results of the workflow; commands: the place for them of argparse."""
-    compare = _add_command(commands, "compare", "compare the figures of two tiers")
-    compare.add_argument("first", help="a tier, such as quick")
-    compare.add_argument("second", help="the tier to which differences are relative")
+    compare = _add_command(commands, "compare", "compare the figures of two tiers, or of results that were kept")
+    compare.add_argument("first", help="a tier, such as quick, or a folder with the results of one")
+    compare.add_argument("second", help="the one to which differences are relative, a tier or a folder")
     compare.add_argument(
         "--within", type=float, default=0.1, help="largest relative difference that passes, default 0.1"
     )

@@ -168,11 +168,11 @@ def _label_as_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
 
 def compare_tiers(options: argparse.Namespace) -> None:
     """Print how far the figures that two tiers have differ, and which are missing; exit code 1 where one is too far."""
-    plans = [Plan.read("config", tier) for tier in (options.first, options.second)]
+    plans = [_plan_of_results(name) for name in (options.first, options.second)]
     missing = {plan.tier: _missing_figures(plan) for plan in plans}
     absent = {name for names in missing.values() for name in names}
     shared = {name: figure for name, figure in plans[1].figures.items() if name not in absent}
-    lists = "".join(_missing_text(tier, names) for tier, names in missing.items() if names)
+    lists = "".join(_missing_text(plan, missing[plan.tier]) for plan in plans if missing[plan.tier])
     if absent and not any(figure.compare for figure in shared.values()):
         sys.exit(f"Error: {options.first} and {options.second} have no figure in common.\n{lists.rstrip()}")
     tables = tier_comparison.compare_tiers(plans[0], replace(plans[1], figures=shared))
@@ -182,15 +182,25 @@ def compare_tiers(options: argparse.Namespace) -> None:
         sys.exit(1)
 
 
+def _plan_of_results(name: str) -> Plan:
+    """Return the plan of a tier; for a folder with results the plan of the default tier, with this folder."""
+    own = Plan.read("config", None)
+    is_folder = name not in own.tiers and (Path(name) / "figures").is_dir()
+    return replace(own, tier=name, results=Path(name)) if is_folder else Plan.read("config", name)
+
+
 def _missing_figures(plan: Plan) -> list[str]:
     """Return the figures of a tier that are to be compared and are not made."""
     folder = plan.results / "figures"
     return [name for name, figure in plan.figures.items() if figure.compare and not (folder / f"{name}.csv").exists()]
 
 
-def _missing_text(tier: str, names: list[str]) -> str:
-    """Return lines that name missing figures, and the command that makes them."""
-    text = f"Missing at the tier {tier}: {', '.join(names)}. Make them with: make NAME TIER={tier}"
+def _missing_text(plan: Plan, names: list[str]) -> str:
+    """Return lines that name missing figures, and of a tier the command that makes them."""
+    is_tier = plan.tier in plan.tiers
+    place = "at the tier" if is_tier else "in"
+    command = f". Make them with: make NAME TIER={plan.tier}" if is_tier else ""
+    text = f"Missing {place} {plan.tier}: {', '.join(names)}{command}"
     return textwrap.fill(text, 120, break_on_hyphens=False) + "\n"
 
 

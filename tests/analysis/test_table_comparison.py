@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+import contextlib
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -221,6 +223,19 @@ def test_columns_that_identify_rows_cannot_be_compared(tiers, tmp_path):
         text.replace("compare: [kappa_fit, kappa_fit_corrected]", "compare: [fit_limit]"), encoding="utf-8"
     )
     assert "figures.fig_3_3.compare: got 'fit_limit'" in exit_code()
+
+
+def test_results_that_were_kept_are_compared_as_a_tier_is(tiers, capsys):
+    shutil.copytree("results/quick", "kept")
+    assert exit_code() == 0
+    said = capsys.readouterr().out
+    with contextlib.suppress(SystemExit):
+        cli.main(["compare", "kept", "standard"])
+    assert capsys.readouterr().out == said.replace("quick", "kept")
+    Path("kept/figures/fig_3_2.csv").unlink()
+    with contextlib.suppress(SystemExit):
+        cli.main(["compare", "kept", "standard"])
+    assert "Missing in kept: fig_3_2\n" in capsys.readouterr().out
 
 
 def test_an_unknown_tier_is_refused(tiers):

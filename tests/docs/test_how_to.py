@@ -10,12 +10,22 @@ from pathlib import Path
 from types import ModuleType
 
 import matplotlib as mpl
+import numpy as np
 import pytest
+import xarray as xr
 
 from support.places import ROOT
 
 PAGES = {file.stem: file for file in sorted((ROOT / "docs/how_to").glob("*.md"))}
 BLOCK = re.compile(r"^( *)```python\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
+LINES = xr.Dataset(
+    {"kappa_mean": (("hurst_exponent", "reduced_pressure"), np.full((2, 2), 1.9))},
+    {"hurst_exponent": [0.2, 0.8], "reduced_pressure": [0.001, 0.1]},
+)
+DATASETS = {
+    "rerun_what_changed": {f"{folder}/datasets/ch7_own_lines.nc": LINES for folder in ("before", "results/quick")},
+}
+"""Datasets that the commands of a page make before its Python reads them."""
 SAVED = re.compile(r"Save this as `(\w+\.py)`")
 
 
@@ -49,6 +59,9 @@ def test_the_python_of_a_page_runs(name, tmp_path, monkeypatch):
     mpl.use("Agg")
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))
+    for place, data in DATASETS.get(name, {}).items():
+        Path(place).parent.mkdir(parents=True)
+        data.to_netcdf(place)
     before = set(sys.modules)
     monkeypatch.setitem(sys.modules, name, ModuleType(name))  # dataclasses look up the module of their class
     names: dict[str, object] = {"__name__": name}
