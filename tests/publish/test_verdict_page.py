@@ -7,7 +7,7 @@ import pytest
 
 from contactsim.analysis.causes import UNKNOWN
 from contactsim.analysis.claims import judge_claims
-from contactsim.publish.verdict_page import changes_page, verdict_page
+from contactsim.publish.verdict_page import _open_text, changes_page, verdict_page
 from contactsim.study.claim_plan import read_claim
 from support.claims import STUDIES, VALUE, claim, made_up, with_corrected
 from support.places import ROOT
@@ -104,6 +104,13 @@ def test_words_of_the_config_are_no_html_no_link_and_no_line_of_their_own(verdic
     for page in (verdict_page(claims), changes_page(before, claims, pd.DataFrame({"claim": [], "reason": []}))):
         assert "κ &lt; 3 &amp; &lt;b>more&lt;/b> # \\[here](http://x) \\| there" in page
         assert "<b>" not in page and "\n# [" not in page and " [here]" not in page
+
+
+def test_what_would_decide_is_counted():
+    frame = pd.DataFrame({"claim": ["a", "b", "c"], "verdict": ["not decidable"] * 3, "chapter": "ch6"})
+    text = "Of the 3 statements that are not decidable, 2 want more members or a finer grid, and 1 more onsets"
+    assert text in next(_open_text(frame.assign(fitted_over=["", "approaches", ""])))
+    assert list(_open_text(frame.assign(verdict="reproduced"))) == []
 
 
 def test_the_pages_in_docs_are_those_of_the_table():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import pandas as pd
@@ -53,7 +53,7 @@ def verdict_page(claims: pd.DataFrame) -> str:
 
     claims: table of verdicts with a column of chapters, of `contactsim.publish.gallery.read_verdicts`
     """
-    parts = [INTRODUCTION, counts_markdown(claims)]
+    parts = [INTRODUCTION, counts_markdown(claims), *_open_text(claims)]
     for chapter, rows in claims[claims.verdict != FINDING].groupby("chapter", sort=True):
         parts += _chapter_parts(str(chapter).removeprefix("ch"), rows)
     findings = claims[claims.verdict == FINDING].to_dict("records")
@@ -64,6 +64,18 @@ def verdict_page(claims: pd.DataFrame) -> str:
         heads = ("statement", "choice", "value ± errors", "verdict", "margin")
         parts += ["## What the text leaves open\n", table(heads, choices)]
     return "\n".join(parts)
+
+
+def _open_text(claims: pd.DataFrame) -> Iterator[str]:
+    """Yield a sentence that counts what is not decidable by what would decide it, where there is such a statement."""
+    open_claims = claims[claims.verdict == NOT_DECIDABLE]
+    if not len(open_claims):
+        return
+    is_line = open_claims.get("fitted_over", pd.Series("", open_claims.index)) == "approaches"
+    yield (
+        f"Of the {len(open_claims)} statements that are not decidable, {(~is_line).sum()} want more members or a finer "
+        f"grid, and {is_line.sum()} more onsets of sliding: a line through as few as the text has is not fixed by them.\n"
+    )
 
 
 def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFrame) -> str:

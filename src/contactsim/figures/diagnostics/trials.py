@@ -87,6 +87,10 @@ def plot_trials(table: pd.DataFrame, panels: Sequence[Axes]) -> None:
         error.plot(rows.requested_error, np.maximum(rows.true_error, SMALLEST_ERROR), label=label, **look)
         cost.plot(rows.true_error.clip(lower=SMALLEST_ERROR) / rows.requested_error, rows.cost, **look)
         seconds.plot(rows.seconds, rows.predicted, **look)
+    missed = table[~table.met]
+    if len(missed):
+        ring = {"color": style.WHOLE, "marker": "o", "ms": 11, "mfc": "none", "ls": "", "label": "missed"}
+        error.plot(missed.requested_error, missed.true_error, **ring)
     _label_errors(error, table)
     cost.axvline(1, **DIAGONAL)
     cost.axhline(table.cost.median(), **GUIDE)
