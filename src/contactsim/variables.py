@@ -53,7 +53,10 @@ ERRORS = {
 """Kinds of error beside the standard one, and what each is: of a quantity NAME that of a kind is NAME_KIND_error."""
 GRID_ERROR, GRID_CHANGE = "_grid_error", "_grid_change"
 """Ends of the names of the change on halving the grid: its size, and finer minus coarser with its sign."""
+GRID_CHANGE_SCATTER = f"{GRID_CHANGE}_standard_error"
+"""End of the name of the standard error of that change, over the members that both grids have."""
 SUFFIXES = {
+    GRID_CHANGE_SCATTER: ": standard error over members of the change on halving the grid",
     "_difference_standard_error": ": standard error of the difference, member by member",
     "_difference": ": mean difference from a reference, member by member",
     "_limit_standard_error": ": standard error over members of the limit on finer grids",

@@ -238,6 +238,15 @@ def test_the_grid_error_is_the_change_of_the_mean_over_the_members_of_both_grids
             assert found == pytest.approx(abs(fine.mean() - coarse.mean()), rel=1e-12)
 
 
+def test_the_grid_error_has_a_standard_error_over_the_members_of_both_grids(runs):
+    data = made(runs(coarse_members=3))
+    fine, coarse = (by_hand("mean_gap", 0.2, 1, range(3), coarse) for coarse in (False, True))
+    found = data.mean_gap_grid_change_standard_error.sel(hurst_exponent=0.2).isel(reduced_pressure=1).item()
+    assert found == pytest.approx((fine - coarse).std(ddof=1) / np.sqrt(3), rel=1e-12)
+    assert data.mean_gap_grid_change_standard_error.long_name.endswith("change on halving the grid")
+    assert "mean_gap_grid_change_standard_error" not in made(runs(coarse_members=1))
+
+
 @pytest.mark.parametrize("is_coarse", [False, True])
 def test_a_member_unconverged_on_either_grid_leaves_the_grid_error_unknown(runs, is_coarse):
     data = made(runs(coarse_members=3, bad={(0.2, 1, is_coarse, 0): MAX_ITERATIONS}))

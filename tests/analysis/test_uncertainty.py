@@ -316,3 +316,16 @@ def test_the_fits_are_those_of_the_dataset(made):
             fit = data.sel(weighting=weighting, fit_limit=0.1, fitted=sample)
             expected = hard_wall.line_area(pressure, float(fit.fit_b1), float(fit.fit_b2)) / pressure
             assert np.allclose(row, expected)
+
+
+def test_a_number_about_the_grid_error_has_the_scatter_of_the_few_members_on_both_grids():
+    data = made_up(2.0, scatter=0.1, grid=0.1)
+    share = claim(quantity="kappa_grid_error", against="kappa", reduce="ratio", **BANDLESS, at_most=0.02)
+    alone = number(share, data).ensemble_error
+    scattered = data.assign(kappa_grid_change_standard_error=data.kappa_grid_change_standard_error + 0.03)
+    expected = np.hypot(alone, student_factor(3) * 0.03 / 2.0)
+    assert number(share, scattered).ensemble_error == pytest.approx(expected)
+    one = data.drop_vars("kappa_grid_change_standard_error")
+    assert np.isnan(number(share, one).ensemble_error)
+    one.attrs["settings"] = json.dumps({"surface": {"kind": "cylinder"}, "thesis_points": None})
+    assert number(share, one).ensemble_error == pytest.approx(alone)

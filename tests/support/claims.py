@@ -56,12 +56,13 @@ def made_up(level=2.0, scatter=0.0, grid=0.0, tilt=0.0, members=4, points=262144
         "status": (dims, np.zeros(kappa.shape, np.int8)),
         "kappa_grid_change": change,
         "kappa_grid_error": (change[0], abs(change[1])),
+        "kappa_grid_change_standard_error": (change[0], np.zeros((2, 3))),
         "relative_contact_area_grid_change": (change[0], grid * np.tile(PRESSURES, (2, 1))),
         "points": points,
     }
     places = {"hurst_exponent": [0.2, 0.8], "member": range(members), "reduced_pressure": PRESSURES}
     surface = {"kind": "self_affine", "length": 160000.0, "short_cutoff": 39.0625}  # 262144 points: 64 a wavelength
-    settings = {"surface": surface, "thesis_points": 262144}
+    settings = {"surface": surface, "thesis_points": 262144, "coarse_grid": {"members": 3}}
     return xr.Dataset(values, places, {"problem": "hard_wall", "settings": json.dumps(settings)})
 
 

@@ -25,7 +25,7 @@ from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, Datas
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.proportionality import proportionality
 from contactsim.reference import hard_wall
-from contactsim.variables import ERRORS, GRID_CHANGE, GRID_ERROR
+from contactsim.variables import ERRORS, GRID_CHANGE, GRID_CHANGE_SCATTER, GRID_ERROR
 
 EXACT_CONTACTS = {
     "line": ("half_width_exact", hard_wall.cylinder_rms_gradient),
@@ -140,16 +140,20 @@ def ensemble_means(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
 
 
 def _mean_changes(fine: xr.Dataset, other: xr.Dataset, suffix: str, names: Sequence[str]) -> xr.Dataset:
-    """Return the changes of the means between two datasets, over the members that both have."""
+    """Return the changes of the means between two datasets, over the members that both have.
+
+    On halving the grid they stand there with their sign too, and with their standard error from two members on.
+    """
     same = fine.sel(member=other.member)
-    changes = {
-        name: (converged(same[name], same) - converged(other[name], other)).mean("member", skipna=False)
-        for name in names
-        if name in fine
-    }
-    errors = {f"{name}{suffix}": abs(change) for name, change in changes.items()}
-    signed = {f"{name}{GRID_CHANGE}": change for name, change in changes.items() if suffix == GRID_ERROR}
-    return xr.Dataset(errors | signed)
+    changes = {name: converged(same[name], same) - converged(other[name], other) for name in names if name in fine}
+    means = {name: change.mean("member", skipna=False) for name, change in changes.items()}
+    variables = {f"{name}{suffix}": abs(mean) for name, mean in means.items()}
+    if suffix == GRID_ERROR:
+        variables |= {f"{name}{GRID_CHANGE}": mean for name, mean in means.items()}
+        if (count := other.member.size) > 1:
+            scatters = {name: change.std("member", ddof=1, skipna=False) for name, change in changes.items()}
+            variables |= {f"{name}{GRID_CHANGE_SCATTER}": std / np.sqrt(count) for name, std in scatters.items()}
+    return xr.Dataset(variables)
 
 
 def _known_changes(fine: xr.Dataset, other: xr.Dataset, name: str) -> xr.DataArray:

@@ -20,7 +20,7 @@ from contactsim.observables.contact_readings import CRITERIA
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES
 from contactsim.reference import adhesion, hard_wall
 from contactsim.status import is_solved
-from contactsim.variables import GRID_CHANGE
+from contactsim.variables import GRID_CHANGE, GRID_CHANGE_SCATTER, GRID_ERROR
 
 FITTED: dict[str, tuple[str, bool]] = {
     "kappa_fit": ("area", False),
@@ -80,6 +80,7 @@ def with_quantities(data: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
     sources |= {name for counted in (CARRIED[key] for key in carried) for name in (counted, f"{counted}_corrected")}
     sources |= {SECOND_ESTIMATORS[name] for name in sources if name in SECOND_ESTIMATORS}
     read = {f"{source}{suffix}" for source in sources for suffix in ("", *READ_BESIDE)} | {*READ_BY_ALL}
+    read |= {str(scatter_name(source)) for source in sources}
     part = data[[name for name in data.data_vars if name in read]]
     own = {"member", *data.status.dims}
     part = part.assign({name: converged(part[name], data) for name in sources & {*part} if own <= {*part[name].dims}})
@@ -195,6 +196,12 @@ def computed_from(name: str) -> str:
     """Return the variable that a quantity is computed from."""
     others = SIZES | GRADIENT_DEFICITS | ERROR_BARS | BAR_SHARES | {CRACK_DEPARTURE: PULL_OFF}
     return "relative_contact_area" if name in FITTED else others.get(name, name)
+
+
+def scatter_name(name: str) -> str | None:
+    """Return the variable with the standard error of a grid error of means; None for another quantity."""
+    base = name.removesuffix(GRID_ERROR)
+    return f"{base}{GRID_CHANGE_SCATTER}" if base != name and base in AVERAGED else None
 
 
 def source_quantity(name: str) -> str | None:

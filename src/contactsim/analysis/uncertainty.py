@@ -20,6 +20,7 @@ from contactsim.analysis.quantities import (
     SECOND_ESTIMATORS,
     grid_change_name,
     resolves_edges,
+    scatter_name,
     second_estimate,
     source_quantity,
 )
@@ -81,7 +82,8 @@ def estimate_steps(number: Number, comparison: Comparison) -> tuple[Array, Array
 
 def _estimate(comparison: Comparison, grid_error: float) -> Estimate:
     """Return the number with its ensemble error and a given grid error."""
-    ensemble_error = _ensemble_error(comparison.unbiased_number, comparison)
+    errors = [_ensemble_error(comparison.unbiased_number, comparison), *_errors_of_changes(comparison)]
+    ensemble_error = _in_quadrature(errors)
     return Estimate(comparison.unbiased_number(comparison.data), float(ensemble_error), float(grid_error))
 
 
@@ -98,6 +100,26 @@ def _in_quadrature(errors: Iterable[Any]) -> Any:
 def _ensemble_error(number: Number, comparison: Comparison) -> Any:
     """Return the jackknife errors of independent ensembles in quadrature."""
     return _in_quadrature(_jackknife_error(number, comparison.data, group) for group in comparison.groups)
+
+
+def _errors_of_changes(comparison: Comparison) -> Iterator[float]:
+    """Yield the error of a number about a grid error for each study: few members are solved on both grids.
+
+    The grid error of all loads is moved by its standard error at once. From one member of a random surface it is
+    unknown.
+    """
+    name, data = comparison.claim["quantity"], comparison.data
+    scatter = scatter_name(name)
+    for index, study in enumerate(data if scatter else ()):
+        settings = dataset.settings_of(study)
+        if settings["surface"]["kind"] != "self_affine":
+            continue
+        if scatter not in study:
+            yield NAN
+            continue
+        errors = student_factor(settings["coarse_grid"]["members"]) * study[scatter]
+        moved = [*data[:index], study.assign({name: study[name] + errors}), *data[index + 1 :]]
+        yield comparison.number(moved) - comparison.number(data)
 
 
 def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> Any:
