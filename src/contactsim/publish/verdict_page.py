@@ -73,8 +73,8 @@ def _open_text(claims: pd.DataFrame) -> Iterator[str]:
         return
     is_line = open_claims.get("fitted_over", pd.Series("", open_claims.index)) == "approaches"
     yield (
-        f"Of the {len(open_claims)} statements that are not decidable, {(~is_line).sum()} want more members or a finer "
-        f"grid, and {is_line.sum()} more onsets of sliding: a line through as few as the text has is not fixed by them.\n"
+        f"Of the {len(open_claims)} statements that are not decidable, {(~is_line).sum()} want more members or a "
+        f"finer grid, and {is_line.sum()} more onsets of sliding: a line through as few as the text has is not fixed.\n"
     )
 
 
