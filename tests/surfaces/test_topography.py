@@ -587,6 +587,9 @@ def test_a_channel_is_named_or_the_default(instrument) -> None:
     same(read_topography(file, variable="Back"))
     error = refusal("variable", file, lambda: read_topography(file, variable="Phase"))
     assert error.value == "Phase" and "['Height', 'Back']" in error.allowed
+    same(read_topography(instrument(phase, Channel())))
+    both = instrument(phase, Channel(), Channel(name="Back"))
+    assert "['Height', 'Back']" in refusal("variable", both, lambda: read_topography(both)).allowed
     lone = instrument(phase)
     assert refusal("variable", lone, lambda: read_topography(lone)).value == "Phase"
 

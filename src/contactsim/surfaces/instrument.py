@@ -21,7 +21,9 @@ def read_instrument(file: Path, dimensions: int | None, unit: str | None, variab
         raise InputError("path", file.name, f"{allowed} (pip install {LIBRARY})", file) from error
     with io.report_unreadable(file, Exception), library.open_topography(str(file)) as reader:
         channels = {entry.channel_id: entry for entry in reader.channels if entry.is_height_channel}
-        name = reader.default_channel.channel_id if variable is None else variable
+        default = reader.default_channel.channel_id
+        only = next(iter(channels)) if len(channels) == 1 else default  # the default may hold a phase
+        name = variable or (default if default in channels else only)
         if name not in channels:
             raise InputError("variable", name, f"a channel of heights, of those: {list(channels)}", file)
         channel = channels[name]
