@@ -27,7 +27,7 @@ from contactsim.evaluation.work_precision.case_config import CASE_KEYS, KEPT_TIE
 from contactsim.evaluation.work_precision.knobs import SETTING_KEYS
 from contactsim.interface.registry import EFFECTS
 from contactsim.status import FLAGS, LIMITS, Status
-from contactsim.study.claim_plan import CLAIM_KEYS
+from contactsim.study.claim_keys import CLAIM_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS, FILM_KEYS
 from contactsim.study.keys import (
     ACCURACY_KEYS,

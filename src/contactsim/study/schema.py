@@ -11,7 +11,7 @@ from typing import Any
 
 from contactsim.interface.registry import EFFECTS
 from contactsim.study.chapter import CHAPTER_KEYS
-from contactsim.study.claim_plan import CLAIM_KEYS
+from contactsim.study.claim_keys import CLAIM_KEYS
 from contactsim.study.figure_plan import FIGURE_KEYS, FILM_KEYS
 from contactsim.study.keys import (
     BODIES,
