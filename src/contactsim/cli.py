@@ -107,58 +107,44 @@ def _add_set(command: argparse.ArgumentParser) -> None:
 def _add_press(press: argparse.ArgumentParser) -> None:
     """Add the options of `contactsim press`."""
     press.add_argument("file", help="heights along a line or over an area: npy, npz, csv, txt, xyz, dat, nc, others")
-    press.add_argument(
-        "--contact-modulus", type=float, required=True, metavar="E*", help="E* of the pair of bodies, GPa"
-    )
-    press.add_argument(
-        "--mean-pressure",
-        type=float,
-        nargs="+",
-        required=True,
-        metavar="P",
-        help="mean pressures over the length or area, GPa",
-    )
-    press.add_argument(
+    _add_scan(press.add_argument_group("scan"))
+    _add_bodies(press.add_argument_group("bodies and pressure"))
+    results = press.add_argument_group("results")
+    results.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
+    results.add_argument("--output", metavar="FILE", help="dataset to write, .nc")
+    press.set_defaults(module="press_command", command="press_file")
+
+
+def _add_scan(scan: Any) -> None:
+    """Add the options on how a file is read and prepared; scan: their group."""
+    scan.add_argument(
         "--spacing", type=float, nargs="+", metavar="D", help="distance of points, nm; two values: along y and x"
     )
-    press.add_argument("--unit", help="unit of lengths to which the file gives none, such as um")
-    press.add_argument("--variable", help="name of the heights in the file")
-    press.add_argument("--fill", help="how missing points are filled: linear, nearest or lowest")
-    press.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
-    press.add_argument("--level", default="none", help="how scan lines are levelled: none, median or steps")
-    press.add_argument("--spikes", type=float, metavar="N", help="standard deviations beyond which a point is replaced")
-    press.add_argument("--ends", default="none", help="make the heights repeat: mirror, window, or tilt on a line")
-    press.add_argument(
-        "--periodic",
-        action="store_true",
-        help="press the heights as if they repeated as they are, not alone on the half-space",
-    )
-    press.add_argument(
-        "--other",
-        metavar="FILE",
-        help="scan of the other body, seen from outside it; it is mirrored along x and pressed on",
-    )
-    press.add_argument(
-        "--offset",
-        type=int,
-        nargs="+",
-        metavar="N",
-        help="points by which the other scan is moved, along x or along y and x",
-    )
-    press.add_argument(
-        "--thickness", type=float, metavar="H", help="thickness of a layer on a rigid base, nm; without it a half-space"
-    )
-    press.add_argument("--poisson-ratio", type=float, metavar="NU", help="Poisson's ratio of the layer")
-    press.add_argument(
-        "--conductivities",
-        type=float,
-        nargs=2,
-        metavar="C",
-        help="thermal conductivities of both bodies, W/(m K), for the thermal conductance",
-    )
-    press.add_argument(
-        "--hardness", type=float, metavar="H", help="hardness, GPa, for the share of the contact above it"
-    )
-    press.add_argument("--figure", metavar="FILE", help="draw the numbers with their errors: .png, .pdf or .svg")
-    press.add_argument("--output", metavar="FILE", help="dataset to write, .nc")
-    press.set_defaults(module="press_command", command="press_file")
+    scan.add_argument("--unit", help="unit of lengths to which the file gives none, such as um")
+    scan.add_argument("--variable", help="name of the heights in the file")
+    scan.add_argument("--fill", help="how missing points are filled: linear, nearest or lowest")
+    scan.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
+    scan.add_argument("--level", default="none", help="how scan lines are levelled: none, median or steps")
+    scan.add_argument("--spikes", type=float, metavar="N", help="standard deviations beyond which a point is replaced")
+    scan.add_argument("--ends", default="none", help="make the heights repeat: mirror, window, or tilt on a line")
+    periodic = "press the heights as if they repeated as they are, not alone on the half-space"
+    scan.add_argument("--periodic", action="store_true", help=periodic)
+    other = "scan of the other body, seen from outside it; it is mirrored along x and pressed on"
+    scan.add_argument("--other", metavar="FILE", help=other)
+    offset = "points by which the other scan is moved, along x or along y and x"
+    scan.add_argument("--offset", type=int, nargs="+", metavar="N", help=offset)
+
+
+def _add_bodies(bodies: Any) -> None:
+    """Add the options on bodies and pressures; bodies: their group."""
+    modulus = "E* of the pair of bodies, GPa"
+    bodies.add_argument("--contact-modulus", type=float, required=True, metavar="E*", help=modulus)
+    pressure = "mean pressures over the length or area, GPa"
+    bodies.add_argument("--mean-pressure", type=float, nargs="+", required=True, metavar="P", help=pressure)
+    thickness = "thickness of a layer on a rigid base, nm; without it a half-space"
+    bodies.add_argument("--thickness", type=float, metavar="H", help=thickness)
+    bodies.add_argument("--poisson-ratio", type=float, metavar="NU", help="Poisson's ratio of the layer")
+    conductivities = "thermal conductivities of both bodies, W/(m K), for the thermal conductance"
+    bodies.add_argument("--conductivities", type=float, nargs=2, metavar="C", help=conductivities)
+    hardness = "hardness, GPa, for the share of the contact above it"
+    bodies.add_argument("--hardness", type=float, metavar="H", help=hardness)
