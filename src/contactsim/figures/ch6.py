@@ -29,6 +29,8 @@ VARIED = (("o", 5.5, "$E$ varied"), ("x", 3.2, r"$\varphi_t$ varied, $E=70$ GPa"
 """Marker, its size and label of what is varied in Fig. 6.5b: the small one fits into the large one."""
 CASES = {"I": (-2.0, 0), "II": (5.0, 0), "III": (5.0, 1)}
 """Approach (nm) of the cases of Fig. 6.7, and which of the two studies they belong to."""
+WEAK, SLIPPERY = style.WHOLE, style.BROWN
+"""Colours of the probe with weak adhesion and of that with low friction."""
 
 
 def fig_6_3(data: xr.Dataset, axes: list[Axes]) -> pd.DataFrame:
@@ -85,9 +87,10 @@ def fig_6_5(
     Weaker interfaces lie on the curves of stiffer layers of their thickness.
     """
     tables, ends = [], []
-    for studies, colour in zip(((thin, weaker), (thick, weaker_thick)), (style.CONTACT, style.WHOLE), strict=True):
+    for studies in ((thin, weaker), (thick, weaker_thick)):
         by_modulus, by_work = (slide_tables.friction_against_modulus(data) for data in studies)
         thickness, critical = by_modulus.thickness.iloc[0], by_modulus.critical.iloc[0]
+        colour = style.variable_colours("thickness", thickness)[float(thickness)]
         largest = max(table.modulus_over_strength.max() for table in (by_modulus, by_work))
         flats.plot_friction(axes[0], by_modulus, colour, rf"$h={thickness:g}$ nm")
         for table, (marker, size, words) in zip((by_modulus, by_work), VARIED, strict=True):
@@ -100,7 +103,7 @@ def fig_6_5(
         ends.append((critical, largest, thickness, colour))
         errors = ["mean_friction_increment_error", "average_friction_increment_error"]
         tables += [table.drop(columns=errors) for table in (by_modulus, by_work)]
-    _label_friction(axes, thin)
+    _label_friction(axes, thin, [colour for *_, colour in ends])
     right = 1.3 * max(largest for _, largest, *_ in ends)
     for critical, largest, thickness, colour in ends:
         if critical < largest:
@@ -109,8 +112,8 @@ def fig_6_5(
     return pd.concat(tables)
 
 
-def _label_friction(axes: list[Axes], thin: xr.Dataset) -> None:
-    """Add labels and legends to the panels of friction against modulus over strength."""
+def _label_friction(axes: list[Axes], thin: xr.Dataset, colours: list[str]) -> None:
+    """Add labels and legends to the panels of friction against modulus over strength; colours: of each thickness."""
     lines = style.line_handles({r"$(F_s+F_k)/2$ (Eq. 6.7)": "-", "mean over whole periods": "--"})
     axes[0].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"friction $\langle\bar F\rangle$")
     axes[1].set(xscale="log", xlabel=r"$E/\tau_{\max}$", ylabel=r"$\langle F\rangle/(w\tau_{\max})$")
@@ -119,7 +122,7 @@ def _label_friction(axes: list[Axes], thin: xr.Dataset) -> None:
     style.add_headroom(axes[0], 0.35)
     thicknesses = axes[0].get_legend_handles_labels()
     axes[0].legend(handles=[*thicknesses[0], *lines], loc="upper right", ncols=2)
-    for label, colour in zip(thicknesses[1], (style.CONTACT, style.WHOLE), strict=True):
+    for label, colour in zip(thicknesses[1], colours, strict=True):
         axes[1].plot([], [], color=colour, lw=1.5, label=label)
     for marker, size, label in VARIED:
         axes[1].plot([], [], ls="none", label=label, **style.marker_look(style.EXACT, marker, size, fill="none"))
@@ -141,8 +144,8 @@ def fig_6_6(data: xr.Dataset, axes: Axes) -> pd.DataFrame:
         axes.axvline(slide / float(path.length), color=style.LIGHT_GREY, lw=0.5, ls=":", label=f"_slip {number}")
     axes.set(xlabel=curves.SLIDE)
     area = axes.twinx()
-    area.plot(table.relative_slide, table.area, color=style.WHOLE, lw=1.2, ls=":", label=r"$\bar A$")
-    area.set_ylabel(curves.AREA, color=style.WHOLE)
+    area.plot(table.relative_slide, table.area, color=style.GREY, lw=1.2, ls=":", label=r"$\bar A$")
+    area.set_ylabel(curves.AREA, color=style.GREY)
     area.set_ylim(0, 1.5 * table.area.max())
     handles = axes.get_legend_handles_labels()[0] + area.get_legend_handles_labels()[0]
     axes.legend(handles=handles, loc="upper left", ncols=3)
@@ -153,8 +156,9 @@ def fig_6_7(data: xr.Dataset, slippery: xr.Dataset, axes: list[Axes]) -> pd.Data
     """Plot the contact against the sliding distance, and its place at stages A to E (thesis Fig. 6.7)."""
     path_axes, stage_axes = axes
     tables = []
-    colours = (style.CONTACT, style.EXACT, style.WHOLE)
-    for number, ((name, (approach, study)), colour) in enumerate(zip(CASES.items(), colours, strict=True)):
+    approaches = style.shades(data.slide_approach)
+    for number, (name, (approach, study)) in enumerate(CASES.items()):
+        colour = SLIPPERY if study else approaches[approach]
         path = (data, slippery)[study].sel(slide_approach=approach).isel(member=0)
         label = f"{name}: {curves.approach_label(approach)}, {curves.work_ratio_label(path)}"
         tables.append(curves.plot_stages(path_axes, stage_axes, path, label, colour, number).assign(case=name))
@@ -178,14 +182,14 @@ def fig_6_8(data: xr.Dataset, weak: xr.Dataset, slippery: xr.Dataset, axes: list
         label = rf"{curves.approach_label(approach)}, $R^2={float(path.quadratic_r_squared):.3f}$"
         path_axes.plot(table.force, np.maximum(table.fit, 0.0), color=colour, lw=1.0, label=label)
         path_axes.plot(table.force, table.crack, color=colour, lw=0.7, ls=":", label=f"{name}, crack of both modes")
-        onset = {"color": "black", "ms": 3.5, "label": f"{name}, onset"}
+        onset = {"color": style.EXACT, "ms": 3.5, "label": f"{name}, onset"}
         path_axes.plot(table.force.iloc[-1], table.area.iloc[-1], "o", **onset)
         tables.append(table.assign(approach=approach, study="a", quadratic=float(path.quadratic_coefficient)))
     path_axes.set(xlabel=curves.FORCE, ylabel=curves.AREA)
     path_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label="crack of both modes")
     style.add_headroom(path_axes, 0.6)
     path_axes.legend(loc="upper right", ncols=2, fontsize=7)
-    for study, colour, marker in ((data, "black", "o"), (weak, style.WHOLE, "s"), (slippery, style.CONTACT, "^")):
+    for study, colour, marker in ((data, style.EXACT, "o"), (weak, WEAK, "s"), (slippery, SLIPPERY, "^")):
         tables.append(_plot_onsets(onset_axes, study, colour, marker))
     onset_axes.plot([], [], color=style.EXACT, lw=0.7, ls=":", label=r"$\bar\tau_c\bar A_s$ alone (Bowden–Tabor)")
     onset_axes.set(xlabel=r"$\bar A_s$", ylabel=r"$\bar F_s$")

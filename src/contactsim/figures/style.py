@@ -62,6 +62,7 @@ HUES = {
     "poisson_ratio": ("Oranges", (0.1, 0.3, 0.45)),
     "work_ratio": ("Purples", (0.0, 0.1, 0.5, 1.0)),
     "surface_rms_height": ("RdPu", (10.0, 15.0, 20.0, 30.0)),
+    "thickness": ("YlOrBr", (500.0, 5000.0)),
 }
 """Hues of variables, so that a colour means the same in all figures of a chapter, and their usual values."""
 SOLVER_NAMES = {
