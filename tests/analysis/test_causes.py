@@ -73,7 +73,15 @@ def test_a_number_of_the_data_is_put_into_a_cause():
     assert cause_text(cause, row, {}, cause_numbers(cause, data)) == "Physics: From 1.500 to 2 (50 %)."
 
 
-@pytest.mark.parametrize(("number", "texts"), [(0.9965, ("0.997", "100 %")), (1118.0, ("1118", "111800 %"))])
+@pytest.mark.parametrize(
+    ("number", "texts"),
+    [
+        (0.9965, ("0.997", "100 %")),
+        (1.7002, ("1.70", "170 %")),
+        (24.0, ("24", "2400 %")),
+        (1118.4, ("1118", "111840 %")),
+    ],
+)
 def test_a_number_of_the_data_has_three_digits_and_two_in_percent(number, texts):
     written = [
         cause_text(Cause("physics", text, numbers={"it": {}}), ROW, {}, {"it": number}) for text in ("{it}", "{it:%}")

@@ -115,9 +115,9 @@ def _number_texts(number: float) -> dict[str, str]:
 
 
 def _digits(number: float, digits: int) -> str:
-    """Return a number with so many significant digits; all digits of a whole number of more."""
-    text = f"{number:.{digits}g}"
-    return f"{number:.0f}" if "e+" in text else text
+    """Return a number with so many significant digits; a whole number with all of its own, and no decimals."""
+    text = f"{number:#.{digits}g}".rstrip(".")
+    return f"{number:.0f}" if "e+" in text or float(number).is_integer() else text
 
 
 def cause_text(
