@@ -31,7 +31,7 @@ PUBLIC = {
     "Sinusoid": "surfaces.shapes",
     "SelfAffine": "surfaces.self_affine",
     "Topography": "surfaces.topography",
-    "read_topography": "surfaces.topography",
+    "read_topography": "surfaces.scan_files",
     "prepare_topography": "surfaces.preparation",
     "HardWall": "interface.hard_wall",
     "ExponentialAttraction": "interface.attraction",

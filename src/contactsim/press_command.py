@@ -20,7 +20,8 @@ from contactsim.errors import InputError
 from contactsim.evaluation.estimate import align_right
 from contactsim.status import Status, describe_excess, is_solved
 from contactsim.surfaces.preparation import USUAL_DETREND, prepare_topography
-from contactsim.surfaces.topography import Topography, read_topography
+from contactsim.surfaces.scan_files import read_topography
+from contactsim.surfaces.topography import Topography
 
 COLUMNS = {
     "relative_contact_area_subgrid": ("area", ""),

@@ -118,6 +118,8 @@ def test_a_run_executes_nothing_that_its_digest_does_not_cover(runs: dict[str, R
 
 def test_the_digest_covers_no_other_kind(runs: dict[str, Run]) -> None:
     modules = {name: {module.removeprefix("contactsim.") for module in covered(run)} for name, run in runs.items()}
+    readers = {"surfaces.scan_files", "surfaces.instrument", "surfaces.text_layouts", "surfaces.netcdf"}
+    assert not (modules["line"] | modules["area"]) & readers  # computed surfaces read no files
     assert not modules["line"] & {"interface.cohesive_zone", "contact.cohesive", "elasticity.layer", "paths.record"}
     assert not modules["area"] & {"solvers.hard_wall.active_set", "solvers.cohesive.newton_krylov"}
     assert not modules["sticky"] & {"paths.pressures", "elasticity.layer", "interface.lattice", "paths.nested"}

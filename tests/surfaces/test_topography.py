@@ -26,7 +26,8 @@ from contactsim.study.study import Study
 from contactsim.surfaces.measured import MeasuredSurface
 from contactsim.surfaces.preparation import prepare_topography
 from contactsim.surfaces.registry import SURFACES
-from contactsim.surfaces.topography import Topography, read_topography
+from contactsim.surfaces.scan_files import read_topography
+from contactsim.surfaces.topography import Topography
 from support.cases import refusal, refused
 
 DY, DX = SPACING = (2.5, 0.5)

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from contactsim.grid import Array
 from contactsim.surfaces.preparation import prepare_topography
-from contactsim.surfaces.topography import Topography, read_topography
+from contactsim.surfaces.scan_files import read_topography
+from contactsim.surfaces.topography import Topography
 
 
 @dataclass(frozen=True)
