@@ -125,4 +125,4 @@ def test_pictures_for_the_readme_stay_small():
     files = [
         file for file in (ROOT / "docs").rglob("*") if file.is_file() and ROOT / "docs/generated" not in file.parents
     ]
-    assert sum(file.stat().st_size for file in files) <= 8e6  # 1200 px each
+    assert sum(file.stat().st_size for file in files) <= 9e6  # some seventy, 1200 px each
