@@ -82,6 +82,10 @@ class Executor(LocalExecutor):  # type: ignore[misc]  # Snakemake is not typed
         link, theirs = socket.socketpair()
         with link:
             self.links.add(link)
+            if self.cancelled:  # `cancel` may have looked at the links before this one was there
+                self.links.remove(link)
+                theirs.close()
+                raise SpawnedJobError
             with theirs:
                 socket.send_fds(self.control, [b"f"], [theirs.fileno()])
             link.sendall(len(message).to_bytes(8, "big") + message)

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from snakemake_executor_plugin_forkserver import Executor, SpawnedJobError
 from support.places import ROOT
 
 SERVER = ROOT / "src/snakemake_executor_plugin_forkserver/server.py"
@@ -121,3 +122,11 @@ def test_a_job_ends_with_the_other_end_of_its_link(server: Server, script: Path,
 def test_a_job_that_is_killed_sends_no_code(server: Server, script: Path, tmp_path: Path) -> None:
     with server.start(script, output=str(tmp_path / "output"), then="os.kill(os.getpid(), 9)") as link:
         assert link.recv(1) == b""
+
+
+def test_a_job_that_starts_while_all_are_stopped_is_not_run():
+    executor = Executor.__new__(Executor)  # as it is after `cancel` has ended the jobs that it knew
+    executor.cancelled, executor.links, executor.control = True, set(), None
+    with pytest.raises(SpawnedJobError):
+        executor._run_fork(b"")
+    assert executor.links == set()
