@@ -168,7 +168,8 @@ def _label_as_study(data: xr.Dataset, settings: dict) -> xr.Dataset:
 
 def compare_tiers(options: argparse.Namespace) -> None:
     """Print how far the figures that two tiers have differ, and which are missing; exit code 1 where one is too far."""
-    plans = [_plan_of_results(name) for name in (options.first, options.second)]
+    default = Plan.read("config", None)
+    plans = [_plan_of_results(name, default) for name in (options.first, options.second)]
     missing = {plan.tier: _missing_figures(plan) for plan in plans}
     absent = {name for names in missing.values() for name in names}
     shared = {name: figure for name, figure in plans[1].figures.items() if name not in absent}
@@ -182,11 +183,10 @@ def compare_tiers(options: argparse.Namespace) -> None:
         sys.exit(1)
 
 
-def _plan_of_results(name: str) -> Plan:
+def _plan_of_results(name: str, default: Plan) -> Plan:
     """Return the plan of a tier; for a folder with results the plan of the default tier, with this folder."""
-    own = Plan.read("config", None)
-    is_folder = name not in own.tiers and (Path(name) / "figures").is_dir()
-    return replace(own, tier=name, results=Path(name)) if is_folder else Plan.read("config", name)
+    is_folder = name not in default.tiers and (Path(name) / "figures").is_dir()
+    return replace(default, tier=name, results=Path(name)) if is_folder else Plan.read("config", name)
 
 
 def _missing_figures(plan: Plan) -> list[str]:

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.analysis.comparison import SECOND_STUDY, Comparison
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
 from contactsim.variables import LOADS
 
 NAME_MARKS = "`{}`"
@@ -28,9 +28,8 @@ def data_text(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
     if not data:
         return ""
     words = ["", *(word for key, (word, _) in SECOND_STUDY.items() if claim[key])]
-    names = [claim[key] for key in ("study", *SECOND_STUDY) if claim[key]]
     selected = Comparison(claim, data).select(claim["select"]).data
-    parts = [f"{word} {NAME_MARKS.format(name)}" for word, name in zip(words, names, strict=True)]
+    parts = [f"{word} {NAME_MARKS.format(name)}" for word, name in zip(words, studies_of(claim), strict=True)]
     texts = [f"{part}: {_size_text(study)}" for part, study in zip(parts, selected, strict=True)]
     return "; ".join(text.strip() for text in texts)
 

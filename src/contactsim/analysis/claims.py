@@ -18,7 +18,7 @@ from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import FAILING, Cause, cause_text
 from contactsim.analysis.cell_rules import cell_texts
 from contactsim.analysis.claim_data import data_text
-from contactsim.analysis.comparison import SECOND_STUDY, Comparison
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
 from contactsim.analysis.conditions import ConditionSearch
 from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
@@ -201,7 +201,7 @@ def cause_numbers(cause: Cause, data: Mapping[str, xr.Dataset]) -> dict[str, flo
 
 def _studied(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[xr.Dataset]:
     """Return the datasets of the studies of a claim."""
-    return [data[claim[key]] for key in ("study", *SECOND_STUDY) if claim[key]]
+    return [data[name] for name in studies_of(claim)]
 
 
 def judge_claims(

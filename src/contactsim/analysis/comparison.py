@@ -36,6 +36,11 @@ PATH_DIMENSIONS = ("step", "snapshot", "x", "fold", "event")
 """Dimensions along a path: two studies need not share them, as summaries of paths do not have them."""
 
 
+def studies_of(claim: Mapping) -> list[str]:
+    """Return the names of the studies that a claim compares: none, one or two."""
+    return [claim[key] for key in ("study", *SECOND_STUDY) if claim[key] is not None]
+
+
 class Comparison:
     """A claim's quantity in the datasets of its studies.
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 
 from contactsim.analysis.causes import PERCENT, ROW_NUMBERS, Cause
-from contactsim.analysis.comparison import SECOND_STUDY
+from contactsim.analysis.comparison import studies_of
 from contactsim.errors import InputError
 from contactsim.study.claim_checks import (
     check_band,
@@ -58,8 +58,7 @@ class Claim:
         readings = [part for choice in choices for part in (choice, *(choice["cases"] or {}).values())]
         cause = self.settings["cause"]
         readings += cause["numbers"].values() if cause else []
-        names = [reading[key] for reading in readings for key in ("study", *SECOND_STUDY)]
-        return list(dict.fromkeys(name for name in names if name is not None))
+        return list(dict.fromkeys(name for reading in readings for name in studies_of(reading)))
 
 
 def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study], part: str = "claims") -> Claim:
@@ -103,8 +102,7 @@ def _read_settings(
     if cases and (settings["case"] is None or settings["case"] in cases):
         raise InputError(f"{prefix}.case", settings["case"], "a name of the claim's own case beside `cases`", file)
     check_one_of(settings, "study", studies, file, prefix)
-    compared = [settings[key] for key in ("study", *SECOND_STUDY) if settings[key] is not None]
-    dims = list(dict.fromkeys(dim for study in compared for dim in study_dimensions(studies, study)))
+    dims = list(dict.fromkeys(dim for study in studies_of(settings) for dim in study_dimensions(studies, study)))
     check_quantities(settings, studies, dims, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
     all_dims = list(dict.fromkeys(dim for study in studies for dim in study_dimensions(studies, study)))

@@ -23,7 +23,8 @@ def read_instrument(file: Path, dimensions: int | None, unit: str | None, variab
         channels = {entry.channel_id: entry for entry in reader.channels if entry.is_height_channel}
         default = reader.default_channel.channel_id
         only = next(iter(channels)) if len(channels) == 1 else default  # the default may hold a phase
-        name = variable or (default if default in channels else only)
+        usual = default if default in channels else only
+        name = usual if variable is None else variable
         if name not in channels:
             raise InputError("variable", name, f"a channel of heights, of those: {list(channels)}", file)
         channel = channels[name]
