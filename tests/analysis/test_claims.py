@@ -358,18 +358,9 @@ LACKING = {
         *("incompressible_slope_weak", "gap_at_pull_off", "crack_departure_strong", "compressible_slope_weak"),
     ],
     "ch5": [
-        *("error_bars", "convergence", "area_larger", "linearity_breaks", "error_bars_larger", "heights_ordered"),
-        *(
-            "hurst_ordered",
-            "gap_heights",
-            "gap_hurst",
-            "heights_linear",
-            "hurst_linear",
-            "no_slip",
-            "no_slip_compressible",
-            "uncoupled",
-        ),
-        *("compressibility_adhesive", "friction", "hurst_step", "slipped_share"),
+        *("error_bars", "area_larger", "linearity_breaks", "error_bars_larger", "heights_ordered", "hurst_ordered"),
+        *("gap_heights", "gap_hurst", "heights_linear", "hurst_linear", "no_slip", "no_slip_compressible"),
+        *("uncoupled", "compressibility_adhesive", "friction", "hurst_step", "slipped_share"),
     ],
     "ch6": ["share_in_tension"],
 }
