@@ -38,6 +38,11 @@ def pytest_configure() -> None:
     limit_threads(1)
 
 
+def run_files(plan: Plan, stem: str) -> RunFiles:
+    """Return the files of a run."""
+    return RunFiles(plan.results / f"runs/{stem}.nc", plan.results / f"costs/runs/{stem}.json")
+
+
 def compute_run(job: tuple[Run, RunFiles, Path | None, Path | None]) -> None:
     """Compute one run, in a process of its own."""
     run, files, decision, twin = job
@@ -103,7 +108,8 @@ def make_quick_tier(folder: Path) -> None:
         plan = Plan.read(ROOT / "config", "quick")
         for study in plan.studies:
             for one, entry in zip(plan.studies[study].runs(), plan.study_settings(study)["runs"], strict=True):
-                files = RunFiles(entry["path"], entry["costs"])
+                alike = tuple(run_files(plan, stem) for stem in plan.runs_alike.get(one.stem, []))
+                files = RunFiles(entry["path"], entry["costs"], alike)
                 jobs.append((one, files, plan.decision(one), plan.twin(one)))
                 if plan.decision(one) and one.member == 0:
                     decisions.append((one.settings, plan.decision(one)))

@@ -200,6 +200,26 @@ def test_points_that_did_not_converge_are_taken_over_too(place, solved):
     assert grown.data.read_bytes() == place(settings_of([0.02, 0.1], solver=solver), name="once").data.read_bytes()
 
 
+def test_loads_that_a_run_alike_holds_are_not_solved_again(place, solved):
+    other = place(settings_of([0.1, 0.4]), name="other")
+    place(settings_of([0.02]), name="own")
+    own = dataclasses.replace(place(name="own"), alike=(other, place(name="missing")))
+    execute.run(settings_of([0.02, 0.1, 0.2, 0.4]), "source", own)
+    np.testing.assert_allclose(np.array(solved) / solved[0], [1, 4, 0.2, 2], rtol=1e-12)
+    once = place(settings_of([0.02, 0.1, 0.2, 0.4]), name="once")
+    assert own.data.read_bytes() == once.data.read_bytes()
+    taken, first = (json.loads(files.costs.read_text())["seconds"] for files in (own, other))
+    assert first.items() <= taken.items()
+
+
+def test_loads_of_a_run_with_another_setting_are_not_taken_from_it(place, solved):
+    other = place(settings_of(tolerance=1e-4), name="other")
+    own = dataclasses.replace(place(), alike=(other,))
+    execute.run(settings_of(), "source", own)
+    assert len(solved) == 6
+    assert own.data.read_bytes() == place(settings_of(), name="once").data.read_bytes()
+
+
 def test_another_source_digest_reuses_nothing(place, solved):
     place(settings_of(), source="old")
     files = place(settings_of(), source="new")

@@ -196,6 +196,30 @@ def test_a_run_is_found_by_the_parts_of_its_file_name(folder):
         assert plan.run(*run.stem.split("/")) == run
 
 
+def test_runs_alike_differ_in_their_loads_alone_also_those_of_another_study(folder):
+    finer = ROUGH | {
+        "same_surfaces_as": "rough",
+        "points": 128,
+        "coarse_grid": {"points": 64, "members": 1},
+        "members": 1,
+    }
+    others = {
+        "finer": finer | {"load": {"reduced_pressure": [0.1, 0.3]}},
+        "tighter": ROUGH | {"same_surfaces_as": "rough", "tolerance": 1e-4},
+        "own_surfaces": ROUGH,
+        "kept": ROUGH | {"same_surfaces_as": "rough", "keep": ["contact"]},
+        "mean": ROUGH | {"same_surfaces_as": "rough", "load": {"mean_pressure": [0.1]}},
+    }
+    plan = Plan.read(folder({"ch3.yaml": {f"studies/{name}": study for name, study in others.items()}}))
+    assert {stem.split("/")[0] for stem in plan.runs_alike} == {"rough", "finer"}
+    coarse = [run.stem for run in plan.studies["finer"].runs() if run.measures_error]
+    first = [run.stem for run in plan.studies["rough"].runs() if run.member == 0]
+    assert len(coarse) == 2
+    assert plan.runs_alike == {
+        one: [other] for pair in zip(first, coarse, strict=True) for one, other in (pair, pair[::-1])
+    }
+
+
 LAW = {"effect": "cohesive_zone", "work_of_separation": 1.0, "work_ratio": 1.0, "reach": 5.0}
 LAW |= {"normal_gap": [0.0], "tangential_gap": [0.0, 0.5]}
 ALONE = {key: value for key, value in FIGURE.items() if key != "study"} | {"law": LAW, "size": [4.0, 3.0]}

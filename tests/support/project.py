@@ -280,7 +280,7 @@ def jobs_in(text: str) -> list[str]:
     messages = re.findall(r"^Job \d+: (.*)$", text, re.MULTILINE)
     counts = dict(re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE))
     assert counts or "Nothing to be done" in text
-    silent = {"total", "all", "rough", "baseline", "smooth", "accuracy_wave"}  # rules that only gather files
+    silent = {"total", "all", "rough", "baseline", "smooth", "more", "accuracy_wave"}  # rules that only gather files
     assert len(messages) == sum(int(count) for name, count in counts.items() if name not in silent)
     messages = [message for message in messages if not message.startswith(REPORT)]
     return sorted(re.sub(r"^(fig_\w+): .*", r"\1", message) for message in messages)

@@ -16,6 +16,7 @@ from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
 
+import netCDF4
 import pandas as pd
 import pytest
 import xarray as xr
@@ -150,6 +151,25 @@ def test_a_load_taken_away_needs_no_solution(project: Project) -> None:
     project.change("ch9", "studies.smooth.load.contact_ratio", [0.1, 0.3])
     project.make(*project.run_targets("smooth"))
     assert project.steps("smooth") == {(2, 0)}
+
+
+@pytest.mark.parametrize("damaged", [False, True], ids=["sound", "damaged"])
+def test_a_study_takes_the_loads_that_another_holds_unless_they_were_changed(
+    project: Project, longer: Project, damaged: bool
+) -> None:
+    study = deepcopy(CONFIG["ch8"]["studies"]["rough"]) | {"same_surfaces_as": "rough"}
+    study["load"]["reduced_pressure"] = LONGER["ch8", "studies.rough.load.reduced_pressure"]
+    project.change("ch8", "studies.more", study)
+    assert of_study(project.planned("more")) == {"more": ROUGH_RUNS}
+    for path in (project.folder / "results/standard/runs/rough").rglob("*.nc") if damaged else ():
+        with netCDF4.Dataset(path, "a") as file:
+            file["relative_contact_area"][:] = 0.5
+    project.make("more")
+    assert project.steps("more") == ({(0, 5)} if damaged else {(3, 2)})
+    runs_made, at_once = (
+        one.files(f"standard/runs/{name}/*/*.nc") for one, name in ((project, "more"), (longer, "rough"))
+    )
+    assert list(runs_made.values()) == list(at_once.values())
 
 
 def test_added_members_are_run_and_the_others_left_alone(project: Project) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import logging
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+from contactsim.errors import InputError
 from contactsim.provenance import digest
 from contactsim.seals import Seal, check_inputs, content_digest
 
@@ -35,6 +36,14 @@ def open_job(snakemake: Any) -> Callable[[], None]:
         Seal(snakemake.rule, dict(snakemake.wildcards.items()), made_from, inputs, outputs).write(results)
 
     return seal
+
+
+def is_sound(results: Path, paths: Iterable[Path]) -> bool:
+    """Return True where results are there, and as they were when they were made."""
+    try:
+        return bool(check_inputs(results, paths))
+    except InputError:
+        return False
 
 
 def made_from(parameters: dict[str, Any]) -> dict[str, Any]:

@@ -27,6 +27,8 @@ PLAN, RESULTS = PRODUCTS.plan, PRODUCTS.results
 RUN_JOBS, RESULT_JOBS, EVALUATION_JOBS, PAGES = RunJobs(PLAN), ResultJobs(PLAN), EvaluationJobs(PRODUCTS), Pages(PRODUCTS)
 CANDIDATE_JOBS, BASELINE_JOBS = CandidateJobs(PRODUCTS), BaselineJobs(PRODUCTS)
 
+config["runs_alike"] = PLAN.runs_alike   # for jobs to look at; none depends on it
+
 if workflow.is_main_process and not workflow.output_settings.dryrun:
     LOCK = lock_folder(Path(".snakemake"))
 

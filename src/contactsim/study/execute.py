@@ -17,7 +17,7 @@ from contactsim import dataset
 from contactsim.files import write_text
 from contactsim.paths.driver import follow_path, path_driver
 from contactsim.paths.options import Setup
-from contactsim.paths.reuse import Reuse
+from contactsim.paths.reuse import Point, Reuse
 from contactsim.provenance import digest
 from contactsim.status import warn_of_excess
 from contactsim.study.scenes import build_setup
@@ -27,10 +27,19 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class RunFiles:
-    """Dataset of a run, and the file of its costs."""
+    """Files of a run.
+
+    Parameters
+    ----------
+    data, costs : path
+        Its dataset, and the file of its costs.
+    alike : tuple of RunFiles
+        Files of runs that differ in their loads alone. What they hold already is not solved again.
+    """
 
     data: str | Path
     costs: str | Path
+    alike: tuple[RunFiles, ...] = ()
 
 
 def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
@@ -43,7 +52,7 @@ def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
     source : str
         Digest of the code that computes it.
     files : RunFiles
-        Files to write; loads that the same code solved before are taken over from an earlier dataset.
+        Files to write; loads that the same code solved before are taken over from earlier datasets.
     threads : int
         Threads of the transforms.
     """
@@ -53,8 +62,11 @@ def run(settings: dict, source: str, files: RunFiles, threads: int = 1) -> None:
 
 
 def compute(setup: Setup, settings: dict, source: str, files: RunFiles) -> tuple[xr.Dataset, dict]:
-    """Return the dataset of a run as it is; single loads that an earlier dataset holds are not solved again."""
-    solved = path_driver(setup.scene.kind).read_points(files.data, files.costs)
+    """Return the dataset of a run as it is; single loads that earlier datasets hold are not solved again."""
+    driver = path_driver(setup.scene.kind)
+    solved: dict[str, Point] = {}
+    for earlier in (*files.alike, files):
+        solved |= driver.read_points(earlier.data, earlier.costs)
     names = point_digests(settings, source, len(setup.scene.path.steps))
     points = {step: solved[name] for step, name in enumerate(names) if name in solved}
     data = follow_path(setup, Reuse(points=points or None))

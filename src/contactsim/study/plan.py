@@ -11,7 +11,7 @@ from contactsim.analysis.costs import QUANTITIES
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.neglect import expected_neglect
 from contactsim.errors import InputError
-from contactsim.provenance import digest
+from contactsim.provenance import canonical, digest
 from contactsim.study.chapter import Chapter, ChapterReader
 from contactsim.study.claim_plan import Claim
 from contactsim.study.figure_plan import Figure
@@ -177,6 +177,16 @@ class Plan:
                     if effects and first.setdefault(key, run) is not run:
                         twins[run.stem] = first[key]
         return twins
+
+    @cached_property
+    def runs_alike(self) -> dict[str, list[str]]:
+        """Stems of the other runs of any study that differ from a run in their loads alone, by its stem."""
+        alike: dict[str, list[str]] = {}
+        for run in self._runs.values():
+            if "values" in run.settings["load"]:
+                alike.setdefault(canonical(run.settings | {"load": run.settings["load"]["name"]}), []).append(run.stem)
+        shared = [stems for stems in alike.values() if len(stems) > 1]
+        return {stem: [other for other in stems if other != stem] for stems in shared for stem in stems}
 
     def decision_settings(self, study: str, variant: str) -> dict:
         """Return what a decision on negligible effects depends on."""
