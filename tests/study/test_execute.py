@@ -212,6 +212,21 @@ def test_loads_that_a_run_alike_holds_are_not_solved_again(place, solved):
     assert first.items() <= taken.items()
 
 
+def test_a_run_that_keeps_the_profile_takes_loads_of_one_that_does_not(place, solved):
+    other = place(settings_of(keep=["contact", "pressure"]), name="other")
+    own = dataclasses.replace(place(), alike=(other,))
+    execute.run(settings_of(), "source", own)
+    assert len(solved) == 3
+    assert own.data.read_bytes() == place(settings_of(), name="once").data.read_bytes()
+
+
+@pytest.mark.parametrize("keep", [["contact"], ["contact", "pressure", "profile", "patches"]])
+def test_a_run_takes_no_loads_of_one_that_keeps_something_else_of_them(place, solved, keep):
+    other = place(settings_of(keep=keep), name="other")
+    execute.run(settings_of(), "source", dataclasses.replace(place(), alike=(other,)))
+    assert len(solved) == 6
+
+
 def test_loads_of_a_run_with_another_setting_are_not_taken_from_it(place, solved):
     other = place(settings_of(tolerance=1e-4), name="other")
     own = dataclasses.replace(place(), alike=(other,))

@@ -208,16 +208,18 @@ def test_runs_alike_differ_in_their_loads_alone_also_those_of_another_study(fold
         "tighter": ROUGH | {"same_surfaces_as": "rough", "tolerance": 1e-4},
         "own_surfaces": ROUGH,
         "kept": ROUGH | {"same_surfaces_as": "rough", "keep": ["contact"]},
+        "without_profile": ROUGH | {"same_surfaces_as": "rough", "keep": ["contact", "pressure"], "members": 1},
         "mean": ROUGH | {"same_surfaces_as": "rough", "load": {"mean_pressure": [0.1]}},
     }
     plan = Plan.read(folder({"ch3.yaml": {f"studies/{name}": study for name, study in others.items()}}))
-    assert {stem.split("/")[0] for stem in plan.runs_alike} == {"rough", "finer"}
+    groups = {frozenset([stem, *stems]) for stem, stems in plan.runs_alike.items()}
     coarse = [run.stem for run in plan.studies["finer"].runs() if run.measures_error]
-    first = [run.stem for run in plan.studies["rough"].runs() if run.member == 0]
-    assert len(coarse) == 2
-    assert plan.runs_alike == {
-        one: [other] for pair in zip(first, coarse, strict=True) for one, other in (pair, pair[::-1])
-    }
+    members = [
+        [run.stem for run in plan.studies[name].runs() if run.member == 0] for name in ("rough", "without_profile")
+    ]
+    assert groups == set(map(frozenset, zip(*members, coarse, strict=True)))
+    assert len(groups) == 2
+    assert all(stem not in stems for stem, stems in plan.runs_alike.items())
 
 
 LAW = {"effect": "cohesive_zone", "work_of_separation": 1.0, "work_ratio": 1.0, "reach": 5.0}

@@ -16,6 +16,8 @@ from contactsim.grid import Array
 
 DEFAULT_KEPT = ("contact", "pressure", "profile")
 """What a run keeps of a solution beside its numbers, unless it is told otherwise."""
+KEPT_ONCE = "profile"
+"""What of these is the same for all loads."""
 KEPT = (*DEFAULT_KEPT, "fields", "distributions", "patches", "stiffness")
 """All that it can keep; the stiffness of the contact costs one to three further solutions."""
 

@@ -20,7 +20,7 @@ from contactsim.paths.options import Setup
 from contactsim.paths.reuse import Point, Reuse
 from contactsim.provenance import digest
 from contactsim.status import warn_of_excess
-from contactsim.study.scenes import build_setup
+from contactsim.study.scenes import build_setup, settings_of_single_loads
 
 logger = logging.getLogger(__name__)
 
@@ -93,9 +93,8 @@ def point_digests(settings: dict, source: str, steps: int) -> list[str]:
 
     Single loads do not depend on the others; a state of a path depends on all of it.
     """
-    load = settings["load"]
-    alone = settings | {"load": load["name"]} if "values" in load else settings
-    return [digest(alone, place, source) for place in _places(settings, steps)]
+    shared = settings_of_single_loads(settings) or settings
+    return [digest(shared, place, source) for place in _places(settings, steps)]
 
 
 def _places(settings: dict, steps: int) -> list:

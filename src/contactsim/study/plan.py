@@ -20,6 +20,7 @@ from contactsim.study.plain_yaml import load_yaml
 from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, listed, mapping, read, text, whole
 from contactsim.study.reserved_names import reserved_names
 from contactsim.study.run import Run
+from contactsim.study.scenes import settings_of_single_loads
 from contactsim.study.select_effects import selection_digest
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study
@@ -180,11 +181,11 @@ class Plan:
 
     @cached_property
     def runs_alike(self) -> dict[str, list[str]]:
-        """Stems of the other runs of any study that differ from a run in their loads alone, by its stem."""
+        """Stems of the other runs of any study of whose loads some may be those of a run, by its stem."""
         alike: dict[str, list[str]] = {}
         for run in self._runs.values():
-            if "values" in run.settings["load"]:
-                alike.setdefault(canonical(run.settings | {"load": run.settings["load"]["name"]}), []).append(run.stem)
+            if settings := settings_of_single_loads(run.settings):
+                alike.setdefault(canonical(settings), []).append(run.stem)
         shared = [stems for stems in alike.values() if len(stems) > 1]
         return {stem: [other for other in stems if other != stem] for stems in shared for stem in stems}
 

@@ -18,6 +18,7 @@ from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.interface.registry import EFFECTS, PAIRINGS
+from contactsim.observables.contact import KEPT_ONCE
 from contactsim.paths.increments import INCREMENTS
 from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.provenance import canonical
@@ -53,6 +54,17 @@ def build_setup(settings: Mapping, threads: int = 1) -> Setup:
         **study_kind(settings).options(settings),
     )
     return Setup(build_scene(settings), options)
+
+
+def settings_of_single_loads(settings: Mapping) -> dict | None:
+    """Return what each load of a run depends on besides its value; None for a path, whose states depend on each other.
+
+    It does not depend on the other loads, nor on what is kept once for all of them.
+    """
+    if "values" not in settings["load"]:
+        return None
+    kept = [name for name in settings["keep"] if name != KEPT_ONCE]
+    return {**settings, "load": settings["load"]["name"], "keep": kept}
 
 
 def build_scene(settings: Mapping) -> Scene:
