@@ -238,6 +238,7 @@ class Project:
             stdout=subprocess.DEVNULL,
             stderr=stderr,
             start_new_session=True,
+            preexec_fn=hear_ctrl_c,
         )
         try:
             wait_for(lambda: (signs / "pid").exists() or process.poll() is not None)
@@ -284,6 +285,11 @@ def jobs_in(text: str) -> list[str]:
     assert len(messages) == sum(int(count) for name, count in counts.items() if name not in silent)
     messages = [message for message in messages if not message.startswith(REPORT)]
     return sorted(re.sub(r"^(fig_\w+): .*", r"\1", message) for message in messages)
+
+
+def hear_ctrl_c() -> None:
+    """End by Ctrl-C, which a process that a shell starts in the background does not hear, nor what it starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def wait_for(reached: Callable[[], bool]) -> None:
