@@ -30,7 +30,8 @@ ROUNDING = 1e-9
 SLIP_ROUNDING = 1e-7
 """The same for the slip of a surface free of shear."""
 GROWTH = 1e-3
-"""Rate, over the law's largest tangent, at which a displacement may grow at a stable state."""
+"""Rate, over the law's largest tangent, at which a displacement may grow at a stable state. An interpolated one is off
+by its stated residual, which adds to it."""
 STABILITY_POINTS = {True: 512, False: 128}
 """Points up to which the whole stiffness is looked at, of laws with a potential and of others."""
 DEEPEST = -10.0
@@ -139,6 +140,7 @@ class State:
         self._reads_slip, self._approach = "tangential_gap" in data, float(data.approach)
         is_interpolated = int(data.status) == Status.INTERPOLATED.value[0]
         tolerance = float(data.residual) if is_interpolated else equations.tolerance
+        self._growth = GROWTH + (tolerance if is_interpolated else 0.0)
         self._allowed = tolerance * equations.interface.strength
         self._under_load = step.normal.control.name == "MEAN_PRESSURE"
         self._length = equations.law.normal_length
@@ -229,7 +231,7 @@ class State:
             away = np.eye(len(whole)) - np.outer(mean, mean)
             whole = away @ whole @ away + 10 * equations.interface.stiffness * np.outer(mean, mean)
         values = np.linalg.eigvalsh(whole) if equations.has_potential else np.linalg.eigvals(whole).real
-        return {"stability": float(-values.min() / (GROWTH * equations.interface.stiffness))}
+        return {"stability": float(-values.min() / (self._growth * equations.interface.stiffness))}
 
     def zone(self) -> int:
         """Return the number of points where the law's tangent is a thousandth of its largest or more."""

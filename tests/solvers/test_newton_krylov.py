@@ -89,11 +89,13 @@ def test_the_preconditioner_is_exact_for_long_waves_if_the_tangent_is_long_and_w
     assert np.allclose(precondition(residual), change, rtol=0, atol=1e-9 * np.abs(change).max())
 
 
-def matrix_of(product, problem, waves):
-    """A linear map of coefficients as a matrix of the real and imaginary parts of so many long waves."""
+def matrix_of(product, problem):
+    """A linear map of coefficients as a matrix of their real and imaginary parts; the shortest wave is real."""
     rows, held = problem.unknowns[0], problem.regularised_stiffness.held[:, 0]
     uniform = [(row, 0, 1.0) for row in range(rows) if not held[row]]
-    places = uniform + [(row, wave, phase) for row in range(rows) for wave in range(1, waves) for phase in (1.0, 1j)]
+    *waves, last = range(1, problem.unknowns[1])
+    places = uniform + [(row, wave, phase) for row in range(rows) for wave in waves for phase in (1.0, 1j)]
+    places += [(row, last, 1.0) for row in range(rows)]
     columns = []
     for row, wave, phase in places:
         unit = np.zeros(problem.unknowns, complex)
@@ -106,7 +108,7 @@ def matrix_of(product, problem, waves):
 @pytest.mark.parametrize("lower", [HalfSpace(77.0, 0.3), Layer(70.0, 0.3, 5000.0)])
 @pytest.mark.parametrize("path", [approaches([0.0]), pressures([0.01])])
 @pytest.mark.parametrize("name", LAWS)
-def test_the_preconditioner_is_the_inverse_for_long_waves_whatever_tangents_a_zone_has(name, path, lower):
+def test_the_preconditioner_is_the_inverse_on_a_small_grid_whatever_tangents_a_zone_has(name, path, lower):
     scene = scene_of(LAWS[name], path, lower)
     problem = pose_cohesive(scene, scene.heights(128), 1e-7).at(scene.path.steps[0])
     shape = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1].values.shape[:2]
@@ -114,11 +116,31 @@ def test_the_preconditioner_is_the_inverse_for_long_waves_whatever_tangents_a_zo
     scattered = np.random.default_rng(0).uniform(-0.3, 0.3, (*shape, 20))
     values[..., 50:70] = problem.law_stiffness * (scattered + 0.5 * np.eye(*shape)[..., None])
     tangent = Tangent(problem, values)
-    stiffness = matrix_of(lambda u: problem.add_elastic(tangent(u), u), problem, 64)
+    stiffness = matrix_of(lambda u: problem.add_elastic(tangent(u), u), problem)
     for shift in (0.0, 0.7):
         forward = stiffness + shift * np.eye(len(stiffness))
-        inverse = matrix_of(ZonePreconditioner(problem, tangent, shift), problem, 64)
+        inverse = matrix_of(ZonePreconditioner(problem, tangent, shift), problem)
         assert np.abs(inverse @ forward - np.eye(len(forward))).max() <= 1e-11
+
+
+@pytest.mark.parametrize("points", [63, 64])
+@pytest.mark.parametrize("name", ["frictionless", "frictional"])
+def test_waves_that_grow_are_seen_down_to_the_shortest_that_a_grid_carries(name, points):
+    scene = scene_of(LAWS[name], approaches([0.0]))
+    problem = pose_cohesive(scene, scene.heights(points), 1e-7).at(scene.path.steps[0])
+    shape = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1].values.shape[:2]
+    shortest = problem.stiffness.diagonal[0, -1].real
+    softening = (-1.0) ** np.arange(points) if points % 2 == 0 else np.cos(np.pi * (1 - 1 / points) * np.arange(points))
+    seen = []
+    for depth in np.geomspace(0.01, 3.0, 60):  # of the softening of the law at some points
+        values = np.zeros((*shape, points)) + 0.1 * shortest * np.eye(*shape)[..., None]
+        values[0, 0] = -depth * shortest * (softening > 0.99) + 2 * shortest * (softening <= 0.99)
+        tangent = Tangent(problem, values)
+        growth = find_growth(tangent, ZonePreconditioner(problem, tangent))
+        rates = np.linalg.eigvals(matrix_of(lambda u, t=tangent: problem.add_elastic(t(u), u), problem)).real
+        assert (growth is not None) == (rates.min() < 0)
+        seen.append(growth is not None)
+    assert set(seen) == {False, True}
 
 
 @pytest.mark.parametrize(("path", "grows"), [(approaches([0.0]), False), (pressures([0.01]), True)])

@@ -31,8 +31,9 @@ def test_the_signs_of_the_factors_count_the_growing_displacements(size, seed, lo
     if values[0] >= 0:
         assert traction is None
     else:
-        wave = compliance @ traction[0]  # (K + D) w = μ K w
-        assert np.allclose(stiffness @ wave, (wave @ stiffness @ wave) / (wave @ traction[0]) * traction[0], atol=1e-6)
+        ((pull,),) = traction
+        wave = compliance @ pull  # (K + D) w = μ K w
+        assert np.allclose(stiffness @ wave, (wave @ stiffness @ wave) / (wave @ pull) * pull, atol=1e-6)
         assert wave @ stiffness @ wave < 0
 
 
@@ -72,3 +73,20 @@ def test_tangents_without_symmetry_grow_where_an_eigenvalue_is_negative():
     skew = GeneralFactors(np.array([[0.0, 4.0], [0.0, 0.0]])[..., None], np.eye(2).reshape(2, 1, 2, 1))
     assert not skew.is_definite  # a disturbance grows at first, and yet decays
     assert skew.growing() is None
+
+
+@pytest.mark.parametrize(("tangent", "grows"), [((-3.0, -7.0), False), ((1.0, -13.0), True)])
+def test_what_swings_while_it_grows_is_judged_by_the_overdamped_motion(tangent, grows):
+    compliance = np.diag([1.0, 0.1])
+    law = np.array([[tangent[0], 4.0], [-5.0, tangent[1]]])
+    motion = np.linalg.eigvals(np.linalg.inv(compliance) + law)
+    assert motion.imag.any()
+    assert (motion.real.min() < 0) == grows
+    assert (np.linalg.eigvals(np.eye(2) + law @ compliance).real.min() < 0) != grows  # those of 1 + D C mislead
+    growing = GeneralFactors(law[..., None], compliance.reshape(2, 1, 2, 1)).growing()
+    assert (growing is not None) == grows
+    if growing is not None:
+        real, swung = (compliance @ part.ravel() for part in growing)
+        wave = real + 1j * swung
+        rate = np.vdot(wave, (np.linalg.inv(compliance) + law) @ wave) / np.vdot(wave, wave)
+        assert rate.real == pytest.approx(motion.real.min(), rel=1e-6)

@@ -12,6 +12,7 @@ from contactsim.contact.wall import hold_wall
 from contactsim.paths.extrapolation import POINTS, combine, lagrange_weights
 from contactsim.paths.jumps import Jump
 from contactsim.solvers.cohesive.base import Equilibrium
+from contactsim.solvers.cohesive.linearised import grows_on_its_own
 from contactsim.status import Status
 
 
@@ -51,7 +52,8 @@ class Segment:
         residual = float(np.abs(error).max() / problem.strength) + inherited
         if held.wall is not None:
             residual = max(residual, held.wall.largest_gap(gap[0]) / problem.interaction_range)
-        status = Status.CONVERGED if residual <= problem.tolerance else Status.INTERPOLATED
+        is_solved = residual <= problem.tolerance and not grows_on_its_own(held, gap)
+        status = Status.CONVERGED if is_solved else Status.INTERPOLATED
         displacement = combine(weights, [state.displacement for state in states])
         return Equilibrium(displacement, gap, traction, status, residual, 0.0, 0)
 

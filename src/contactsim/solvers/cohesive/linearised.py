@@ -51,10 +51,18 @@ def solve_linearised(
 
 def find_growth(tangent: Tangent, precondition: ZonePreconditioner) -> Growth | None:
     """Return how a displacement grows on its own at a state; None if none does."""
-    problem, wave = tangent.problem, precondition.growing()
-    if wave is None:
+    problem, waves = tangent.problem, precondition.growing()
+    if not waves:
         return None
-    rate = -float(np.vdot(wave, problem.add_elastic(tangent(wave), wave)).real / np.vdot(wave, wave).real)
+    weights = problem.mode_weights
+    push = sum(np.vdot(weights * wave, problem.add_elastic(tangent(wave), wave)).real for wave in waves)
+    rate = -float(push / sum(np.vdot(weights * wave, wave).real for wave in waves))
     if rate <= 0:
         return None
-    return Growth(wave / np.abs(problem.field(wave)[: len(wave)]).max(), rate)
+    return Growth(waves[0] / np.abs(problem.field(waves[0])[: len(waves[0])]).max(), rate)
+
+
+def grows_on_its_own(problem: CohesiveProblem, gap: Array) -> bool:
+    """Return True if a small displacement grows on its own at a gap (read, n)."""
+    tangent = problem.tangent(gap)[1]
+    return find_growth(tangent, ZonePreconditioner(problem, tangent)) is not None

@@ -1,5 +1,7 @@
 """Long waves of a line or of a surface: those that a coarser grid of nodes can carry, below its shortest wave.
 
+Where each point is a node, all waves are long: also the shortest can grow on its own, on soft bodies.
+
 Coefficients and nodes are rows, as in `contactsim.contact.cohesive`.
 """
 
@@ -53,7 +55,7 @@ class LineWaves:
 
     def __init__(self, grid: Grid, ratio: int) -> None:
         self.nodes = grid.size // ratio_of_points(grid.size, ratio)
-        self.count = min(self.nodes // 2, grid.half_size)
+        self.count = grid.half_size if self.nodes == grid.size else min(self.nodes // 2, grid.half_size)
         self.low, self.high = slice(0, self.count), slice(self.count, None)
         self._grid = Grid((self.nodes,), grid.lengths)
 
@@ -79,7 +81,7 @@ class SurfaceWaves:
         shape = tuple(size // ratio_of_points(size, ratio) for size in grid.shape)
         self._grid, self.nodes = Grid(shape, grid.lengths), shape[0] * shape[1]
         across, along = np.fft.fftfreq(shape[0], 1 / shape[0]).astype(int), np.arange(shape[1] // 2 + 1)
-        is_long = (2 * np.abs(across) < shape[0])[:, None] & (2 * along < shape[1])
+        is_long = (2 * np.abs(across) < shape[0])[:, None] & (2 * along < shape[1]) | (shape == grid.shape)
         rows, columns = np.nonzero(is_long)
         self._own = np.ravel_multi_index((rows, columns), self._grid.half_shape)
         self.low = np.ravel_multi_index((across[rows] % grid.shape[0], columns), grid.half_shape)

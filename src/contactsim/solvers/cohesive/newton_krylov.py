@@ -163,7 +163,7 @@ class NewtonKrylov:
     def _descend(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """Return the stable minimum of the energy below a state; one that is not stable is left."""
         state = descend(problem, start, self.flow_budget)
-        iterations = state.iterations
+        iterations, nudge = state.iterations, NUDGE * problem.interaction_range
         for _ in range(MAX_NUDGES):
             if state.status is not Status.CONVERGED:
                 break
@@ -171,9 +171,13 @@ class NewtonKrylov:
             growing = find_growth(tangent, ZonePreconditioner(problem, tangent))
             if growing is None:
                 break
-            nudged = state.displacement + NUDGE * problem.interaction_range * growing.wave
-            state = descend(problem, nudged, self.flow_budget)
-            iterations += state.iterations
+            residual = problem.residual(state.displacement, state.traction)
+            downhill = 1 if np.vdot(growing.wave, residual * problem.mode_weights).real <= 0 else -1
+            state = descend(problem, state.displacement + downhill * nudge * growing.wave, self.flow_budget)
+            iterations, nudge = (
+                iterations + state.iterations,
+                2 * nudge,
+            )  # it may be an equilibrium to the tolerance, too
         else:
             state = replace(state, status=Status.MAX_ITERATIONS)
         return replace(state, largest_change=largest_change(problem, state.displacement - start), iterations=iterations)

@@ -109,7 +109,7 @@ class _Flow:
                 displacement = self._advance(displacement, tangent, precondition, residual, worst)
                 continue
             growing = find_growth(tangent, precondition)
-            if growing is None or self._has_returned(displacement):
+            if growing is None:
                 status = Status.CONVERGED
                 break
             if self._nudges == MAX_NUDGES:

@@ -7,7 +7,9 @@ Where a law reads and exerts one component alone, C + D⁻¹ is symmetric. As K 
 negative eigenvalues as C + D⁻¹ has positive ones beyond those of D (Sylvester's law of inertia, for both orders of
 elimination of the matrix with the blocks K, 1, 1 and -D⁻¹). The factors show their signs. Other matrices need not be
 symmetric. Nothing grows where the symmetric part of C (1 + D C), which is that of K + D for displacements C t, is
-positive definite; only elsewhere eigenvalues are computed.
+positive definite; only elsewhere eigenvalues are computed, of (1 + D C) t = λ C t. These are the rates of the
+overdamped motion -du/dt = (K + D) u of the zone, which the rest of the surface follows without delay. Those of 1 + D C
+have other signs where a motion swings while it grows.
 """
 
 from __future__ import annotations
@@ -31,7 +33,10 @@ class ZoneFactors(Protocol):
         """Return the tractions (1 + D C)⁻¹ D u under a displacement u."""
 
     def growing(self) -> Array | None:
-        """Return the traction of the displacement that grows most on its own; None if none does."""
+        """Return the tractions of the displacement that grows most on its own; None if none does.
+
+        One traction (1, exerted, zone), or two of a displacement that swings.
+        """
 
 
 class SymmetricFactors:
@@ -65,7 +70,7 @@ class SymmetricFactors:
         return int(positive - np.count_nonzero(self._tangent > 0))
 
     def growing(self) -> Array | None:
-        """Return the traction of the displacement that grows most on its own; None if none does.
+        """Return the traction (1, 1, zone) of the displacement that grows most on its own; None if none does.
 
         With C = L Lᵀ the matrix 1 + Lᵀ D L is symmetric and has the eigenvalues of 1 + D C, and eigenvectors L⁻¹ w.
         """
@@ -77,7 +82,7 @@ class SymmetricFactors:
         symmetric = lower.T @ (self._tangent[:, None] * lower)
         symmetric[np.diag_indices(len(symmetric))] += 1
         values, vectors = eigh(symmetric, subset_by_index=[0, 0])
-        return (self._tangent * (lower @ vectors[:, 0]))[None] if values[0] < 0 else None
+        return (self._tangent * (lower @ vectors[:, 0]))[None, None] if values[0] < 0 else None
 
 
 class GeneralFactors:
@@ -117,8 +122,15 @@ class GeneralFactors:
         return bool(dpotrf(symmetric, overwrite_a=1)[1] == 0)
 
     def growing(self) -> Array | None:
-        """Return the traction of the displacement that grows most on its own; None if none does."""
-        if self.is_definite or np.linalg.eigvals(self._matrix).real.min() >= 0:  # no eigenvectors are needed
+        """Return the tractions (1 or 2, exerted, zone) of what grows most on its own; None if nothing does."""
+        if self.is_definite:
             return None
-        values, vectors = np.linalg.eig(self._matrix)
-        return vectors[:, np.argmin(values.real)].real.reshape(len(self._tangent), -1)
+        compliance = self._compliance.copy()
+        compliance[np.diag_indices(len(compliance))] *= 1 + ROUNDING
+        stiffness = np.linalg.solve(compliance.T, self._matrix.T).T  # K + D, of displacements of the zone
+        rates, displacements = np.linalg.eig(stiffness)
+        most = np.argmin(rates.real)
+        if rates[most].real >= 0:
+            return None
+        traction = np.linalg.solve(compliance, displacements[:, most]).reshape(len(self._tangent), -1)
+        return np.stack([traction.real, traction.imag] if rates[most].imag else [traction.real])

@@ -148,17 +148,20 @@ class ZonePreconditioner:
         if abs(rest) > MIN_REST:
             self._free_wave, self._rest = wave, rest
 
-    def growing(self) -> Array | None:
-        """Return the displacement (exerted, m) that would grow most on its own, in this approximation; None if none.
+    def growing(self) -> list[Array]:
+        """Return the displacement (exerted, m) that would grow most on its own, in this approximation.
 
-        With t an eigenvector of 1 + D C, μ < 0 its eigenvalue and w = C t, (K + D) w = μ K w.
+        None, one, or two between which a displacement swings as it grows.
         """
-        traction = None if self._factors is None else self._factors.growing()
-        if traction is None:
-            return self._free_wave if self._free_wave is not None and self._rest < 0 else None
-        wave = np.zeros(self._problem.unknowns, complex)
-        wave[:, self._waves.low] = self._spread(traction)
-        return wave
+        tractions = None if self._factors is None else self._factors.growing()
+        if tractions is None:
+            return [self._free_wave] if self._free_wave is not None and self._rest < 0 else []
+        waves = []
+        for traction in tractions:
+            wave = np.zeros(self._problem.unknowns, complex)
+            wave[:, self._waves.low] = self._spread(traction)
+            waves.append(wave)
+        return waves
 
     def _spread(self, traction: Array) -> Array:
         """Return the displacement (exerted, low) under tractions on the zone (exerted, zone)."""
