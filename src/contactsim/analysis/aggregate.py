@@ -7,7 +7,7 @@ quantity of first order, generously for a higher order. The tolerance error is t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
@@ -18,7 +18,7 @@ from contactsim.analysis.ensemble import converged, on_all_grids
 from contactsim.analysis.fits import PARAMETERS, fit_line_areas
 from contactsim.analysis.height_distribution import height_distances
 from contactsim.analysis.peel_resolution import leave_out_unresolved_peel
-from contactsim.analysis.quantities import unknown
+from contactsim.analysis.quantities import unknown_summaries
 from contactsim.analysis.rough_readings import rough_path_of
 from contactsim.observables.contact_readings import summarise_readings
 from contactsim.observables.dataset_forms import AVERAGED, PATH_SUMMARIES, DatasetForm, form_of
@@ -101,10 +101,10 @@ def _aggregate_paths(data: xr.Dataset, form: DatasetForm, runs: list[dict], sett
         other = other if rough is None else summarise_readings(other, rough)
         same = data.sel(member=other.member)
         names = [name for name in PATH_SUMMARIES if name in other and name in same]
-        changes = {name: _known_changes(same, other, name) for name in names}
-        data = data.assign({f"{name}{suffix}": abs(change).max("member") for name, change in changes.items()})
+        changes = _known_changes(same, other, names)
+        data = data.assign({f"{name}{suffix}": error for name, error in abs(changes).max("member").items()})
         if suffix == GRID_ERROR:
-            data = data.assign({f"{name}{GRID_CHANGE}": change.mean("member") for name, change in changes.items()})
+            data = data.assign({f"{name}{GRID_CHANGE}": mean for name, mean in changes.mean("member").items()})
         if data.member.size > 1 or form.compares_one_member:
             data = data.merge(_mean_changes(data, other, suffix, form.averaged), join="outer")
     return leave_out_unresolved_peel(data)
@@ -156,13 +156,20 @@ def _mean_changes(fine: xr.Dataset, other: xr.Dataset, suffix: str, names: Seque
     return xr.Dataset(variables)
 
 
-def _known_changes(fine: xr.Dataset, other: xr.Dataset, name: str) -> xr.DataArray:
-    """Return the changes of a summary between two datasets of the same members.
+def _known_changes(fine: xr.Dataset, other: xr.Dataset, names: Iterable[str]) -> xr.Dataset:
+    """Return the changes of summaries between two datasets of the same members.
 
-    All are unknown where one is, because a state of its path was not solved; a member without such a number has none.
+    All of one are unknown where one is, because a state of its path was not solved; a member without such a number has
+    none.
     """
-    is_unknown = unknown(fine, name) | unknown(other, name)
-    return (fine[name] - other[name]).where(~is_unknown.any("member"))
+    groups: dict[tuple, list[str]] = {}  # of the same dimensions, all at once: there are many
+    for name in names:
+        groups.setdefault((fine[name].dims, other[name].dims), []).append(name)
+    changes = xr.Dataset()
+    for group in groups.values():
+        is_unknown = unknown_summaries(fine, group) | unknown_summaries(other, group)
+        changes = changes.assign((fine[group] - other[group]).where(~is_unknown.any("member")).data_vars)
+    return changes
 
 
 def finer_grid_limits(data: xr.Dataset) -> xr.Dataset:
