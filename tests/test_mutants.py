@@ -1,0 +1,17 @@
+"""Mutants of the benchmarks: each can still be put into the package, and its own tests are there."""
+
+from __future__ import annotations
+
+import sys
+
+from support.places import ROOT
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+
+import mutants
+
+
+def test_each_mutant_fits_its_file_and_names_tests_that_there_are():
+    table = mutants.read_mutants([])  # raises where the text of one does not stand once in its file
+    assert len(table) > 180
+    assert all((ROOT / "tests" / test.partition("::")[0]).exists() for mutant in table for test in mutant.tests)
