@@ -7,9 +7,7 @@ The flow du/dt = -(K u + T) is what a slow experiment follows from the end of a 
 with a shift s, the inverse of the time step, that adapts to the change of the displacement in a step. Steps that go
 uphill or too far are refused; after an uphill one the shift follows from the rate of growth. Once s is small against
 the laws' tangent it is set to zero, and the last steps are Newton's. An unstable state is left along a growing
-displacement. Laws without a potential have tangents that are not symmetric, and there such a displacement may yet
-decay. A state to which the flow returns, in steps in which growth would about double, is stable. Nor need the flow of
-such laws end: it may go on in cycles, or at random.
+displacement. The flow of laws without a potential need not end: it may go on in cycles, or at random.
 """
 
 from __future__ import annotations
@@ -88,7 +86,6 @@ class _Flow:
         self._problem, self._largest_step, self._krylov_budget = problem, largest_step, krylov_budget
         self._shift = INITIAL_SHIFT * problem.law_stiffness
         self._least_shift, self._growth_steps = 0.0, 0  # of a flow that leaves an unstable state
-        self._left: Array | None = None  # the state that the flow was made to leave, since it seemed to be unstable
         self._nudges, self._way = 0, Way()
 
     def run(self, start: Array, budget: int) -> Equilibrium:
@@ -126,18 +123,11 @@ class _Flow:
             return Status.NO_EQUILIBRIUM
         return Status.NO_REST if self._way.wanders else Status.MAX_ITERATIONS
 
-    def _has_returned(self, displacement: Array) -> bool:
-        """Return True at the state that the flow was made to leave."""
-        if self._left is None:
-            return False
-        return largest_change(self._problem, displacement - self._left) < NUDGE * self._problem.interaction_range / 2
-
     def _leave(self, displacement: Array, growing: Growth) -> Array:
         """Return a displacement beside an unstable state."""
         self._nudges += 1
         self._least_shift, self._growth_steps = GROWTH_SHIFT * growing.rate, GROWTH_STEPS
         self._shift = max(INITIAL_SHIFT * self._problem.law_stiffness, self._least_shift)
-        self._left = displacement
         return displacement + NUDGE * self._problem.interaction_range * growing.wave
 
     def _advance(
