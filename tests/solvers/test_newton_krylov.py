@@ -7,6 +7,7 @@ import pytest
 
 from contactsim.contact.loading import approaches, pressures
 from contactsim.contact.pose_cohesive import pose_cohesive
+from contactsim.contact.scene import Body, Scene
 from contactsim.contact.tangent import Tangent
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
@@ -17,7 +18,8 @@ from contactsim.solvers.cohesive.gmres import gmres
 from contactsim.solvers.cohesive.linearised import find_growth
 from contactsim.solvers.cohesive.zone_preconditioner import COARSENING, ZonePreconditioner
 from contactsim.solvers.registry import make_solver, solver_class
-from contactsim.surfaces.shapes import Cylinder, Sinusoid
+from contactsim.surfaces.self_affine import SelfAffine
+from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid
 from support.cases import refusal
 from support.smooth import LAWS, RADIUS, along, scene_of, walk
 
@@ -130,16 +132,37 @@ def test_waves_that_grow_are_seen_down_to_the_shortest_that_a_grid_carries(name,
     problem = pose_cohesive(scene, scene.heights(points), 1e-7).at(scene.path.steps[0])
     shape = problem.tangent(problem.gap(np.zeros(problem.unknowns, complex)))[1].values.shape[:2]
     shortest = problem.stiffness.diagonal[0, -1].real
-    softening = (-1.0) ** np.arange(points) if points % 2 == 0 else np.cos(np.pi * (1 - 1 / points) * np.arange(points))
+    softens = np.arange(points) == 7  # a single point, whose displacement has all waves
     seen = []
-    for depth in np.geomspace(0.01, 3.0, 60):  # of the softening of the law at some points
+    for depth in np.geomspace(0.01, 3.0, 200):
         values = np.zeros((*shape, points)) + 0.1 * shortest * np.eye(*shape)[..., None]
-        values[0, 0] = -depth * shortest * (softening > 0.99) + 2 * shortest * (softening <= 0.99)
+        values[0, 0] = shortest * np.where(softens, -depth, 0.1)
         tangent = Tangent(problem, values)
         growth = find_growth(tangent, ZonePreconditioner(problem, tangent))
         rates = np.linalg.eigvals(matrix_of(lambda u, t=tangent: problem.add_elastic(t(u), u), problem)).real
         assert (growth is not None) == (rates.min() < 0)
         seen.append(growth is not None)
+    assert set(seen) == {False, True}
+
+
+def test_the_shortest_waves_of_a_small_surface_can_grow():
+    surface = SelfAffine(2000.0, 0.8, 2000.0, 500.0, rms_height=5.0, dimensions=2)
+    law = NormalCohesiveZone(1.0, 1.0)
+    scene = Scene(Body(Flat.facing(surface), HalfSpace(1.0)), Body(surface, None), law, approaches([0.0]))
+    problem = pose_cohesive(scene, scene.heights(12), 1e-7).at(scene.path.steps[0])
+    units = np.eye(144)[:, None]
+    columns = [problem.coefficients(unit) for unit in units]
+    elastic = np.array([problem.field(problem.add_elastic(np.zeros_like(one), one))[0] for one in columns])
+    assert np.allclose(elastic, elastic.T, atol=1e-12 * np.abs(elastic).max())
+    largest, seen = np.linalg.eigvalsh(elastic)[-1], []
+    softens = np.arange(144) == 77  # a single point, whose displacement has all waves
+    away = np.eye(144) - 1 / 144  # an approach holds the uniform displacement
+    for depth in np.geomspace(0.1, 2.0, 200):
+        values = largest * np.where(softens, -depth, 0.1)[None, None]
+        tangent = Tangent(problem, values)
+        rates = np.linalg.eigvalsh(away @ (elastic + np.diag(values[0, 0])) @ away)
+        assert (find_growth(tangent, ZonePreconditioner(problem, tangent)) is not None) == (rates[0] < -1e-9 * largest)
+        seen.append(rates[0] < 0)
     assert set(seen) == {False, True}
 
 

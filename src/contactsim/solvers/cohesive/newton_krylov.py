@@ -174,10 +174,8 @@ class NewtonKrylov:
             residual = problem.residual(state.displacement, state.traction)
             downhill = 1 if np.vdot(growing.wave, residual * problem.mode_weights).real <= 0 else -1
             state = descend(problem, state.displacement + downhill * nudge * growing.wave, self.flow_budget)
-            iterations, nudge = (
-                iterations + state.iterations,
-                2 * nudge,
-            )  # it may be an equilibrium to the tolerance, too
+            iterations += state.iterations
+            nudge *= 2  # the state beside the unstable one may be an equilibrium to the tolerance, too
         else:
             state = replace(state, status=Status.MAX_ITERATIONS)
         return replace(state, largest_change=largest_change(problem, state.displacement - start), iterations=iterations)

@@ -128,9 +128,9 @@ class GeneralFactors:
         compliance = self._compliance.copy()
         compliance[np.diag_indices(len(compliance))] *= 1 + ROUNDING
         stiffness = np.linalg.solve(compliance.T, self._matrix.T).T  # K + D, of displacements of the zone
+        if np.linalg.eigvals(stiffness).real.min() >= 0:  # no eigenvectors are needed
+            return None
         rates, displacements = np.linalg.eig(stiffness)
         most = np.argmin(rates.real)
-        if rates[most].real >= 0:
-            return None
         traction = np.linalg.solve(compliance, displacements[:, most]).reshape(len(self._tangent), -1)
         return np.stack([traction.real, traction.imag] if rates[most].imag else [traction.real])
