@@ -28,10 +28,10 @@ from contactsim.reference import hard_wall
 from contactsim.variables import ERRORS, GRID_CHANGE, GRID_CHANGE_SCATTER, GRID_ERROR
 
 EXACT_CONTACTS = {
-    "line": ("half_width_exact", hard_wall.cylinder_rms_gradient),
-    "surface": ("contact_radius_exact", hard_wall.sphere_rms_gradient),
+    "line": ("half_width_exact", hard_wall.cylinder_rms_gradient, hard_wall.CYLINDER_KAPPA_R),
+    "surface": ("contact_radius_exact", hard_wall.sphere_rms_gradient, hard_wall.SPHERE_KAPPA_R),
 }
-"""Name of the exact contact size of a cylinder or a sphere, and the exact gradient in the contact."""
+"""Name of the exact contact size of a cylinder or a sphere, the exact gradient in the contact, and the exact κ_r."""
 
 ROLL_OFF = "long_cutoff"
 """Dimension of a study that varies the roll-off wavelength; its runs have the distribution of their heights."""
@@ -64,9 +64,10 @@ def _aggregate_loads(fine: xr.Dataset, form: DatasetForm, runs: list[dict], sett
     """Return loads on their own with means, errors, limits on finer grids and fits."""
     if "contact_ratio" in fine.dims:
         radius = fine.radius if "radius" in fine.dims else settings["surface"]["radius"]
-        size, gradient = EXACT_CONTACTS["surface" if "length_y" in fine else "line"]
+        size, gradient, kappa_r = EXACT_CONTACTS["surface" if "length_y" in fine else "line"]
         fine[size] = fine.contact_ratio * radius
         fine["rms_gradient_exact"] = xr.apply_ufunc(gradient, fine[size], radius)
+        fine["kappa_r_exact"] = xr.full_like(fine[size], kappa_r)
         if "length_y" not in fine:
             fine = fine.assign(_exact_array(fine, radius))
     data = fine.merge(ensemble_means(fine, form.averaged))

@@ -5,26 +5,21 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from contactsim.reference import hard_wall
-
-KAPPA_R = {"cylinder": hard_wall.CYLINDER_KAPPA_R, "sphere": hard_wall.SPHERE_KAPPA_R}
-"""Exact κ_r by the kind of body."""
 ARRAY = ("half_width_array", "rms_gradient_array", "kappa_r_array")
 """Exact answers for parallel cylinders a period apart; spheres have none."""
 
 
-def beside_exact(data: xr.Dataset, body: str) -> xr.Dataset:
+def beside_exact(data: xr.Dataset) -> xr.Dataset:
     """Return the one member of a study of a cylinder or sphere with its exact answers.
 
     Parameters
     ----------
     data : dataset of a study with one member, by contact_ratio c/R
-    body : "cylinder" or "sphere"
 
     Returns
     -------
-    data : with `area`, corrected and exact, over R (line) or R² (sphere); `load`, over E*R or E*R²; `kappa_r_exact`;
-        and the exact answers of a periodic array, NaN for spheres
+    data : with `area`, corrected and exact, over R (line) or R² (sphere); `load`, over E*R or E*R²; and
+        the exact answers of a periodic array, NaN for spheres
     """
     member = data.isel(member=0)
     size = "contact_radius" if "contact_radius" in member else "half_width"
@@ -39,5 +34,4 @@ def beside_exact(data: xr.Dataset, body: str) -> xr.Dataset:
         area_array=2 * member.half_width_array / radius,
         area_exact=2 * ratio if size == "half_width" else np.pi * ratio**2,
         load=member.mean_pressure * nominal / member.contact_modulus,
-        kappa_r_exact=KAPPA_R[body],
     )

@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from contactsim.analysis.mean_errors import grid_error
 from contactsim.analysis.ratios import ratio_curves
 from contactsim.analysis.resolution import grid_counts, grid_name, ratio_table
-from contactsim.analysis.round_contact import KAPPA_R, beside_exact
+from contactsim.analysis.round_contact import beside_exact
 from contactsim.figures import style
 from contactsim.figures.maps import SurfaceFields, plot_fields
 from contactsim.figures.parts import line_fits, proportionality, ratios, resolution
@@ -62,14 +62,15 @@ def fig_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Plot κ_r of a cylinder and of a sphere against the load, on which it does not depend (thesis Fig. 3.1)."""
     lines, tables = [], []
     for data, name in ((line, "cylinder"), (surface, "sphere")):
-        body = beside_exact(data, name)
+        body = beside_exact(data)
         exact_line = ROUND_LOOKS[name][1]
         is_free = body.contact_ratio.values <= FREE_OF_NEIGHBOURS
         _plot_kappa_r(axes, body.isel(contact_ratio=is_free), name, 1.0)
         _plot_kappa_r(axes, body.isel(contact_ratio=~is_free), f"{name} near its neighbours", style.FAINT)
-        lines.append(axes.axhline(KAPPA_R[name], color=style.EXACT, lw=1, ls=exact_line, label=ROUND_LABELS[name]))
+        exact = float(body.kappa_r_exact[0])
+        lines.append(axes.axhline(exact, color=style.EXACT, lw=1, ls=exact_line, label=ROUND_LABELS[name]))
         tables.append(body.to_dataframe().reset_index().assign(body=name))
-    array = beside_exact(line, "cylinder")
+    array = beside_exact(line)
     pressure = array.mean_pressure / (array.rms_gradient_array * array.contact_modulus)
     look: dict[str, Any] = {"color": style.EXACT, "lw": 1, "ls": ":", "label": "cylinders $4R$ apart, exact"}
     lines += axes.plot(pressure, array.kappa_r_array, **look)
@@ -106,7 +107,7 @@ def _plot_kappa_r(axes: Axes, body: xr.Dataset, name: str, alpha: float) -> None
 
 def table_3_1(line: xr.Dataset, surface: xr.Dataset, axes: Axes) -> pd.DataFrame:
     """Draw the table of a cylinder's and a sphere's contact, exact and computed (thesis Table 3.1)."""
-    bodies = {name: beside_exact(data, name) for data, name in ((line, "cylinder"), (surface, "sphere"))}
+    bodies = {"cylinder": beside_exact(line), "sphere": beside_exact(surface)}
     tables = [body.to_dataframe().reset_index().assign(body=name) for name, body in bodies.items()]
     table = pd.concat(tables)[["body", *TABLE_HEADS]]
     text = [[name, f"{ratio:g}", *map(_digits, values)] for name, ratio, *values in table.to_numpy()]

@@ -21,7 +21,7 @@ def quantities(study: Study) -> list[str]:
     if load == "contact_ratio":
         is_sphere = study.settings["surface"]["kind"] == "sphere"
         size = "contact_radius" if is_sphere else "half_width"
-        names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact"}
+        names |= {size, f"{size}_subgrid", f"{size}_exact", "rms_gradient_exact", "kappa_r_exact"}
         names |= set() if is_sphere else {"half_width_array", "rms_gradient_array", "kappa_r_array"}
     names |= _error_names(study, names & {*AVERAGED}) | {*costs.QUANTITIES}
     if load == "reduced_pressure":
