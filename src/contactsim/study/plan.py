@@ -8,10 +8,8 @@ from functools import cached_property
 from pathlib import Path
 
 from contactsim.analysis.costs import QUANTITIES
-from contactsim.error_control.effect_maps import neglect_effects
-from contactsim.error_control.neglect import expected_neglect
 from contactsim.errors import InputError
-from contactsim.provenance import canonical, digest
+from contactsim.provenance import digest
 from contactsim.study.chapter import Chapter, ChapterReader
 from contactsim.study.claim_plan import Claim
 from contactsim.study.figure_plan import Figure
@@ -20,8 +18,8 @@ from contactsim.study.plain_yaml import load_yaml
 from contactsim.study.reading import SAFE_NAME, SAFE_NAME_FORM, Key, listed, mapping, read, text, whole
 from contactsim.study.reserved_names import reserved_names
 from contactsim.study.run import Run
-from contactsim.study.scenes import settings_of_single_loads
 from contactsim.study.select_effects import selection_digest
+from contactsim.study.shared_runs import find_runs_alike, find_twins
 from contactsim.study.stages import stage_digest
 from contactsim.study.study import Study
 
@@ -167,27 +165,13 @@ class Plan:
 
     @cached_property
     def _twins(self) -> dict[str, Run]:
-        """First run of the same study and member whose scene is the same without what is negligible, by run."""
-        twins: dict[str, Run] = {}
-        first: dict[tuple[object, ...], Run] = {}
-        for study in self.studies.values():
-            for run in study.runs() if study.settings["auto"] else ():
-                if "auto" in run.settings:
-                    effects = expected_neglect(run.setup.scene, study.settings["auto"]["neglect_within"])
-                    key = study.name, run.member, run.error, neglect_effects(run.setup, effects).fingerprint
-                    if effects and first.setdefault(key, run) is not run:
-                        twins[run.stem] = first[key]
-        return twins
+        """Twins of runs by their stems."""
+        return find_twins(self.studies.values())
 
     @cached_property
     def runs_alike(self) -> dict[str, list[str]]:
         """Stems of the other runs of any study of whose loads some may be those of a run, by its stem."""
-        alike: dict[str, list[str]] = {}
-        for run in self._runs.values():
-            if settings := settings_of_single_loads(run.settings):
-                alike.setdefault(canonical(settings), []).append(run.stem)
-        shared = [stems for stems in alike.values() if len(stems) > 1]
-        return {stem: [other for other in stems if other != stem] for stems in shared for stem in stems}
+        return find_runs_alike(self._runs.values())
 
     def decision_settings(self, study: str, variant: str) -> dict:
         """Return what a decision on negligible effects depends on."""
