@@ -398,6 +398,7 @@ def test_verdicts_depend_on_claims_code_and_every_study_asked():
     settings = PLAN.claims_settings("ch3")
     asked = [part for _, entry in settings["claims"] for part in (entry, *(entry["cases"] or {}).values())]
     studies = {entry[key] for entry in asked for key in ("study", "relative_to", "minus")}
+    studies |= {name for entry in asked for name in entry["more_members"] or ()}
     assert set(settings["data"]) == studies - {None}
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]
     assert not any("verdict" in one for _, one in settings["claims"])

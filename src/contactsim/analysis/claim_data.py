@@ -9,6 +9,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
+from contactsim.analysis.more_members import SOLVED_MEMBERS
 from contactsim.variables import LOADS
 
 NAME_MARKS = "`{}`"
@@ -40,5 +41,9 @@ def _size_text(data: xr.Dataset) -> str:
     is_random = dataset.settings_of(data)["surface"]["kind"] == "self_affine"
     points = " or ".join(f"{int(number)}{'²' * ('length_y' in data)}" for number in np.unique(data.points))
     loads = [data.sizes[load] for load in LOADS if load in data.dims]
-    parts = [f"{members} member{'s' * (members > 1)} of {points} points" if is_random else f"{points} points"]
-    return ", ".join([*parts, *(f"{number} load{'s' * (number > 1)}" for number in loads)])
+    solved = data.attrs.get(SOLVED_MEMBERS, members)
+    parts = [f"{solved} member{'s' * (solved > 1)} of {points} points" if is_random else f"{points} points"]
+    parts += [f"{number} load{'s' * (number > 1)}" for number in loads]
+    return ", ".join(parts) + (
+        f", and {members - solved} members carried from fewer points" if members > solved else ""
+    )

@@ -21,6 +21,7 @@ from contactsim.analysis.claim_data import data_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
 from contactsim.analysis.conditions import ConditionSearch
 from contactsim.analysis.formulas import FORMULAS
+from contactsim.analysis.more_members import with_more_members
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import NAN, Estimate, estimate, is_on_thesis_grid
@@ -200,8 +201,9 @@ def cause_numbers(cause: Cause, data: Mapping[str, xr.Dataset]) -> dict[str, flo
 
 
 def _studied(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[xr.Dataset]:
-    """Return the datasets of the studies of a claim."""
-    return [data[name] for name in studies_of(claim)]
+    """Return the datasets of the studies of a claim, with the members that it takes from others."""
+    more = [data[name] for name in claim["more_members"] or ()]
+    return [with_more_members(data[name], more) for name in studies_of(claim)]
 
 
 def judge_claims(

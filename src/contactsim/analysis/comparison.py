@@ -15,9 +15,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactsim import dataset
 from contactsim.analysis.cross_validation import joint_splits
-from contactsim.analysis.ensemble import widen_interval
+from contactsim.analysis.ensemble import waves_name, widen_interval
 from contactsim.analysis.quantities import mean_quantity, number_exists, with_quantities
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.grid import Array
@@ -159,8 +158,7 @@ class Comparison:
 
 def _groups_of_members(data: Datasets) -> list[tuple[int, ...]]:
     """Return the indices of the datasets in groups whose members have the same random waves."""
-    settings = [dataset.settings_of(study) for study in data]
-    waves = [(own.get("same_surfaces_as") or own.get("name", index)) for index, own in enumerate(settings)]
+    waves = [waves_name(study) or index for index, study in enumerate(data)]
     shared = len(set(waves)) == 1 and len({study.member.size for study in data}) == 1
     indices = range(len(data))
     return [tuple(indices)] if shared else [(index,) for index in indices]
@@ -169,5 +167,6 @@ def _groups_of_members(data: Datasets) -> list[tuple[int, ...]]:
 def members_left_out(data: Datasets, group: Sequence[int]) -> Iterator[list[xr.Dataset]]:
     """Yield the datasets without one member of a group after another, or without one block of a large ensemble."""
     count = data[group[0]].member.size
-    for block in np.array_split(np.arange(count), min(count, MAX_BLOCKS)):
+    blocks = min(count, MAX_BLOCKS)
+    for block in (np.arange(first, count, blocks) for first in range(blocks)):
         yield [study.drop_isel(member=block) if index in group else study for index, study in enumerate(data)]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from contactsim import dataset
 from contactsim.analysis import grid_convergence
 from contactsim.errors import InputError
 from contactsim.status import is_solved
@@ -20,6 +21,12 @@ ROUNDING = 1e-9
 def converged(values: xr.DataArray, data: xr.Dataset) -> xr.DataArray:
     """Return values with NaN where the solution did not converge."""
     return values.where(is_solved(data.status))
+
+
+def waves_name(data: xr.Dataset) -> str | None:
+    """Return the name of the study whose random surfaces a dataset has, if it has a name."""
+    settings = dataset.settings_of(data)
+    return settings.get("same_surfaces_as") or settings.get("name")
 
 
 def unconverged(data: xr.Dataset) -> tuple[int, int]:

@@ -90,6 +90,25 @@ def check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[st
         raise InputError(f"{prefix}.reduce", settings["reduce"], message, file)
 
 
+def check_more_members(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> None:
+    """Raise InputError for a study of `more_members` without the members of a compared study, or the one before it."""
+    compared = [studies[settings[key]] for key in ("study", *SECOND_STUDY) if settings[key] is not None]
+    for name in settings["more_members"] or ():
+        fitting = [other for other, study in studies.items() if any(_has_members_of(study, one) for one in compared)]
+        if name not in fitting:
+            allowed = f"one of {', '.join(fitting)}" if fitting else "left out: no study has the members of this one"
+            raise InputError(f"{prefix}.more_members", name, allowed, file)
+        compared = [studies[name] if _has_members_of(studies[name], one) else one for one in compared]
+
+
+def _has_members_of(study: Study, other: Study) -> bool:
+    """Return True if a study has the surfaces of another one, at least as many of them, under single loads as well."""
+    waves = {each.settings["same_surfaces_as"] or each.name for each in (study, other)}
+    is_alike = study is not other and len(waves) == 1 and study.dimensions == other.dimensions
+    is_alike = is_alike and study.settings["path"] is None
+    return is_alike and study.settings["members"] >= other.settings["members"]
+
+
 def check_thesis_grid(settings: dict, compared: Iterable[Study], file: object, prefix: str) -> None:
     """Raise InputError for a number on the thesis's grid that a study lacks, or that cannot be carried to it."""
     for study in compared:

@@ -20,6 +20,7 @@ CLAIM_KEYS = {
     "formula": Key(choice(FORMULAS), f"one of {', '.join(FORMULAS)}, or left out", None),
     "relative_to": Key(text, "the name of a second study that divides, or left out", None),
     "minus": Key(text, "the name of a second study that is subtracted, or left out", None),
+    "more_members": Key(listed(text), "a list of studies with more members of the same surfaces on fewer points", None),
     "quantity": Key(text, "the name of a quantity", None),
     "beside": Key(text, "the name of a quantity that is judged beside it and not counted, or left out", None),
     "reduce": Key(choice((*REDUCTIONS, *ORDERS)), f"one of {', '.join((*REDUCTIONS, *ORDERS))}", None),
@@ -50,12 +51,12 @@ CELL_KEYS = {name: Key(number, "an exponent", None) for name in CELL}
 EDGES = ("at_least", "at_most")
 """Keys of a band with one edge; a band with two is `expect` with `tolerance`."""
 REPLACED = (
-    *("study", "relative_to", "minus", "quantity", "reduce", "along", "against", "select"),
+    *("study", "relative_to", "minus", "more_members", "quantity", "reduce", "along", "against", "select"),
     *("expect", "tolerance", *EDGES),
 )
 CASE_KEYS = {key: CLAIM_KEYS[key] for key in REPLACED}
 """Keys that a further case of a statement may replace."""
-DATA_KEYS = ("study", "relative_to", "minus", "select")
+DATA_KEYS = ("study", "relative_to", "minus", "more_members", "select")
 MEASURE_KEYS = ("reduce", "along", "across", "against")
 NUMBER_KEYS = {key: CLAIM_KEYS[key] for key in (*DATA_KEYS, "quantity", *MEASURE_KEYS, "absent")}
 """Keys that a number of a cause may replace: where the data come from, and what is done with them."""

@@ -10,6 +10,7 @@ from contactsim.analysis.comparison import studies_of
 from contactsim.errors import InputError
 from contactsim.study.claim_checks import (
     check_band,
+    check_more_members,
     check_no_verdict,
     check_one_of,
     check_quantities,
@@ -58,7 +59,12 @@ class Claim:
         readings = [part for choice in choices for part in (choice, *(choice["cases"] or {}).values())]
         cause = self.settings["cause"]
         readings += cause["numbers"].values() if cause else []
-        return list(dict.fromkeys(name for reading in readings for name in studies_of(reading)))
+        return list(dict.fromkeys(name for reading in readings for name in _studies_read(reading)))
+
+
+def _studies_read(settings: Mapping) -> list[str]:
+    """Return the names of the studies that a reading compares, and of those that it takes members from."""
+    return [*studies_of(settings), *(settings["more_members"] or ())]
 
 
 def read_claim(name: str, section: object, file: object, studies: Mapping[str, Study], part: str = "claims") -> Claim:
@@ -104,6 +110,7 @@ def _read_settings(
     check_one_of(settings, "study", studies, file, prefix)
     dims = list(dict.fromkeys(dim for study in studies_of(settings) for dim in study_dimensions(studies, study)))
     check_quantities(settings, studies, dims, file, prefix)
+    check_more_members(settings, studies, file, prefix)
     settings["select"] = read_selection(settings["select"] or {}, dims, file, f"{prefix}.select")
     all_dims = list(dict.fromkeys(dim for study in studies for dim in study_dimensions(studies, study)))
     for dim in settings["whole"] or ():
