@@ -161,6 +161,8 @@ def test_the_figure_has_four_panels_with_bars():
     data = cs.characterise(surface(), contact_modulus=1.0, mean_pressures=LOADS, periodic=True)
     panels = plot_characterisation(data).axes
     assert len(panels) == 4
+    assert panels[0].figure.get_suptitle() == "$E^*$ = 1 GPa"
+    assert plot_characterisation(data, title="a$b.npz").get_suptitle() == r"a\$b.npz, $E^*$ = 1 GPa"
     assert all(axes.containers[0].has_yerr for axes in panels)
     assert panels[0].get_legend() is not None
     line = cs.characterise(cs.Topography(surface().values[0], 1.0), contact_modulus=1.0, mean_pressures=LOADS)

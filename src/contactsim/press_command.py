@@ -64,18 +64,24 @@ def press_file(options: argparse.Namespace) -> None:
     described = _describe_heights([heights, other], data), _describe_pressing(heights, options)
     sys.stdout.write("\n".join([*described, *_doubts(heights, data), _press_table(data)]) + "\n")
     if options.output:
-        title, source = f"Contact of {Path(options.file).name}", source_digest("contactsim.characterisation")
+        title, source = f"Contact of {_files_text(options)}", source_digest("contactsim.characterisation")
         settings = {key: value for key, value in vars(options).items() if key not in ("module", "command")}
         dataset.write(dataset.stamp(data, title, settings, source), options.output)
         sys.stdout.write(f"written to {options.output}\n")
     if options.figure:
         from contactsim.figures.characterisation import plot_characterisation
 
-        plot_characterisation(data).savefig(options.figure)
+        plot_characterisation(data, title=_files_text(options)).savefig(options.figure)
         sys.stdout.write(f"drawn in {options.figure}\n")
     failed = int((~is_solved(data.status)).sum())
     if failed:
         sys.exit(f"Error: {failed} of {data.status.size} loads did not converge")
+
+
+def _files_text(options: argparse.Namespace) -> str:
+    """Return the names of the files of heights, and that of the channel that is read."""
+    files = " and ".join(Path(file).name for file in (options.file, options.other) if file is not None)
+    return files if options.variable is None else f"{files}, {options.variable}"
 
 
 def _read_heights(file: str, options: argparse.Namespace) -> Topography:

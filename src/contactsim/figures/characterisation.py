@@ -16,13 +16,15 @@ from contactsim.status import is_solved
 PERSSON = r"Persson, erf$(\sqrt{2}p^*)$"
 
 
-def plot_characterisation(data: xr.Dataset, *, size: tuple[float, float] = (6.9, 5.2)) -> Figure:
+def plot_characterisation(data: xr.Dataset, *, title: str = "", size: tuple[float, float] = (6.9, 5.2)) -> Figure:
     """Return a figure of the area, the stiffness, the mean gap and the largest pressure of a contact.
 
     Parameters
     ----------
     data : xarray.Dataset
         Result of `contactsim.characterise`.
+    title : str
+        What was pressed, for the line above the panels, which also has the contact modulus.
     size : (float, float)
         Width and height, inches.
 
@@ -42,13 +44,16 @@ def plot_characterisation(data: xr.Dataset, *, size: tuple[float, float] = (6.9,
             reduced = loads / float(solved.contact_modulus * solved.rms_gradient)
             area.plot(loads, persson_area(reduced), lw=1, **{"ls": "-.", "color": style.EXACT, "label": PERSSON})
             area.legend(loc="upper left")
-        _draw(stiffness, solved, "contact_stiffness", r"contact stiffness $\mathrm{d}p/\mathrm{d}\delta$ (GPa/nm)")
+        _draw(stiffness, solved, "contact_stiffness", r"stiffness $\mathrm{d}p/\mathrm{d}\delta$ (GPa/nm)")
         _draw(gap, solved, "mean_gap", f"mean gap ({unit})", factor)
         _draw(pressure, solved, "max_pressure", "largest pressure (GPa)")
         for axes in (gap, pressure):
             axes.set_yscale("linear")
             axes.set_ylim(0)
         style.add_letters(figure.axes)
+        modulus = f"$E^*$ = {float(data.contact_modulus):g} GPa"
+        words = title.replace("$", r"\$")  # a name of a file is no formula
+        figure.suptitle(f"{words}, {modulus}" if words else modulus, fontsize="medium")
     return figure
 
 

@@ -19,28 +19,26 @@ from typing import Any, cast
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
-from contactsim.interface.registry import EFFECTS
 from contactsim.paths.driver import path_driver
 from contactsim.provenance import digest
 from contactsim.solvers.base import Solver, check_solver
 from contactsim.solvers.registry import check_installed
-from contactsim.study.keys import BODIES, ERROR_RUNS, MODULI, RIGID, SECTION_KINDS, STUDY_KEYS
+from contactsim.study.keys import ERROR_RUNS, STUDY_KEYS
 from contactsim.study.kinds import study_kind
 from contactsim.study.places import data_file
-from contactsim.study.reading import Key, choice, keys_of, mapping, read
+from contactsim.study.reading import mapping, read
 from contactsim.study.run import Run
 from contactsim.study.scenes import build_scene, build_setup, updated_settings
 from contactsim.study.sections import (
     default_solver_kind,
-    effect_sections,
     read_accuracy,
     read_effects,
     read_error_run,
     read_load,
     read_slide,
-    read_slide_section,
     refuse_unused,
 )
+from contactsim.study.study_sections import StudySections
 from contactsim.variables import dimension_name
 
 MAX_RUNS = 10_000
@@ -153,6 +151,11 @@ class Study:
             for member in range(members)
         ]
 
+    @cached_property
+    def _sections(self) -> StudySections:
+        """Sections that the runs depend on."""
+        return StudySections(self.name, self.settings, self.file)
+
     def _values(self, name: str) -> list:
         values, key = self.settings["vary"][name], f"studies.{self.name}.vary.{name}"
         if (
@@ -168,7 +171,7 @@ class Study:
 
     def _run(self, varied: dict, member: int, change: dict, error: str) -> Run:
         """Return the run of one variant and member; change: what a run that measures an error does otherwise."""
-        parts, points = self._varied_parts(varied)
+        parts, points = self._sections.of_variant(varied)
         kind = study_kind(self.settings)
         name = self.settings["same_surfaces_as"] or self.name
         settings: dict[str, Any] = {"study": name, "member": member, "seed": self.seed}
@@ -188,28 +191,6 @@ class Study:
         variant = digest(varied, *change.values() or [None])[:8]
         return Run(self.name, variant, member, coordinates, settings, error)
 
-    def _varied_parts(self, varied: dict) -> tuple[dict[str, dict], int | None]:
-        """Return the sections of a variant with their defaults, and its grid points."""
-        sections = {name: self.settings[name] for name in self._sections()}
-        points = self.settings["points"]
-        for name, value in varied.items():
-            if name == "points":
-                points = read({name: value}, {name: STUDY_KEYS[name]}, self.file, f"studies.{self.name}.vary")[name]
-                continue
-            head, _, tail = str(name).partition(".")
-            if tail not in self._own_keys.get(head, ()):
-                keys = ", ".join(
-                    f"{part}.{key}" for part, own in self._own_keys.items() for key in own if key != "kind"
-                )
-                raise InputError(f"studies.{self.name}.vary", name, f"a key of this study: points, {keys}", self.file)
-            sections[head] = sections[head] | {tail: value}
-        return {name: self._part(name, section) for name, section in sections.items()}, points
-
-    @cached_property
-    def _own_keys(self) -> dict[str, tuple[str, ...]]:
-        """Keys of each section, which a variant can change."""
-        return {name: tuple(self._part(name, self.settings[name])) for name in self._sections()}
-
     def _with_accuracy(self, settings: dict) -> dict:
         """Return a run's settings with the grid, tolerance and increments that it begins with for its accuracy."""
         accuracy = self.settings["accuracy"]
@@ -218,40 +199,6 @@ class Study:
         except InputError as error:
             raise error.located(self.file, f"studies.{self.name}") from error
         return updated_settings(settings, setup) | {"accuracy": accuracy}
-
-    def _sections(self) -> list[str]:
-        """Return the names of the sections that this study's runs depend on."""
-        path = study_kind(self.settings).sections
-        others = [name for name in ("counter_body", "pairing", "slide") if self.settings[name] is not None]
-        return ["surface", "body", *others, "solver", *path, *effect_sections(self.settings)]
-
-    def _part(self, name: str, section: dict) -> dict:
-        """Return a section with its defaults; most runs of a study share all sections but one."""
-        key = name, repr(section)
-        if key not in self._parts:
-            self._parts[key] = self._read_part(name, section)
-        return self._parts[key]
-
-    @cached_property
-    def _parts(self) -> dict[tuple[str, str], dict]:
-        """Sections that have been read."""
-        return {}
-
-    def _read_part(self, name: str, section: dict) -> dict:
-        """Return a section with its defaults: the keys of its `kind`, or of the effect that it is named for."""
-        prefix = f"studies.{self.name}.{name}"
-        if name in EFFECTS:
-            return read(section, keys_of(EFFECTS[name]), self.file, prefix)
-        if name == "slide":
-            return read_slide_section(section, self.file, prefix)
-        kinds, class_of = SECTION_KINDS[name]
-        key = Key(choice(kinds), f"one of {', '.join(sorted(kinds))}")
-        own = {"kind": section["kind"]} if "kind" in section else {}
-        kind = read(own, {"kind": key}, self.file, prefix)["kind"]
-        moduli = MODULI if name in BODIES and kind != RIGID else {}
-        keys = {"kind": key, **keys_of(class_of(kind)), **moduli}
-        values = read(section, keys, self.file, prefix)
-        return {key: value for key, value in values.items() if key not in MODULI or value is not None}
 
     def _file_digest(self, path: str) -> str:
         """Digest of a measured surface's file, so that a changed file is pressed anew."""
@@ -274,5 +221,5 @@ class Study:
             scene.upper.surface.check(run.setup.points)
             path_driver(scene.kind).check(run.setup)
         except InputError as error:
-            section = next((f".{name}" for name in self._sections() if error.key in run.settings[name]), "")
+            section = next((f".{name}" for name in self._sections.names if error.key in run.settings[name]), "")
             raise error.located(self.file, f"studies.{self.name}{section}") from error
