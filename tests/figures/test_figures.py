@@ -18,7 +18,7 @@ from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.evaluation.work_precision.case_config import MEASURED_QUANTITIES
-from contactsim.figures import ch3, ch5, layout, sketch, style
+from contactsim.figures import ch3, ch5, layout, round_contacts, sketch, style
 from contactsim.figures.diagnostics import claims
 from contactsim.interface.hard_wall import HardWall
 from contactsim.reference import hard_wall
@@ -177,7 +177,7 @@ def smooth(made):
 
 def test_cylinder_and_sphere_are_drawn_beside_the_exact_lines(made):
     axes = Figure().subplots()
-    shown = ch3.fig_3_1(*smooth(made), axes)
+    shown = round_contacts.fig_3_1(*smooth(made), axes)
     for body, exact, within in (("cylinder", 8 / (np.pi * np.sqrt(3)), 0.01), ("sphere", 1.666, 0.03)):
         assert any(np.allclose(line.get_ydata(), exact, rtol=1e-3) for line in axes.lines)
         inside = shown[(shown.body == body) & shown.contact_ratio.between(0.05, 0.25)]
@@ -191,7 +191,7 @@ def test_cylinder_and_sphere_are_drawn_beside_the_exact_lines(made):
 
 def test_the_bar_of_counted_points_leads_to_where_the_next_grid_may_be(made):
     axes, line = Figure().subplots(), smooth(made)[0]
-    ch3.fig_3_1(*smooth(made), axes)
+    round_contacts.fig_3_1(*smooth(made), axes)
     (bars,) = axes.containers[0].lines[2]
     ends = np.array([segment[:, 1] for segment in bars.get_segments()])
     inside = line.isel(member=0).sel(contact_ratio=slice(0, 0.26))
@@ -202,7 +202,7 @@ def test_the_bar_of_counted_points_leads_to_where_the_next_grid_may_be(made):
 
 def test_the_table_lists_exact_and_computed(made):
     axes = Figure().subplots()
-    rows = ch3.table_3_1(*smooth(made), axes)
+    rows = round_contacts.table_3_1(*smooth(made), axes)
     assert list(rows) == ["body", *ch3.TABLE_HEADS]
     line, sphere = (rows[rows.body == body] for body in ("cylinder", "sphere"))
     assert np.allclose(line.area_exact, 2 * line.contact_ratio)

@@ -36,7 +36,8 @@ ROUGH = SMOOTH | {
     "solver": {"kind": "polonsky_keer"},
 }
 FIGURE = {"study": "smooth", "title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
-TWICE = FIGURE | {"datasets": ["smooth"], "size": [3.0, 3.0]}
+ROUND = {"module": "round_contacts"}
+TWICE = FIGURE | ROUND | {"datasets": ["smooth"], "size": [3.0, 3.0]}
 FILES = {
     "config.yaml": {"seed": 1, "tier": "plain", "results": "made"},
     "tiers.yaml": {"plain": {}, "small": {"studies": {"smooth": {"points": 32}}}},
@@ -180,7 +181,9 @@ def test_a_plan_lists_studies_figures_and_chapters(folder):
     assert plan.chapters == {"smooth": "ch3", "rough": "ch3"}
     assert {name: figure.chapter for name, figure in plan.figures.items()} == {"fig_3_1": "ch3", "fig_3_3": "ch3"}
     unsaid = {"panels": 1, "rows": 1, "select": {}, "reference": {}, "datasets": [], "law": None, "film": None}
-    assert plan.figures["fig_3_1"].settings == unsaid | TWICE
+    shown = plan.figures["fig_3_1"]
+    assert shown.module == "contactsim.figures.round_contacts"
+    assert shown.settings | ROUND == unsaid | TWICE
     assert plan.dataset_name("smooth") == "ch3_smooth"
 
 
@@ -279,7 +282,7 @@ REFUSED += [("ch3.yaml", "figures.fig_3_3.select.hurst_exponent", value, "least 
 ELSEWHERE = {"studies": {"other": SMOOTH}, "figures": {"fig_9_1": FIGURE | {"study": "other"}}}
 SIZELESS = {"study": "smooth", "title": "T", "caption": "C"}
 NEITHER = {"title": "Figure", "caption": "What it shows.", "size": [4.0, 3.0]}
-NAMES = "fig_3_1, table_3_1, fig_3_2"
+NAMES = "fig_3_2, fig_3_4"
 ALSO_REFUSED = [
     # changes, file, key, value, words of what is allowed
     ({"config.yaml": {"tier": "huge"}}, "config.yaml", "tier", "huge", "one of plain, small, the tiers of"),
@@ -305,10 +308,10 @@ ALSO_REFUSED = [
     (overrides("smooth", {"pionts": 8}), "tiers.yaml", "studies.smooth.pionts", 8, "points"),
     (overrides("rough", {"points": 8}), "tiers.yaml", "studies.rough.points", 8, "more than 30"),
     ({"ch3.yaml": {"figures/fig_3_99": FIGURE}}, "ch3.yaml", "figures.fig_3_99", "fig_3_99", NAMES),
-    ({"ch3.yaml": {"figures/_cylinder": FIGURE}}, "ch3.yaml", "figures._cylinder", "_cylinder", "fig_3_1"),
+    ({"ch3.yaml": {"figures/_cylinder": FIGURE}}, "ch3.yaml", "figures._cylinder", "_cylinder", "fig_3_2"),
     ({"ch9.yaml": ELSEWHERE}, "ch9.yaml", "figures.fig_9_1", "fig_9_1", "contactsim.figures.ch9"),
     ({"ch3.yaml": {"figures/fig_3_1": SIZELESS}}, "ch3.yaml", "figures.fig_3_1.size", "nothing", "width and height"),
-    ({"ch3.yaml": {"figures/fig_3_1": FIGURE}}, "ch3.yaml", "figures.fig_3_1.datasets", [], "draws: line, surface"),
+    ({"ch3.yaml": {"figures/fig_3_1": FIGURE | ROUND}}, "ch3.yaml", "figures.fig_3_1.datasets", [], "draws: line, surface"),
     (
         {"ch2.yaml": {"figures": {"fig_2_2": NEITHER}}},
         *("ch2.yaml", "figures.fig_2_2", {"study": None, "law": None}, "exactly one of study and law"),
