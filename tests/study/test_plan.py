@@ -311,7 +311,13 @@ ALSO_REFUSED = [
     ({"ch3.yaml": {"figures/_cylinder": FIGURE}}, "ch3.yaml", "figures._cylinder", "_cylinder", "fig_3_2"),
     ({"ch9.yaml": ELSEWHERE}, "ch9.yaml", "figures.fig_9_1", "fig_9_1", "contactsim.figures.ch9"),
     ({"ch3.yaml": {"figures/fig_3_1": SIZELESS}}, "ch3.yaml", "figures.fig_3_1.size", "nothing", "width and height"),
-    ({"ch3.yaml": {"figures/fig_3_1": FIGURE | ROUND}}, "ch3.yaml", "figures.fig_3_1.datasets", [], "draws: line, surface"),
+    (
+        {"ch3.yaml": {"figures/fig_3_1": FIGURE | ROUND}},
+        "ch3.yaml",
+        "figures.fig_3_1.datasets",
+        [],
+        "draws: line, surface",
+    ),
     (
         {"ch2.yaml": {"figures": {"fig_2_2": NEITHER}}},
         *("ch2.yaml", "figures.fig_2_2", {"study": None, "law": None}, "exactly one of study and law"),
