@@ -23,7 +23,7 @@ def ensembles(level, members=10, count=150, seed=1):
 def split_range(samples):
     """The range of the means, its places from one half of the members and its size from the other."""
     ranges = []
-    for (first,), (second,) in joint_splits([len(samples)]):
+    for (first,), (second,) in joint_splits([(len(samples), np.arange(len(samples)))]):
         for searched, measured in ((first, second), (second, first)):
             order = np.argsort(samples[searched].mean(axis=0))
             means = samples[measured].mean(axis=0)
@@ -65,9 +65,25 @@ def test_halves_are_disjoint_and_leave_no_member_out(members):
 
 
 def test_ensembles_of_different_sizes_are_split_at_once():
-    splits = list(joint_splits([3, 10, 1]))
+    splits = list(joint_splits([(size, np.arange(size)) for size in (3, 10, 1)]))
     assert len(splits) == MAX_SPLITS
     for first, second in splits:
         for left, right, size in zip(first, second, (3, 10), strict=False):
             assert sorted([*left, *right]) == list(range(size))
         assert first[2].tolist() == second[2].tolist() == [0]  # one member is both halves
+
+
+@pytest.mark.parametrize("members", [10, 41])
+def test_without_a_member_the_halves_are_the_same_but_for_it(members):
+    left = np.delete(np.arange(members), [3, 7])
+    for whole, part in zip(half_splits(members), half_splits(members, left), strict=True):
+        for half, rest in zip(whole, part, strict=True):
+            assert set(left[rest]) == set(half) - {3, 7}
+
+
+@pytest.mark.parametrize("members", [2, 3, 4, 6])
+def test_of_a_small_ensemble_all_halves_of_what_is_left_are_taken(members):
+    left = np.arange(1, members)
+    assert len(half_splits(members, left)) == len(half_splits(members - 1))
+    for first, second in half_splits(members, left):
+        assert sorted({*first, *second}) == list(range(members - 1))

@@ -11,6 +11,7 @@ from typing import Any
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.analysis.ensemble import WIDENING
 from contactsim.variables import GRID_CHANGE
 
 SUFFIX = "_carried"
@@ -41,12 +42,14 @@ def carried_quantity(data: xr.Dataset, name: str) -> dict[str, xr.DataArray]:
     counted, corrected = CARRIED[name], f"{CARRIED[name]}_corrected"
     share = grid_share(data)
     carried = carry(data[counted], data[corrected], share)
-    mean = carried.mean("member")
+    mean, numbers = carried.mean("member"), {name: carried}
+    if f"{counted}{WIDENING}" in data:
+        numbers[f"{name}{WIDENING}"] = carry(data[f"{counted}{WIDENING}"], data[f"{corrected}{WIDENING}"], share)
     if (share == 1).all():
-        return {name: carried, f"{name}{GRID_CHANGE}": xr.zeros_like(mean)}
+        return numbers | {f"{name}{GRID_CHANGE}": xr.zeros_like(mean)}
     if not {f"{counted}{GRID_CHANGE}", f"{corrected}{GRID_CHANGE}"} <= {*data}:
-        return {name: carried}
+        return numbers
     coarse_counted, coarse_corrected = (
         data[part].mean("member") - data[f"{part}{GRID_CHANGE}"] for part in (counted, corrected)
     )
-    return {name: carried, f"{name}{GRID_CHANGE}": mean - carry(coarse_counted, coarse_corrected, share / 2)}
+    return numbers | {f"{name}{GRID_CHANGE}": mean - carry(coarse_counted, coarse_corrected, share / 2)}

@@ -9,7 +9,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
-from contactsim.analysis.more_members import SOLVED_MEMBERS
+from contactsim.analysis.more_members import TRANSFERRED_FROM
 from contactsim.variables import LOADS
 
 NAME_MARKS = "`{}`"
@@ -36,14 +36,12 @@ def data_text(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
 
 
 def _size_text(data: xr.Dataset) -> str:
-    """Return members, points and loads of a dataset."""
-    members = data.sizes.get("member", 1)
+    """Return members, points and loads of a dataset, and the studies that further members come from."""
     is_random = dataset.settings_of(data)["surface"]["kind"] == "self_affine"
-    points = " or ".join(f"{int(number)}{'²' * ('length_y' in data)}" for number in np.unique(data.points))
+    square = "²" * ("length_y" in data)
+    points = " or ".join(f"{int(number)}{square}" for number in np.unique(data.points))
+    (_, members, _), *others = data.attrs.get(TRANSFERRED_FROM, [("", data.sizes.get("member", 1), 0)])
+    parts = [f"{members} member{'s' * (members > 1)} of {points} points" if is_random else f"{points} points"]
+    parts += [f"{count} of {number}{square} ({NAME_MARKS.format(name)})" for name, count, number in others]
     loads = [data.sizes[load] for load in LOADS if load in data.dims]
-    solved = data.attrs.get(SOLVED_MEMBERS, members)
-    parts = [f"{solved} member{'s' * (solved > 1)} of {points} points" if is_random else f"{points} points"]
-    parts += [f"{number} load{'s' * (number > 1)}" for number in loads]
-    return ", ".join(parts) + (
-        f", and {members - solved} members carried from fewer points" if members > solved else ""
-    )
+    return ", ".join([" and ".join(parts), *(f"{number} load{'s' * (number > 1)}" for number in loads)])

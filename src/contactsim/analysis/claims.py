@@ -21,7 +21,7 @@ from contactsim.analysis.claim_data import data_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
 from contactsim.analysis.conditions import ConditionSearch
 from contactsim.analysis.formulas import FORMULAS
-from contactsim.analysis.more_members import with_more_members
+from contactsim.analysis.more_members import TRANSFERRED_FROM, with_more_members
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import NAN, Estimate, estimate, is_on_thesis_grid
@@ -187,7 +187,9 @@ def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, obj
 
 
 def _fitted_over(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
-    """Return "approaches" for a number of a line through the onsets at several; nothing for others."""
+    """Return "approaches" for a number of a line through the onsets at several, "grids" for transferred numbers."""
+    if any(TRANSFERRED_FROM in study.attrs for study in data):
+        return "grids"
     return "approaches" if any(f"{claim['quantity']}_approach_error" in study for study in data) else ""
 
 

@@ -94,11 +94,12 @@ class Comparison:
 
         It is unknown where that of all members is, as an unknown value may hide in the half that is searched.
         """
-        sizes, whole = [data[group[0]].member.size for group in self.groups], self.number(data)
-        if REDUCTIONS[self.claim["reduce"]].locate is None or max(sizes) == 1 or math.isnan(whole):
+        ensembles, whole = [self._members_left(data, group[0]) for group in self.groups], self.number(data)
+        is_single = all(len(left) == 1 for _, left in ensembles)
+        if REDUCTIONS[self.claim["reduce"]].locate is None or is_single or math.isnan(whole):
             return whole
         numbers = []
-        for halves in joint_splits(sizes):
+        for halves in joint_splits(ensembles):
             first, second = (self._arguments(self._with_members(data, half)) for half in halves)
             numbers += [self._reduce(second, first), self._reduce(first, second)]
         return math.fsum(numbers) / len(numbers)
@@ -146,6 +147,11 @@ class Comparison:
         """Return the values of one study, or those of two combined."""
         operations = [operation for key, (_, operation) in SECOND_STUDY.items() if self.claim[key] is not None]
         return operations[0](*values) if len(values) > 1 else values[0]
+
+    def _members_left(self, data: Datasets, index: int) -> tuple[int, Array]:
+        """Return the number of members of a study, and which of them are in one of some datasets."""
+        members = self.data[index].member.values
+        return len(members), np.flatnonzero(np.isin(members, data[index].member.values))
 
     def _with_members(self, data: Datasets, members: Sequence[Array]) -> list[xr.Dataset]:
         """Return the datasets with these members of each group."""

@@ -14,45 +14,50 @@ import numpy as np
 
 from contactsim.grid import Array
 
-MAX_SPLITS = 12
+MAX_SPLITS = 24
 """Largest number of splits of an ensemble into halves."""
 
 
-def half_splits(members: int) -> list[tuple[Array, Array]]:
-    """Return splits of an ensemble into two halves: the indices of both.
+def half_splits(members: int, left: Array | None = None) -> list[tuple[Array, Array]]:
+    """Return splits of an ensemble into two halves: the places of both among the members that are left.
 
     Parameters
     ----------
     members
         Number of members.
+    left
+        Members that are left of them, in ascending order; None for all.
 
     Returns
     -------
-    All splits if there are at most `MAX_SPLITS`, else as many at random, always the same. One member is not split: it
-    is both halves.
+    All splits if there are at most `MAX_SPLITS`, else as many at random, always the same. If some members are not left,
+    the halves are the same without them, so a number does not change because other halves are drawn. One member is not
+    split: it is both halves.
     """
-    if members == 1:
-        return [(np.zeros(1, int), np.zeros(1, int))]
-    halves = members // 2
-    if math.comb(members, halves) <= MAX_SPLITS:
-        first_halves = [np.array(half) for half in itertools.combinations(range(members), halves)]
+    left = np.arange(members) if left is None else left
+    places = np.arange(len(left))
+    if len(left) == 1:
+        return [(places, places)]
+    if math.comb(members, members // 2) <= MAX_SPLITS:
+        first_halves = [np.array(half) for half in itertools.combinations(places, len(left) // 2)]
     else:
         random = np.random.default_rng(members)
-        first_halves = [random.permutation(members)[:halves] for _ in range(MAX_SPLITS)]
-    return [(first, np.setdiff1d(np.arange(members), first)) for first in first_halves]
+        halves = [random.permutation(members)[: members // 2] for _ in range(MAX_SPLITS)]
+        first_halves = [np.flatnonzero(np.isin(left, half)) for half in halves]
+    return [(first, np.setdiff1d(places, first)) for first in first_halves]
 
 
-def joint_splits(sizes: Sequence[int]) -> Iterator[tuple[list[Array], list[Array]]]:
+def joint_splits(ensembles: Sequence[tuple[int, Array]]) -> Iterator[tuple[list[Array], list[Array]]]:
     """Yield splits of independent ensembles at once: the first halves of all, and the second ones.
 
     Callers use each half in both roles: to search in, and to measure.
 
     Parameters
     ----------
-    sizes
-        Number of members of each ensemble.
+    ensembles
+        Of each ensemble the number of members, and those that are left.
     """
-    splits = [half_splits(size) for size in sizes]
+    splits = [half_splits(*ensemble) for ensemble in ensembles]
     for number in range(max(map(len, splits))):
         first, second = zip(*(own[number % len(own)] for own in splits), strict=True)
         yield list(first), list(second)

@@ -14,6 +14,8 @@ from contactsim.analysis import grid_convergence
 from contactsim.errors import InputError
 from contactsim.status import is_solved
 
+WIDENING = "_widening"
+"""End of the name of what is added to a number where its error is computed."""
 ROUNDING = 1e-9
 """Relative rounding error of the ends of a selection."""
 
@@ -27,6 +29,13 @@ def waves_name(data: xr.Dataset) -> str | None:
     """Return the name of the study whose random surfaces a dataset has, if it has a name."""
     settings = dataset.settings_of(data)
     return settings.get("same_surfaces_as") or settings.get("name")
+
+
+def widen(data: xr.Dataset) -> xr.Dataset:
+    """Return a dataset for the computation of errors: changes of few members count for more, as Student says."""
+    widened = [str(name) for name in data.data_vars if str(name).endswith(WIDENING)]
+    numbers = {name.removesuffix(WIDENING): data[name.removesuffix(WIDENING)] + data[name] for name in widened}
+    return data.assign(numbers).drop_vars(widened)
 
 
 def unconverged(data: xr.Dataset) -> tuple[int, int]:

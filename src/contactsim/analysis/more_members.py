@@ -1,10 +1,11 @@
-"""Members of an ensemble that were solved on a coarser grid only, carried to the grid of a few of them.
+"""Means over members that were solved on a coarse grid only, transferred to the fine grid of a few of them.
 
-The mean over N members on a coarse grid, plus the mean change to a fine grid over n of them, is the mean of N members
-on the fine grid, at the cost of a coarse one (Giles, Acta Numerica 24, 259, 2015). Here it is written as N replicas: of
-a member on both grids its coarse number plus N/n times its change beyond the mean change, of any other its coarse
-number, each plus the mean change. Their mean is that mean. Leaving one out after another gives its error, with that of
-the change. A replica is not the number of its member.
+The mean over N members on the coarse grid, plus the mean change to the fine grid over n of them, is the mean of N
+members on the fine grid (Giles, Acta Numerica 24, 259, 2015). It is written as one *transferred number* for each of the
+N members. A member on the coarse grid only has its number there plus the mean change. A member on both grids has this
+plus √(N (N - 1) / n (n - 1)) times what its own change differs from the mean change. So the mean of all transferred
+numbers is the mean above, and their standard error has both parts: the scatter of N members, and that of n changes.
+Errors are widened, because n is small. A transferred number is not the number of its member.
 """
 
 from __future__ import annotations
@@ -12,56 +13,62 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
+import numpy as np
 import xarray as xr
 
-from contactsim.analysis.ensemble import converged, waves_name
+from contactsim import dataset
+from contactsim.analysis.ensemble import WIDENING, converged, waves_name
 from contactsim.analysis.uncertainty import student_factor
 from contactsim.observables.dataset_forms import AVERAGED
 from contactsim.status import is_solved
 
 SURFACE_NUMBERS = ("rms_gradient",)
 """Numbers of the surface of each member that quantities are computed with."""
-SOLVED_MEMBERS = "members_on_this_grid"
-"""Attribute of a dataset with replicas: how many members were solved on its grid."""
+OF_MEANS = ("_mean", "_standard_error")
+"""Ends of the names of means over the members of a study, which are not those of the transferred numbers."""
+TRANSFERRED_FROM = "transferred_from"
+"""Attribute of transferred numbers: name, members and points of each study that they come from, the finest first."""
 
 
 def with_more_members(fine: xr.Dataset, others: Sequence[xr.Dataset]) -> xr.Dataset:
-    """Return a dataset with replicas of the members that other studies of the same surfaces have.
+    """Return a dataset with the transferred numbers of the members that other studies of the same surfaces have.
 
     Parameters
     ----------
     fine
-        Dataset on the finest grid.
+        Dataset on the finest grid, of two members or more.
     others
-        Datasets on coarser and coarser grids, each of more members than the one before. Those of other surfaces and of
-        no more members are left out.
+        Datasets on coarser and coarser grids, each of more members than the one before. Those of other surfaces are
+        left out.
+
+    Returns
+    -------
+    data : at the loads and variants that all have; errors of NAME are computed with `NAME_widening` added to it
     """
-    grids = [fine]
-    for other in others:
-        if waves_name(other) == waves_name(fine) and other.member.size > grids[-1].member.size:
-            grids.append(other)
+    grids = [fine, *(other for other in others if waves_name(other) == waves_name(fine))]
     if len(grids) == 1:
         return fine
     grids = list(xr.align(*grids, join="inner", exclude={"member"}))
-    result = grids[-1]
+    names = [name for name in (*AVERAGED, *SURFACE_NUMBERS) if all(name in grid for grid in grids)]
+    dims, status = fine.status.dims, grids[-1].status
+    numbers = {name: _known(grids[-1], name) for name in names}
+    widening = {name: xr.zeros_like(values) for name, values in numbers.items()}
     for finer, coarser in reversed(list(itertools.pairwise(grids))):
-        result = _carry_members(result, coarser, finer)
-    return result.assign_attrs({SOLVED_MEMBERS: fine.member.size})
-
-
-def _carry_members(replicas: xr.Dataset, coarse: xr.Dataset, fine: xr.Dataset) -> xr.Dataset:
-    """Return replicas on a coarse grid carried to a finer one, by the changes of the members that were solved on it."""
-    few, many = fine.member, replicas.member
-    weight = student_factor(few.size) * many.size / few.size
-    carried = {"status": _joined_status(fine.status, replicas.status)}
-    for name in (*AVERAGED, *SURFACE_NUMBERS):
-        if name in fine and name in replicas:
-            change = _known(fine, name) - _known(coarse, name).sel(member=few)
+        status = _joined_status(finer.status, status)
+        few, many = finer.member.size, status.member.size
+        weight = np.sqrt(many * (many - 1) / (few * (few - 1)))
+        for name in names:
+            change = _known(finer, name) - _known(coarser, name).sel(member=finer.member)
             mean = change.mean("member", skipna=False)
-            beyond = (weight * (change - mean)).reindex(member=many, fill_value=0.0)
-            carried[name] = (_known(replicas, name) + mean + beyond).transpose(*fine[name].dims)
-    without_members = [name for name in fine.data_vars if "member" not in fine[name].dims]
-    return fine[without_members].assign(carried)
+            beyond = (weight * (change - mean)).reindex(member=status.member, fill_value=0.0)
+            numbers[name] = numbers[name] + mean + beyond
+            widening[name] = widening[name] + (student_factor(few) - 1) * beyond
+    transferred = {"status": status, **numbers, **{f"{name}{WIDENING}": part for name, part in widening.items()}}
+    stale = {f"{name}{end}" for name in names for end in OF_MEANS}
+    kept = [name for name in fine.data_vars if "member" not in fine[name].dims and name not in stale]
+    origins = [(dataset.settings_of(grid)["name"], grid.member.size, int(grid.points)) for grid in grids]
+    variables = {key: part.transpose(*(dim for dim in dims if dim in part.dims)) for key, part in transferred.items()}
+    return grids[0][kept].assign(variables).assign_attrs({TRANSFERRED_FROM: origins})
 
 
 def _known(data: xr.Dataset, name: str) -> xr.DataArray:

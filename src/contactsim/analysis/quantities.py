@@ -13,7 +13,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.carried import CARRIED, carried_quantity, grid_share
-from contactsim.analysis.ensemble import converged
+from contactsim.analysis.ensemble import WIDENING, converged
 from contactsim.analysis.fits import fit_line_area
 from contactsim.grid import Array
 from contactsim.observables.contact_readings import CRITERIA
@@ -65,7 +65,7 @@ READ_BY_ALL = ("status", "points", "length", "length_y", "contact_modulus", "rms
 """Variables from which quantities are computed, or by which they are known to be unknown."""
 PATH_ERRORS = ("increment", "approach")
 """Errors of a path, and of what is fitted to several; those of two paths are independent."""
-READ_BESIDE = (GRID_CHANGE, *(f"_{kind}_error" for kind in PATH_ERRORS))
+READ_BESIDE = (GRID_CHANGE, WIDENING, *(f"_{kind}_error" for kind in PATH_ERRORS))
 """Ends of the names of the changes and errors of a quantity that are read with it."""
 
 

@@ -14,6 +14,7 @@ from scipy.special import stdtrit
 from contactsim import dataset
 from contactsim.analysis.carried import CARRIED
 from contactsim.analysis.comparison import Comparison, Datasets, members_left_out
+from contactsim.analysis.ensemble import widen
 from contactsim.analysis.quantities import (
     PATH_ERRORS,
     SCATTERS,
@@ -130,7 +131,7 @@ def _jackknife_error(number: Number, data: Datasets, group: Sequence[int]) -> An
     count = data[group[0]].member.size
     if count == 1:
         return NAN if dataset.settings_of(data[group[0]])["surface"]["kind"] == "self_affine" else 0.0
-    numbers = [number(parts) for parts in members_left_out(data, group)]
+    numbers = [number(parts) for parts in members_left_out([widen(study) for study in data], group)]
     return student_factor(len(numbers)) * np.sqrt((len(numbers) - 1) * np.var(numbers, axis=0))
 
 

@@ -19,8 +19,8 @@ def unknown_places(comparison: Comparison) -> str:
             if source is None or "member" not in study[source].dims:
                 continue
             is_unknown = unknown(study, source)
-            if claim["absent"] is None:
-                is_unknown = is_unknown | study[source].isnull()
+            if claim["absent"] is None and not is_unknown.any():
+                is_unknown = study[source].isnull()
             if words := _places_text(study, is_unknown.transpose(*study[source].dims)):
                 return f"{quantity_text(source)} at {words}"
     return ""

@@ -6,8 +6,10 @@ from collections.abc import Iterable, Mapping
 
 from contactsim.analysis.carried import CARRIED
 from contactsim.analysis.comparison import SECOND_STUDY
+from contactsim.analysis.quantities import GRADIENT_DEFICITS, SIZES
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
+from contactsim.observables.dataset_forms import AVERAGED, KEPT_NUMBERS
 from contactsim.study.quantity_names import quantities
 from contactsim.study.study import Study
 
@@ -91,22 +93,38 @@ def check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[st
 
 
 def check_more_members(settings: dict, studies: Mapping[str, Study], file: object, prefix: str) -> None:
-    """Raise InputError for a study of `more_members` without the members of a compared study, or the one before it."""
+    """Raise InputError for `more_members` that are not those of a compared study, or cannot be transferred to it."""
     compared = [studies[settings[key]] for key in ("study", *SECOND_STUDY) if settings[key] is not None]
     for name in settings["more_members"] or ():
-        fitting = [other for other, study in studies.items() if any(_has_members_of(study, one) for one in compared)]
+        fitting = [other for other, study in studies.items() if any(_has_more_members(study, one) for one in compared)]
         if name not in fitting:
-            allowed = f"one of {', '.join(fitting)}" if fitting else "left out: no study has the members of this one"
-            raise InputError(f"{prefix}.more_members", name, allowed, file)
-        compared = [studies[name] if _has_members_of(studies[name], one) else one for one in compared]
+            same = "studies of the same surfaces and effects with more members on no more points, the fewest first"
+            raise InputError(f"{prefix}.more_members", name, f"{same}; here: {', '.join(fitting) or 'none'}", file)
+        compared = [studies[name] if _has_more_members(studies[name], one) else one for one in compared]
+        for key in ("quantity", "against", "beside"):
+            if settings[key] is not None:
+                check_one_of(settings, key, _transferable_quantities(studies[name]), file, prefix)
 
 
-def _has_members_of(study: Study, other: Study) -> bool:
-    """Return True if a study has the surfaces of another one, at least as many of them, under single loads as well."""
-    waves = {each.settings["same_surfaces_as"] or each.name for each in (study, other)}
-    is_alike = study is not other and len(waves) == 1 and study.dimensions == other.dimensions
-    is_alike = is_alike and study.settings["path"] is None
-    return is_alike and study.settings["members"] >= other.settings["members"]
+def _has_more_members(study: Study, other: Study) -> bool:
+    """Return True if a study has more of the surfaces of another one, of which two or more can be compared with it.
+
+    Both need a load in common, and the same bodies and effects under loads of the same kind.
+    """
+    one, two = study.settings, other.settings
+    alike = (one["same_surfaces_as"] or study.name) == (two["same_surfaces_as"] or other.name)
+    alike &= all(one[key] == two[key] for key in ("surface", "body", "counter_body", "effects"))
+    if not alike or one["path"] is not None or study.dimensions != other.dimensions:
+        return False
+    has_common = {*one["load"]["values"]} & {*two["load"]["values"]}
+    fits = "points" not in study.dimensions and one["points"] <= two["points"]
+    return bool(has_common) and fits and one["members"] > two["members"] >= 2
+
+
+def _transferable_quantities(study: Study) -> list[str]:
+    """Return the quantities of a study that are functions of means over its members."""
+    means = {*AVERAGED, *CARRIED, *SIZES, *GRADIENT_DEFICITS, *study.dimensions} - {*KEPT_NUMBERS}
+    return [name for name in quantities(study) if name in means]
 
 
 def check_thesis_grid(settings: dict, compared: Iterable[Study], file: object, prefix: str) -> None:

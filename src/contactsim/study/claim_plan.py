@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 
 from contactsim.analysis.causes import PERCENT, ROW_NUMBERS, Cause
-from contactsim.analysis.comparison import studies_of
+from contactsim.analysis.comparison import SECOND_STUDY, studies_of
 from contactsim.errors import InputError
 from contactsim.study.claim_checks import (
     check_band,
@@ -233,6 +233,8 @@ def _changed_claim(
     if not changes:
         raise InputError(place, replaced, f"at least one of {', '.join(allowed)}", file)
     dropped = {"is_finding", "cause"} | ({"beside"} if {"quantity", "against"} & set(changes) else set())
+    if {"study", *SECOND_STUDY} & set(changes):
+        dropped |= {"more_members"}
     if "expect" in changes:
         dropped |= {*EDGES}
     elif {*EDGES} & set(changes):
