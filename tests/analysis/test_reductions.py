@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from contactsim.analysis import measures
+from contactsim.analysis.measures import SPLIT
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 
 LOADS = [0.001, 0.01, 0.1]
@@ -122,3 +123,18 @@ def test_ranges_do_not_depend_on_the_order_of_dimensions_of_values_and_places():
     found = measures.ranges(turned, (low, high), "work_ratio")
     expected = [[1 / 10.5, 10 / 25], [2 / 11, 6 / 23]]
     assert np.allclose(found.transpose("poisson_ratio", "work_of_separation"), expected)
+
+
+@pytest.mark.parametrize("name", [name for name, reduction in REDUCTIONS.items() if reduction.locate is not None])
+def test_the_numbers_of_many_halves_are_those_of_each(name):
+    random = np.random.default_rng(3)
+    dims, shape = (SPLIT, "hurst_exponent", "reduced_pressure"), (5, 3, 4)
+    places = {"hurst_exponent": [0.2, 0.5, 0.8], "reduced_pressure": [0.001, 0.01, 0.05, 0.1]}
+    searched, measured, against = (xr.DataArray(1 + random.random(shape), places, dims) for _ in range(3))
+    reduction, given = REDUCTIONS[name], {"against": against, "along": "reduced_pressure", "across": "hurst_exponent"}
+    inputs = {key: given[key] for key in reduction.inputs}
+    numbers = reduction.measure_at(reduction.places(searched, **inputs), measured, **inputs)
+    for split in range(5):
+        one = {key: value.isel(split=split) if key == "against" else value for key, value in inputs.items()}
+        found = reduction.places(searched.isel(split=split), **one)
+        assert float(numbers[split]) == reduction.measure_at(found, measured.isel(split=split), **one)

@@ -17,11 +17,14 @@ import xarray as xr
 
 from contactsim.analysis.cross_validation import joint_splits
 from contactsim.analysis.ensemble import waves_name, widen_interval
-from contactsim.analysis.quantities import mean_quantity, number_exists, with_quantities
+from contactsim.analysis.measures import SPLIT
+from contactsim.analysis.quantities import is_function_of_means, mean_quantity, number_exists, with_quantities
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.grid import Array
 
 Datasets = Sequence[xr.Dataset]
+Halves = Sequence[Sequence[Array]]
+"""Of each split of ensembles, the places of the members of each that are in a half."""
 Arguments = tuple[xr.DataArray, dict[str, Any]]
 """A quantity, and the further inputs of its reduction."""
 SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
@@ -80,8 +83,8 @@ class Comparison:
         arguments = self._arguments(data)
         return self._reduce(arguments, arguments if searched is None else self._arguments(searched))
 
-    def _reduce(self, arguments: Arguments, searched: Arguments) -> float:
-        """Return the number, with extremes at their places in `searched`; NaN where nothing that is selected exists."""
+    def _reduce(self, arguments: Arguments, searched: Arguments) -> Any:
+        """Return the number, or that of each half, with extremes at their places in `searched`; NaN without values."""
         reduction = REDUCTIONS[self.claim["reduce"]]
         values, inputs = arguments
         if not values.size:
@@ -98,11 +101,8 @@ class Comparison:
         is_single = all(len(left) == 1 for _, left in ensembles)
         if REDUCTIONS[self.claim["reduce"]].locate is None or is_single or math.isnan(whole):
             return whole
-        numbers = []
-        for halves in joint_splits(ensembles):
-            first, second = (self._arguments(self._with_members(data, half)) for half in halves)
-            numbers += [self._reduce(second, first), self._reduce(first, second)]
-        return math.fsum(numbers) / len(numbers)
+        first, second = (self._arguments(data, halves) for halves in zip(*joint_splits(ensembles), strict=True))
+        return float(np.mean([self._reduce(second, first), self._reduce(first, second)]))
 
     def steps(self, data: Datasets) -> Array:
         """Return the steps of an ordered quantity, positive in the claimed sense, flat."""
@@ -121,16 +121,23 @@ class Comparison:
         values = self._combine([mean_quantity(study, self.claim["quantity"]) for study in self.data])
         return {str(dim): values[dim].values for dim in values.dims if values.sizes[dim] > 1}
 
-    def _arguments(self, data: Datasets) -> Arguments:
-        """Return the quantity and the further inputs of the reduction."""
+    def _arguments(self, data: Datasets, halves: Halves | None = None) -> Arguments:
+        """Return the quantity and the further inputs of the reduction, of all members or of many halves of them."""
         inputs: dict[str, Any] = {name: self.claim[name] for name in REDUCTIONS[self.claim["reduce"]].inputs}
         if "against" in inputs:
             is_first = REDUCTIONS[self.claim["reduce"]].against_first
-            inputs["against"] = self._values(data[:1] if is_first else data, self.claim["against"])
-        return self._values(data, self.claim["quantity"]), inputs
+            inputs["against"] = self._values(data[:1] if is_first else data, self.claim["against"], halves)
+        return self._values(data, self.claim["quantity"], halves), inputs
 
-    def _values(self, data: Datasets, name: str) -> xr.DataArray:
-        """Return a quantity, or its ratio or difference in two studies, without what is absent."""
+    def _values(self, data: Datasets, name: str, halves: Halves | None = None) -> xr.DataArray:
+        """Return a quantity, or its ratio or difference in two studies, without what is absent.
+
+        halves: of each split, the members of each group that are in a half, for values along `SPLIT`
+        """
+        if halves is not None and self.claim["absent"] is None and is_function_of_means(name):
+            return self._values(self._half_means(data, halves), name)
+        if halves is not None:
+            return xr.concat([self._values(self._with_members(data, half), name) for half in halves], SPLIT)
         leave_out = self.claim["absent"] is not None
         values = self._combine([mean_quantity(study, name, leave_out) for study in data])
         if not leave_out or not values.ndim:
@@ -153,6 +160,17 @@ class Comparison:
         members = self.data[index].member.values
         return len(members), np.flatnonzero(np.isin(members, data[index].member.values))
 
+    def _half_means(self, data: Datasets, halves: Halves) -> list[xr.Dataset]:
+        """Return the means of many halves of the members, along `SPLIT`."""
+        parts = list(data)
+        for place, group in enumerate(self.groups):
+            weights = np.zeros((len(halves), data[group[0]].member.size))
+            for split, half in enumerate(halves):
+                weights[split, half[place]] = 1 / len(half[place])
+            for index in group:
+                parts[index] = _weighted_means(data[index], xr.DataArray(weights, dims=(SPLIT, "member")))
+        return parts
+
     def _with_members(self, data: Datasets, members: Sequence[Array]) -> list[xr.Dataset]:
         """Return the datasets with these members of each group."""
         parts = list(data)
@@ -160,6 +178,12 @@ class Comparison:
             for index in group:
                 parts[index] = parts[index].isel(member=indices)
         return parts
+
+
+def _weighted_means(data: xr.Dataset, weights: xr.DataArray) -> xr.Dataset:
+    """Return the numbers of a dataset as weighted sums over its members."""
+    numbers = {name: part for name, part in data.data_vars.items() if "member" in part.dims and part.dtype.kind == "f"}
+    return data.assign({name: xr.dot(weights, part, dim="member") for name, part in numbers.items()})
 
 
 def _groups_of_members(data: Datasets) -> list[tuple[int, ...]]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from contactsim.grid import Array
 
-MAX_SPLITS = 24
+MAX_SPLITS = 100
 """Largest number of splits of an ensemble into halves."""
 
 

@@ -2,7 +2,8 @@
 
 Further parameters: `against`, another quantity; `along` and `across`, dimensions. An extreme is measured at given
 `places`, so that its place and its value can come from different members (`contactsim.analysis.cross_validation`).
-A value that is unknown makes the number unknown.
+A value that is unknown makes the number unknown. Values along a dimension `SPLIT`, which are those of many halves of an
+ensemble, give as many numbers.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import xarray as xr
 
 from contactsim.variables import LOADS
 
+SPLIT = "split"
+"""Dimension of values that come from many halves of an ensemble."""
 Places = Any
 """Places of extremes, as `DataArray.isel` takes them."""
 
@@ -27,7 +30,17 @@ def mean(values: xr.DataArray) -> float:
         if load in values.dims and values.sizes[load] > 1:
             values = values.assign_coords({load: _logarithm(values[load])})
             values = values.integrate(load) / (values[load][-1] - values[load][0])
-    return float(values.mean(skipna=False))
+    return number_of(values.mean(_all_but_splits(values), skipna=False))
+
+
+def _all_but_splits(values: xr.DataArray) -> list[Any]:
+    """Return the dimensions over which one number is taken."""
+    return [dim for dim in values.dims if dim != SPLIT]
+
+
+def number_of(values: xr.DataArray) -> Any:
+    """Return the only value as a number, or those of all splits."""
+    return values if SPLIT in values.dims else float(values)
 
 
 def trend(values: xr.DataArray, along: str) -> float:
@@ -75,7 +88,7 @@ def slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
 
 def slope_furthest_from_one(values: xr.DataArray, places: Places, against: xr.DataArray, along: str) -> float:
     """Return the slope of the line through the logarithms that is furthest from one, over the other dimensions."""
-    return float(slopes(values, against, along).isel(places))
+    return number_of(slopes(values, against, along).isel(places))
 
 
 def origin_slope(values: xr.DataArray, against: xr.DataArray, along: str) -> float:
@@ -91,7 +104,7 @@ def spread(values: xr.DataArray, places: Places, along: str) -> float:
 def largest_spread(values: xr.DataArray, places: Places, along: str) -> float:
     """Return (largest − smallest)/|mean| along a dimension, the largest over the others."""
     ends, place = places
-    return float(ranges(values, ends, along).isel(place))
+    return number_of(ranges(values, ends, along).isel(place))
 
 
 def spread_ratio(values: xr.DataArray, places: Places, against: xr.DataArray, along: str) -> float:
@@ -102,12 +115,12 @@ def spread_ratio(values: xr.DataArray, places: Places, against: xr.DataArray, al
 def departure(values: xr.DataArray, places: Places, against: xr.DataArray) -> float:
     """Return the largest relative departure from another quantity."""
     place, sign = places
-    return sign * float((values / against - 1).isel(place))
+    return sign * number_of((values / against - 1).isel(place))
 
 
 def furthest_from_one(values: xr.DataArray, places: Places) -> float:
     """Return the value that is furthest from one, such as the ratio of two studies that are said to agree."""
-    return float(values.isel(places))
+    return number_of(values.isel(places))
 
 
 def identity(values: xr.DataArray) -> xr.DataArray:
@@ -199,7 +212,7 @@ def ends_of_range(values: xr.DataArray, along: str) -> Places:
 
 def place_of_largest(values: xr.DataArray) -> Places:
     """Return the place of the largest value."""
-    return values.argmax(..., skipna=False) if values.ndim else {}
+    return values.argmax(dims, skipna=False) if (dims := _all_but_splits(values)) else {}
 
 
 def place_of_largest_spread(values: xr.DataArray, along: str) -> Places:
@@ -212,4 +225,4 @@ def place_of_departure(values: xr.DataArray, against: xr.DataArray) -> Places:
     """Return the place of the largest departure, and its sign."""
     departures = values / against - 1
     place = place_of_largest(abs(departures))
-    return place, float(np.sign(departures.isel(place)))
+    return place, np.sign(number_of(departures.isel(place)))

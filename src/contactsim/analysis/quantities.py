@@ -114,7 +114,7 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
         crack = xr.apply_ufunc(adhesion.cylinder_pull_off, data.work_of_separation, radius, modulus)
         return mean_quantity(data, PULL_OFF, leave_out_absent) / crack - 1
     if name in GRADIENT_DEFICITS:
-        return 1 - mean_quantity(data, GRADIENT_DEFICITS[name]) / data.rms_gradient.mean("member")
+        return 1 - mean_quantity(data, GRADIENT_DEFICITS[name]) / mean_quantity(data, "rms_gradient")
     if name in ERROR_BARS:
         return _standard_error(data, data[ERROR_BARS[name]])
     if name in BAR_SHARES:
@@ -126,6 +126,11 @@ def mean_quantity(data: xr.Dataset, name: str, leave_out_absent: bool = False) -
     if not leave_out_absent:
         return values.mean("member", skipna=False)
     return values.mean("member").where(~unknown(data, name).any("member"))
+
+
+def is_function_of_means(name: str) -> bool:
+    """Return True for a quantity that follows from means over members alone."""
+    return name not in FITTED and name not in SCATTERS
 
 
 def unknown(data: xr.Dataset, name: str) -> xr.DataArray:

@@ -78,7 +78,7 @@ def largest_of(values_of: Callable[..., xr.DataArray], sign: float = 1.0, **attr
     @functools.wraps(values_of)  # with its signature, which says what the reduction needs
     def measure(values: xr.DataArray, places: Places, **inputs: Any) -> float:
         """Return the value at a place."""
-        return float(values_of(values, **inputs).isel(places))
+        return measures.number_of(values_of(values, **inputs).isel(places))
 
     def locate(values: xr.DataArray, **inputs: Any) -> Places:
         """Return the place of the extreme."""
