@@ -203,7 +203,7 @@ def test_the_bar_of_counted_points_leads_to_where_the_next_grid_may_be(made):
 def test_the_table_lists_exact_and_computed(made):
     axes = Figure().subplots()
     rows = round_contacts.table_3_1(*smooth(made), axes)
-    assert list(rows) == ["body", *ch3.TABLE_HEADS]
+    assert list(rows) == ["body", *round_contacts.TABLE_HEADS]
     line, sphere = (rows[rows.body == body] for body in ("cylinder", "sphere"))
     assert np.allclose(line.area_exact, 2 * line.contact_ratio)
     assert (line.area_array <= line.area_exact).all()

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactsim.analysis.cross_validation import joint_splits
+from contactsim.analysis.cross_validation import FEW_SPLITS, joint_splits
 from contactsim.analysis.ensemble import waves_name, widen_interval
 from contactsim.analysis.measures import SPLIT
 from contactsim.analysis.quantities import is_function_of_means, mean_quantity, number_exists, with_quantities
@@ -56,8 +56,8 @@ class Comparison:
 
     def __init__(self, claim: Mapping, data: Datasets) -> None:
         self.claim = claim
-        names = [name for name in (claim["quantity"], claim["against"]) if name is not None]
-        data = [with_quantities(study, names) for study in data]
+        self._names = [name for name in (claim["quantity"], claim["against"]) if name is not None]
+        data = [with_quantities(study, self._names) for study in data]
         self.data = list(xr.align(*data, join="inner", exclude={"member", *PATH_DIMENSIONS}))
         self.is_empty = any(0 in study.sizes.values() for study in self.data)
         self.groups = _groups_of_members(self.data)
@@ -101,7 +101,10 @@ class Comparison:
         is_single = all(len(left) == 1 for _, left in ensembles)
         if REDUCTIONS[self.claim["reduce"]].locate is None or is_single or math.isnan(whole):
             return whole
-        first, second = (self._arguments(data, halves) for halves in zip(*joint_splits(ensembles), strict=True))
+        splits = list(joint_splits(ensembles))
+        if not all(map(is_function_of_means, self._names)):
+            splits = splits[:FEW_SPLITS]
+        first, second = (self._arguments(data, halves) for halves in zip(*splits, strict=True))
         return float(np.mean([self._reduce(second, first), self._reduce(first, second)]))
 
     def steps(self, data: Datasets) -> Array:
@@ -168,7 +171,7 @@ class Comparison:
             for split, half in enumerate(halves):
                 weights[split, half[place]] = 1 / len(half[place])
             for index in group:
-                parts[index] = _weighted_means(data[index], xr.DataArray(weights, dims=(SPLIT, "member")))
+                parts[index] = _weighted_means(data[index], weights)
         return parts
 
     def _with_members(self, data: Datasets, members: Sequence[Array]) -> list[xr.Dataset]:
@@ -180,10 +183,14 @@ class Comparison:
         return parts
 
 
-def _weighted_means(data: xr.Dataset, weights: xr.DataArray) -> xr.Dataset:
-    """Return the numbers of a dataset as weighted sums over its members."""
-    numbers = {name: part for name, part in data.data_vars.items() if "member" in part.dims and part.dtype.kind == "f"}
-    return data.assign({name: xr.dot(weights, part, dim="member") for name, part in numbers.items()})
+def _weighted_means(data: xr.Dataset, weights: Array) -> xr.Dataset:
+    """Return the numbers of a dataset as weighted sums over its members, one for each row of weights."""
+    numbers = {}
+    for name, part in data.variables.items():
+        if "member" in part.dims and part.dtype.kind == "f":
+            part = part.transpose("member", ...)
+            numbers[name] = xr.Variable((SPLIT, *part.dims[1:]), np.tensordot(weights, part.values, 1))
+    return data.assign(numbers)
 
 
 def _groups_of_members(data: Datasets) -> list[tuple[int, ...]]:

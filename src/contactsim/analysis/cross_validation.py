@@ -16,6 +16,8 @@ from contactsim.grid import Array
 
 MAX_SPLITS = 100
 """Largest number of splits of an ensemble into halves."""
+FEW_SPLITS = 12
+"""Number of them for quantities that are fitted to the members of each half, which takes long."""
 
 
 def half_splits(members: int, left: Array | None = None) -> list[tuple[Array, Array]]:
