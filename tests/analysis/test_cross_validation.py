@@ -87,3 +87,11 @@ def test_of_a_small_ensemble_all_halves_of_what_is_left_are_taken(members):
     assert len(half_splits(members, left)) == len(half_splits(members - 1))
     for first, second in half_splits(members, left):
         assert sorted({*first, *second}) == list(range(members - 1))
+
+
+def test_few_splits_of_a_small_ensemble_are_drawn_at_random_and_not_the_first_of_all():
+    firsts = [first for first, _ in half_splits(8, most=12)]
+    assert len(firsts) == 12
+    assert len(half_splits(8)) == 70
+    shares = np.mean([np.isin(np.arange(8), first) for first in firsts], axis=0)
+    assert shares.max() < 1

@@ -45,7 +45,7 @@ def test_no_number_of_members_makes_up_for_the_error_of_the_grid(ensemble_error,
 
 
 def test_a_line_through_few_onsets_wants_more_of_them():
-    told = deciding_text(row(1.0, 0.0, 0.8) | {"fitted_over": "approaches"})
+    told = deciding_text(row(1.0, 0.0, 0.8) | {"decided_over": "approaches"})
     assert told == "onsets at more approaches, until leaving out one of them changes the number by less than 0.5"
 
 

@@ -109,7 +109,7 @@ def test_words_of_the_config_are_no_html_no_link_and_no_line_of_their_own(verdic
 def test_what_would_decide_is_counted():
     frame = pd.DataFrame({"claim": ["a", "b", "c"], "verdict": ["not decidable"] * 3, "chapter": "ch6"})
     text = "Of the 3 statements that are not decidable, 2 want more members or a finer grid, and 1 more onsets"
-    assert text in next(_open_text(frame.assign(fitted_over=["", "approaches", ""])))
+    assert text in next(_open_text(frame.assign(decided_over=["", "approaches", ""])))
     assert list(_open_text(frame.assign(verdict="reproduced"))) == []
 
 

@@ -181,12 +181,12 @@ def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, obj
         words = {"measure": measure, "expected": band_text(counted), "beside": counted["beside"] or ""}
         words |= {"deciding_study": settings["study"] or ""}
         members = studied[0].sizes.get("member", 1) if studied else 1
-        words |= {"data": data_text(counted, studied), "fitted_over": _fitted_over(counted, studied)}
+        words |= {"data": data_text(counted, studied), "decided_over": _decided_over(counted, studied)}
         rows[name] = words | judge(counted, studied) | {"members": members}
     return join_cases(rows)
 
 
-def _fitted_over(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
+def _decided_over(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
     """Return "approaches" for a number of a line through the onsets at several, "grids" for transferred numbers."""
     if any(TRANSFERRED_FROM in study.attrs for study in data):
         return "grids"

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contactsim.analysis.cross_validation import FEW_SPLITS, joint_splits
+from contactsim.analysis.cross_validation import FEW_SPLITS, MAX_SPLITS, joint_splits
 from contactsim.analysis.ensemble import waves_name, widen_interval
 from contactsim.analysis.measures import SPLIT
 from contactsim.analysis.quantities import is_function_of_means, mean_quantity, number_exists, with_quantities
@@ -101,9 +101,8 @@ class Comparison:
         is_single = all(len(left) == 1 for _, left in ensembles)
         if REDUCTIONS[self.claim["reduce"]].locate is None or is_single or math.isnan(whole):
             return whole
-        splits = list(joint_splits(ensembles))
-        if not all(map(is_function_of_means, self._names)):
-            splits = splits[:FEW_SPLITS]
+        is_fast = all(map(self._is_of_means, self._names))
+        splits = joint_splits(ensembles, MAX_SPLITS if is_fast else FEW_SPLITS)
         first, second = (self._arguments(data, halves) for halves in zip(*splits, strict=True))
         return float(np.mean([self._reduce(second, first), self._reduce(first, second)]))
 
@@ -137,7 +136,7 @@ class Comparison:
 
         halves: of each split, the members of each group that are in a half, for values along `SPLIT`
         """
-        if halves is not None and self.claim["absent"] is None and is_function_of_means(name):
+        if halves is not None and self._is_of_means(name):
             return self._values(self._half_means(data, halves), name)
         if halves is not None:
             return xr.concat([self._values(self._with_members(data, half), name) for half in halves], SPLIT)
@@ -147,6 +146,10 @@ class Comparison:
             return values
         exists, values = xr.broadcast(self._exists, values)
         return values.stack(place=values.dims).isel(place=np.flatnonzero(exists.values))
+
+    def _is_of_means(self, name: str) -> bool:
+        """Return True for a quantity that follows from means over all members."""
+        return self.claim["absent"] is None and is_function_of_means(name)
 
     @functools.cached_property
     def _exists(self) -> xr.DataArray:

@@ -17,10 +17,10 @@ from contactsim.grid import Array
 MAX_SPLITS = 100
 """Largest number of splits of an ensemble into halves."""
 FEW_SPLITS = 12
-"""Number of them for quantities that are fitted to the members of each half, which takes long."""
+"""The same for quantities that are computed from the members of each half one by one, which takes long."""
 
 
-def half_splits(members: int, left: Array | None = None) -> list[tuple[Array, Array]]:
+def half_splits(members: int, left: Array | None = None, most: int = MAX_SPLITS) -> list[tuple[Array, Array]]:
     """Return splits of an ensemble into two halves: the places of both among the members that are left.
 
     Parameters
@@ -29,10 +29,12 @@ def half_splits(members: int, left: Array | None = None) -> list[tuple[Array, Ar
         Number of members.
     left
         Members that are left of them, in ascending order; None for all.
+    most
+        Largest number of splits.
 
     Returns
     -------
-    All splits if there are at most `MAX_SPLITS`, else as many at random, always the same. If some members are not left,
+    All splits if there are at most that many, else as many at random, always the same. If some members are not left,
     the halves are the same without them, so a number does not change because other halves are drawn. One member is not
     split: it is both halves.
     """
@@ -40,16 +42,18 @@ def half_splits(members: int, left: Array | None = None) -> list[tuple[Array, Ar
     places = np.arange(len(left))
     if len(left) == 1:
         return [(places, places)]
-    if math.comb(members, members // 2) <= MAX_SPLITS:
+    if math.comb(members, members // 2) <= most:
         first_halves = [np.array(half) for half in itertools.combinations(places, len(left) // 2)]
     else:
         random = np.random.default_rng(members)
-        halves = [random.permutation(members)[: members // 2] for _ in range(MAX_SPLITS)]
+        halves = [random.permutation(members)[: members // 2] for _ in range(most)]
         first_halves = [np.flatnonzero(np.isin(left, half)) for half in halves]
     return [(first, np.setdiff1d(places, first)) for first in first_halves]
 
 
-def joint_splits(ensembles: Sequence[tuple[int, Array]]) -> Iterator[tuple[list[Array], list[Array]]]:
+def joint_splits(
+    ensembles: Sequence[tuple[int, Array]], most: int = MAX_SPLITS
+) -> Iterator[tuple[list[Array], list[Array]]]:
     """Yield splits of independent ensembles at once: the first halves of all, and the second ones.
 
     Callers use each half in both roles: to search in, and to measure.
@@ -58,8 +62,10 @@ def joint_splits(ensembles: Sequence[tuple[int, Array]]) -> Iterator[tuple[list[
     ----------
     ensembles
         Of each ensemble the number of members, and those that are left.
+    most
+        Largest number of splits.
     """
-    splits = [half_splits(*ensemble) for ensemble in ensembles]
+    splits = [half_splits(members, left, most) for members, left in ensembles]
     for number in range(max(map(len, splits))):
         first, second = zip(*(own[number % len(own)] for own in splits), strict=True)
         yield list(first), list(second)

@@ -35,16 +35,16 @@ def distance_to_edge(row: Mapping[str, Any]) -> float:
 def deciding_text(row: Mapping[str, Any]) -> str:
     """Return in words what would decide a statement, and its cost; nothing where an error is not known.
 
-    row: as in `members_needed`, with `seconds`, the CPU time of the members there are, and `fitted_over`, which is
+    row: as in `members_needed`, with `seconds`, the CPU time of the members there are, and `decided_over`, which is
     "approaches" for a line through the onsets at several and "grids" for members on several grids
     """
     if not math.isfinite(distance_to_edge(row)):
         return ""
     needed, members = members_needed(row), row["members"]
     most = distance_to_edge(row) / MIN_MARGIN
-    if row.get("fitted_over") == "approaches":
+    if row.get("decided_over") == "approaches":
         return f"onsets at more approaches, until leaving out one of them changes the number by less than {most:.2g}"
-    if row.get("fitted_over") == "grids":
+    if row.get("decided_over") == "grids":
         return f"more members on both grids, until the error is below {most:.2g}"
     if math.isinf(needed):
         return f"an error of grid and increments below {most:.2g}; more members alone do not"

@@ -55,20 +55,27 @@ def with_more_members(fine: xr.Dataset, others: Sequence[xr.Dataset]) -> xr.Data
     widening = {name: xr.zeros_like(values) for name, values in numbers.items()}
     for finer, coarser in reversed(list(itertools.pairwise(grids))):
         status = _joined_status(finer.status, status)
-        few, many = finer.member.size, status.member.size
-        weight = np.sqrt(many * (many - 1) / (few * (few - 1)))
         for name in names:
-            change = _known(finer, name) - _known(coarser, name).sel(member=finer.member)
-            mean = change.mean("member", skipna=False)
-            beyond = (weight * (change - mean)).reindex(member=status.member, fill_value=0.0)
+            mean, beyond = _change(finer, coarser, name, status.member)
             numbers[name] = numbers[name] + mean + beyond
-            widening[name] = widening[name] + (student_factor(few) - 1) * beyond
+            widening[name] = widening[name] + (student_factor(finer.member.size) - 1) * beyond
     transferred = {"status": status, **numbers, **{f"{name}{WIDENING}": part for name, part in widening.items()}}
     stale = {f"{name}{end}" for name in names for end in OF_MEANS}
     kept = [name for name in fine.data_vars if "member" not in fine[name].dims and name not in stale]
     origins = [(dataset.settings_of(grid)["name"], grid.member.size, int(grid.points)) for grid in grids]
     variables = {key: part.transpose(*(dim for dim in dims if dim in part.dims)) for key, part in transferred.items()}
     return grids[0][kept].assign(variables).assign_attrs({TRANSFERRED_FROM: origins})
+
+
+def _change(
+    fine: xr.Dataset, coarse: xr.Dataset, name: str, members: xr.DataArray
+) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return the mean change of a number to the finer grid, and the weighted rest of it for each of all members."""
+    change = _known(fine, name) - _known(coarse, name).sel(member=fine.member)
+    mean = change.mean("member", skipna=False)
+    few, many = fine.member.size, members.size
+    weight = np.sqrt(many * (many - 1) / (few * (few - 1)))
+    return mean, (weight * (change - mean)).reindex(member=members, fill_value=0.0)
 
 
 def _known(data: xr.Dataset, name: str) -> xr.DataArray:

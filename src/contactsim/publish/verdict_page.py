@@ -71,7 +71,7 @@ def _open_text(claims: pd.DataFrame) -> Iterator[str]:
     open_claims = claims[claims.verdict == NOT_DECIDABLE]
     if not len(open_claims):
         return
-    is_line = open_claims.get("fitted_over", pd.Series("", open_claims.index)) == "approaches"
+    is_line = open_claims.get("decided_over", pd.Series("", open_claims.index)) == "approaches"
     yield (
         f"Of the {len(open_claims)} statements that are not decidable, {(~is_line).sum()} want more members or a "
         f"finer grid, and {is_line.sum()} more onsets of sliding: a line through as few as the text has is not fixed.\n"

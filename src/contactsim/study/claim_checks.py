@@ -96,29 +96,29 @@ def check_more_members(settings: dict, studies: Mapping[str, Study], file: objec
     """Raise InputError for `more_members` that are not those of a compared study, or cannot be transferred to it."""
     compared = [studies[settings[key]] for key in ("study", *SECOND_STUDY) if settings[key] is not None]
     for name in settings["more_members"] or ():
-        fitting = [other for other, study in studies.items() if any(_has_more_members(study, one) for one in compared)]
-        if name not in fitting:
-            same = "studies of the same surfaces and effects with more members on no more points, the fewest first"
-            raise InputError(f"{prefix}.more_members", name, f"{same}; here: {', '.join(fitting) or 'none'}", file)
-        compared = [studies[name] if _has_more_members(studies[name], one) else one for one in compared]
+        names = [more.name for more in studies.values() if any(_has_more_members(more, study) for study in compared)]
+        if name not in names:
+            allowed = "studies of the same surfaces and effects with more members on no more points, the fewest first"
+            raise InputError(f"{prefix}.more_members", name, f"{allowed}; here: {', '.join(names) or 'none'}", file)
+        compared = [studies[name] if _has_more_members(studies[name], study) else study for study in compared]
         for key in ("quantity", "against", "beside"):
             if settings[key] is not None:
                 check_one_of(settings, key, _transferable_quantities(studies[name]), file, prefix)
 
 
-def _has_more_members(study: Study, other: Study) -> bool:
+def _has_more_members(study: Study, reference: Study) -> bool:
     """Return True if a study has more of the surfaces of another one, of which two or more can be compared with it.
 
-    Both need a load in common, and the same bodies and effects under loads of the same kind.
+    Both need a load and a variant in common, and the same bodies and effects under loads of the same kind.
     """
-    one, two = study.settings, other.settings
-    alike = (one["same_surfaces_as"] or study.name) == (two["same_surfaces_as"] or other.name)
-    alike &= all(one[key] == two[key] for key in ("surface", "body", "counter_body", "effects"))
-    if not alike or one["path"] is not None or study.dimensions != other.dimensions:
+    settings, others = study.settings, reference.settings
+    alike = study.surfaces_of == reference.surfaces_of and study.dimensions == reference.dimensions
+    alike &= all(settings[key] == others[key] for key in ("surface", "body", "counter_body", "effects"))
+    if not alike or settings["path"] is not None or "points" in study.dimensions:
         return False
-    has_common = {*one["load"]["values"]} & {*two["load"]["values"]}
-    fits = "points" not in study.dimensions and one["points"] <= two["points"]
-    return bool(has_common) and fits and one["members"] > two["members"] >= 2
+    shared = [{*settings["load"]["values"]} & {*others["load"]["values"]}]
+    shared += [{*values} & {*others["vary"][key]} for key, values in settings["vary"].items()]
+    return all(shared) and settings["points"] <= others["points"] and settings["members"] > others["members"] >= 2
 
 
 def _transferable_quantities(study: Study) -> list[str]:

@@ -128,6 +128,11 @@ class Study:
         varied = [dimension_name(name) for name in self.settings["vary"]]
         return [*varied, "member", self.settings["load"]["name"]]
 
+    @property
+    def surfaces_of(self) -> str:
+        """Name of the study whose random surfaces this one has: its own, or another."""
+        return str(self.settings["same_surfaces_as"] or self.name)
+
     def runs(self) -> list[Run]:
         """Every job of the study, in order: variants, then members; runs that measure an error last."""
         return list(self._runs)
@@ -173,8 +178,7 @@ class Study:
         """Return the run of one variant and member; change: what a run that measures an error does otherwise."""
         parts, points = self._sections.of_variant(varied)
         kind = study_kind(self.settings)
-        name = self.settings["same_surfaces_as"] or self.name
-        settings: dict[str, Any] = {"study": name, "member": member, "seed": self.seed}
+        settings: dict[str, Any] = {"study": self.surfaces_of, "member": member, "seed": self.seed}
         settings |= {name: self.settings[name] for name in ("effects", "load", "tolerance", "neglect")}
         settings |= kind.run_settings(self.settings, member) | {"points": points} | change | parts
         if "through" in settings["load"]:  # says all, and is short
