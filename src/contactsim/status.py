@@ -18,7 +18,11 @@ class Status(Enum):
     CONVERGED = (0, "converged: the certificate, recomputed from scratch, is within the tolerance")
     MAX_ITERATIONS = (1, "not converged: the largest number of iterations is reached")
     NON_FINITE = (2, "failed: a value that is not finite appeared")
-    NO_EQUILIBRIUM = (3, "no equilibrium: the load pulls the bodies apart, or the approach is larger than the mean gap")
+    NO_EQUILIBRIUM = (
+        3,
+        "no equilibrium: the load pulls the bodies apart or presses them through each other, "
+        "or the approach is larger than the mean gap",
+    )
     SKIPPED = (4, "skipped: the path ended at an earlier step")
     INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
     NO_REST = (6, "no rest: under a held load the surfaces move on and on, as friction without a potential allows")

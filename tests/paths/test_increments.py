@@ -9,13 +9,14 @@ import pytest
 
 from contactsim.contact.loading import LoadPath, approaches, pressures, sweep
 from contactsim.contact.pose_cohesive import pose_cohesive
+from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.errors import InputError
-from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone, UncoupledCohesiveZone
 from contactsim.paths.adaptive import Adaptive
-from contactsim.solvers.cohesive.base import SEPARATION
+from contactsim.solvers.cohesive.base import SEPARATION, cannot_carry_load
 from contactsim.solvers.cohesive.newton_krylov import NewtonKrylov
 from contactsim.solvers.registry import make_solver
 from contactsim.status import Status
@@ -152,6 +153,31 @@ def test_a_load_beyond_pull_off_is_reported_and_the_path_ends(kind):
     assert [state.status for state in found.states] == [Status.CONVERGED, Status.NO_EQUILIBRIUM, Status.SKIPPED]
     here = found.problem.at(loads[1])
     assert here.gap(found.states[1].displacement)[0].min() > SEPARATION * here.interaction_range
+
+
+@pytest.mark.parametrize("name", ["coupled", "uncoupled"])
+def test_slip_presses_bodies_through_each_other_only_where_it_takes_the_repulsion(name):
+    law = CohesiveZone(2.0, 1.0) if name == "coupled" else UncoupledCohesiveZone(2.0, 1.0)
+    (load,) = pressures([0.1 * law.strength]).steps
+    far, farther = (LoadStep(Trait.SLIDE, slide, held=load) for slide in (12.0, 24.0))
+    path = LoadPath((load, far, farther))
+    found = walk(Scene(Body(Flat(LENGTH)), Body(Flat(LENGTH), HalfSpace(1e5, 0.3)), (law,), path), points=16)
+    ends = (Status.NO_EQUILIBRIUM, Status.SKIPPED) if name == "coupled" else (Status.CONVERGED, Status.CONVERGED)
+    assert [state.status for state in found.states] == [Status.CONVERGED, *ends]
+
+
+class _Springs(NormalCohesiveZone):
+    """Springs of 1 GPa/nm, which repel in proportion to the overlap."""
+
+    def traction(self, gap):
+        return gap[:1]
+
+
+def test_deep_overlap_carries_a_load_where_it_repels_no_more_than_that_load():
+    scene = scene_of(_Springs(1.0), pressures([50.0]))
+    problem = pose_cohesive(scene, scene.heights(16), 1e-6).at(scene.path.steps[0])
+    assert not cannot_carry_load(problem, np.full((1, 16), -50.0))
+    assert cannot_carry_load(problem, np.full((1, 16), -1000.0))
 
 
 # ---- limits of bodies and grids, and honest ends

@@ -25,7 +25,8 @@ def test_no_slide_is_answered_wrongly(hazard, severity):
     for name, options in SOLVERS.items():
         verdict = judge(case, make_solver(name, **options))
         if verdict.outcome is Outcome.FAILED:
-            assert (name, hazard.__name__) == ("mass_weighted_verlet", "pulled_off_slide")
+            assert name == "mass_weighted_verlet"
+            assert hazard.__name__ in {"pulled_off_slide", "pressed_through_slide"}
             assert "number of iterations" in verdict.reason
         else:
             known = case.exact is not None or case.ends is Status.NO_EQUILIBRIUM

@@ -81,6 +81,17 @@ def pulled_off_slide(severity: float) -> PathCase:
     return PathCase(_probe(path, WEAK, STIFF), 64, ends=Status.NO_EQUILIBRIUM, even=False)
 
 
+def pressed_through_slide(severity: float) -> PathCase:
+    """Flat bodies slide under 1 to 100 % of the law's strength, until slip has taken all repulsion: no state is left.
+
+    A coupled law then lets the bodies pass through each other.
+    """
+    (load,) = pressures([0.01 * WEAK.strength * 100 ** (severity / 100)]).steps
+    path = LoadPath((load, *(LoadStep(Trait.SLIDE, slide, held=load) for slide in (2.0, 4.0, 12.0))))
+    scene = Scene(Body(Flat(LENGTH)), Body(Flat(LENGTH), SOFT), (WEAK,), path)
+    return PathCase(scene, 64, ends=Status.NO_EQUILIBRIUM, even=False)
+
+
 def reversal_near_a_slip(severity: float) -> PathCase:
     """The slide turns ever closer before its first slip, then ever farther after: as in small increments."""
     turn = ONSET + (-0.5 + 0.4 * severity / 50 if severity < 50 else 0.3 + 1.7 * (severity - 50) / 50)
@@ -101,6 +112,7 @@ SLIDING = (
     wide_window,
     pulled_apart_slide,
     pulled_off_slide,
+    pressed_through_slide,
     reversal_near_a_slip,
     large_increments,
 )

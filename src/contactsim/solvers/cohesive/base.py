@@ -19,7 +19,10 @@ SMOOTH_PATHS = frozenset(
 )
 """Traits that each of these solvers accepts. One that minimises no energy also accepts laws without a potential."""
 SEPARATION = 40.0
-"""Smallest gap, over the interaction range of the laws, beyond which a load has pulled the bodies apart."""
+"""Smallest gap, over the interaction range of the laws, beyond which a load has pulled the bodies apart; overlap beyond
+which it may have pressed them through each other."""
+LOST_REPULSION = 10.0
+"""Repulsion that surfaces would exert had they not slipped, over the load, above which slip has taken it from them."""
 
 
 @dataclass(frozen=True)
@@ -109,9 +112,20 @@ def status_of(residual: float, problem: CohesiveProblem) -> Status:
     return Status.CONVERGED if residual <= problem.tolerance else Status.MAX_ITERATIONS
 
 
-def are_pulled_apart(problem: CohesiveProblem, gap: Array) -> bool:
-    """Return True if a load has pulled the bodies apart; gap: (read, n), nm."""
-    return problem.load is not None and bool(gap[0].min() > SEPARATION * problem.interaction_range)
+def cannot_carry_load(problem: CohesiveProblem, gap: Array) -> bool:
+    """Return True if a load has pulled the bodies apart, or pressed them through each other; gap: (read, n), nm."""
+    if problem.load is None:
+        return False
+    farthest = SEPARATION * problem.interaction_range
+    return bool(gap[0].min() > farthest) or (bool(gap[0].max() < -farthest) and _has_lost_repulsion(problem, gap))
+
+
+def _has_lost_repulsion(problem: CohesiveProblem, gap: Array) -> bool:
+    """Return True if slip has taken the repulsion of overlapping surfaces, as it does in a coupled law."""
+    unslipped = gap.copy()
+    unslipped[1:] = 0.0
+    repulsion = -float(problem.law.traction(unslipped)[0].max())
+    return repulsion > LOST_REPULSION * abs(float(problem.load or 0.0))
 
 
 def largest_change(problem: CohesiveProblem, change: Array, enough: float = 0.0) -> float:

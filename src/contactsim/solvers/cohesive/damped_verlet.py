@@ -23,7 +23,7 @@ from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.tangent import Tangent, contract
 from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
+from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, cannot_carry_load, largest_change, status_of
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -157,7 +157,7 @@ def _move_until_rest(
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             worst = problem.norm(problem.residual(displacement, traction))
-            if are_pulled_apart(problem, gap):
+            if cannot_carry_load(problem, gap):
                 status = Status.NO_EQUILIBRIUM
                 break
             status = status_of(worst, problem)

@@ -25,7 +25,7 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.tangent import Tangent
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import Equilibrium, are_pulled_apart, largest_change
+from contactsim.solvers.cohesive.base import Equilibrium, cannot_carry_load, largest_change
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
 
@@ -101,7 +101,7 @@ class _Descent:
                 status = Status.CONVERGED
             elif not np.isfinite(worst):
                 status = Status.NON_FINITE
-            elif are_pulled_apart(problem, here.gap):
+            elif cannot_carry_load(problem, here.gap):
                 status = Status.NO_EQUILIBRIUM
             if status is not Status.MAX_ITERATIONS or count == budget:
                 break

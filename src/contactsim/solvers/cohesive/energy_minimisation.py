@@ -15,7 +15,7 @@ import numpy as np
 
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, are_pulled_apart, largest_change, status_of
+from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, cannot_carry_load, largest_change, status_of
 from contactsim.status import Status
 from contactsim.traits import Trait
 
@@ -70,7 +70,7 @@ class EnergyMinimisation:
                 gap = problem.gap(displacement)
                 traction = problem.traction(gap)
                 worst = problem.norm(problem.residual(displacement, traction))
-                status = Status.NO_EQUILIBRIUM if are_pulled_apart(problem, gap) else status_of(worst, problem)
+                status = Status.NO_EQUILIBRIUM if cannot_carry_load(problem, gap) else status_of(worst, problem)
                 if status is not Status.MAX_ITERATIONS or count >= self.budget or not result.nit:
                     break
             distance = largest_change(problem, displacement - start)
@@ -107,9 +107,9 @@ class _Descent:
         return problem.energy(displacement, self._gap), slope
 
     def stop(self, variables: Array) -> None:
-        """End the descent at the tolerance, or when the load has pulled the bodies apart."""
+        """End the descent at the tolerance, or when no state can carry the load."""
         problem = self._problem
         mean_square = float((np.abs(self._residual) ** 2 * problem.mode_weights).sum())  # at most the largest square
         near = np.sqrt(mean_square) <= problem.tolerance * problem.strength
-        if (near and problem.norm(self._residual) <= problem.tolerance) or are_pulled_apart(problem, self._gap):
+        if (near and problem.norm(self._residual) <= problem.tolerance) or cannot_carry_load(problem, self._gap):
             raise StopIteration

@@ -17,7 +17,7 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.tangent import Tangent
 from contactsim.grid import Array
-from contactsim.solvers.cohesive.base import Equilibrium, are_pulled_apart, largest_change
+from contactsim.solvers.cohesive.base import Equilibrium, cannot_carry_load, largest_change
 from contactsim.solvers.cohesive.linearised import Growth, find_growth, newton_forcing, solve_linearised
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner
 from contactsim.status import Status
@@ -119,7 +119,7 @@ class _Flow:
         """Return the status of a flow that goes no further, or MAX_ITERATIONS."""
         if not np.isfinite(worst):
             return Status.NON_FINITE
-        if are_pulled_apart(self._problem, gap):
+        if cannot_carry_load(self._problem, gap):
             return Status.NO_EQUILIBRIUM
         return Status.NO_REST if self._way.wanders else Status.MAX_ITERATIONS
 
