@@ -15,8 +15,8 @@ from contactsim.study.plan import Plan
 
 DOCS = Path(__file__).parent
 RESULTS = DOCS.parent / "results/standard"
-ENSEMBLES = {"lines": "rough_line", "surfaces": "rough_surface"}
-"""Tables of docs/continuum.md, and the studies that they show."""
+ENSEMBLES = {"lines": ("rough_line", ["rough_line_many"]), "surfaces": ("rough_surface", ["rough_surface_many"])}
+"""Tables of docs/continuum.md: the study that each shows, and those with more members of the same surfaces."""
 PICTURES = ("price_of_accuracy", "robustness", "effects", "overview", "trials", "effect_maps", "fig_3_2", "maps")
 
 
@@ -41,6 +41,6 @@ readme.write_text(text, encoding="utf-8")
 page = DOCS / "continuum.md"
 text = page.read_text(encoding="utf-8")
 plan = Plan.read(DOCS.parent / "config", "standard")
-for table, study in ENSEMBLES.items():
-    text = between(text, table, factor_table(plan, RESULTS, study))
+for table, (study, more) in ENSEMBLES.items():
+    text = between(text, table, factor_table(plan, RESULTS, study, more))
 page.write_text(text, encoding="utf-8")

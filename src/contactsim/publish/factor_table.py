@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.more_members import with_more_members
 from contactsim.analysis.rounding import rounded_texts
 from contactsim.analysis.uncertainty import Estimate, estimate
 from contactsim.dataset import load_dataset
@@ -22,7 +23,7 @@ LARGEST_PRESSURE = 0.1
 """Largest p* of the thesis."""
 
 
-def factor_estimate(plan: Plan, study: str, data: xr.Dataset, quantity: str, place: dict[str, float]) -> Estimate:
+def factor_estimate(plan: Plan, study: str, data: xr.Dataset, place: dict[str, float], quantity: str) -> Estimate:
     """Return a factor at one load and Hurst exponent with its errors, found as those of statements are."""
     select = {dim: [value, value] for dim, value in place.items()}
     texts = dict.fromkeys(("source", "statement", "rationale"), "")
@@ -31,7 +32,7 @@ def factor_estimate(plan: Plan, study: str, data: xr.Dataset, quantity: str, pla
     return estimate(Comparison(claim, [data]).select(claim["select"]))
 
 
-def factor_table(plan: Plan, folder: Path, study: str) -> str:
+def factor_table(plan: Plan, folder: Path, study: str, more: Sequence[str] = ()) -> str:
     """Return κ and κ_r of an ensemble as a Markdown table: mean ± ensemble error ± grid error.
 
     Parameters
@@ -42,20 +43,27 @@ def factor_table(plan: Plan, folder: Path, study: str) -> str:
         Folder of the tier's results.
     study
         Name of a study of random surfaces at reduced pressures.
+    more
+        Names of studies with more members of these surfaces on fewer points, whose means are moved to the finest grid
+        at the loads that all have; the one with fewest members first.
     """
-    data = load_dataset(folder / "datasets" / f"{plan.dataset_name(study)}.nc")
-    exponents = [float(value) for value in data.hurst_exponent]
-    heads = [f"{symbol}, H = {hurst:g}" for symbol in FACTORS.values() for hurst in exponents]
-    lines = [f"| p* | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
-    pressures = [float(pressure) for pressure in data.reduced_pressure if pressure <= LARGEST_PRESSURE]
+    fine, *others = (load_dataset(folder / "datasets" / f"{plan.dataset_name(name)}.nc") for name in (study, *more))
+    joined = with_more_members(fine, others)
+    pressures = [float(pressure) for pressure in fine.reduced_pressure if pressure <= LARGEST_PRESSURE]
+    sources = [joined if pressure in joined.reduced_pressure else fine for pressure in pressures]
+    exponents = [float(value) for value in fine.hurst_exponent]
     columns = []
     for name in FACTORS:
         for hurst in exponents:
             places = [{"hurst_exponent": hurst, "reduced_pressure": pressure} for pressure in pressures]
-            columns.append(pool_grid_errors([factor_estimate(plan, study, data, name, place) for place in places]))
-    for pressure, row in zip(pressures, zip(*columns, strict=True), strict=True):
+            numbers = zip(sources, places, strict=True)
+            columns.append(pool_grid_errors([factor_estimate(plan, study, *number, name) for number in numbers]))
+    heads = [f"{symbol}, H = {hurst:g}" for symbol in FACTORS.values() for hurst in exponents]
+    lines = [f"| p* | members | {' | '.join(heads)} |", "|---" * (len(heads) + 2) + "|"]
+    for pressure, source, row in zip(pressures, sources, zip(*columns, strict=True), strict=True):
         texts = [rounded_texts(number.value, number.ensemble_error, number.grid_error) for number in row]
-        lines.append(f"| {pressure:g} | {' | '.join(' ± '.join(cell) for cell in texts)} |")
+        cells = " | ".join(" ± ".join(cell) for cell in texts)
+        lines.append(f"| {pressure:g} | {source.member.size} | {cells} |")
     return "\n".join(lines) + "\n"
 
 
