@@ -68,6 +68,12 @@ def test_a_number_has_a_verdict_a_margin_in_errors_and_a_place_in_the_band(numbe
     assert [result.margin, result.place] == pytest.approx([margin, place], nan_ok=True)
 
 
+@pytest.mark.parametrize(("value", "verdict"), [(0.0, NOT_REPRODUCED), (1e-9, REPRODUCED), (-1e-9, NOT_REPRODUCED)])
+def test_a_number_known_to_be_zero_does_not_have_the_sign_that_a_statement_claims(value, verdict):
+    result = judge_number(claim(**BANDLESS, at_least=0.0, neutral=0.0), Estimate(value, 0.0, 0.0))
+    assert (result.verdict, result.margin) == (verdict, np.inf)
+
+
 def test_a_case_may_have_a_band_of_its_own():
     cases = {
         "another number": {"expect": 3.0},

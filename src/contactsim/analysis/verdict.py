@@ -90,7 +90,7 @@ def judge_number(claim: Mapping, number: Estimate, scale: float = 1.0) -> Verdic
     distance, error = abs(number.value - edge), number.error
     if not np.isfinite([distance, error]).all():
         return Verdict()
-    margin = distance / error if error > 0 else np.inf if distance > 0 else 0.0
+    margin = distance / error if error > 0 else np.inf  # a band does not hold its edges: a known 0 does not grow
     neutral = neutral_value(claim)
     width = NAN if neutral is None or edge == neutral else abs(edge - neutral)
     place = NAN if neutral is None else abs(number.value - neutral) / width

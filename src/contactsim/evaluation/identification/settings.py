@@ -72,7 +72,6 @@ RUN_KEYS = {
     "points": Key(whole(1), "a whole number, 1 or more"),
     "slips": Key(whole(1), "a whole number, 1 or more"),
     **dict.fromkeys(("spacing", "increment", "fold_width", "tolerance", "flow_step"), Key(positive, POSITIVE)),
-    "grid_approach": keys_of(RunSettings)["grid_approach"],
 }
 
 

@@ -61,7 +61,6 @@ class RunSettings:
     tolerance: float
     flow_step: float
     slips: int
-    grid_approach: float
 
     def grid(self, width: float) -> int:
         """Return the number of points of a cell: a power of two."""
@@ -147,7 +146,7 @@ class CandidateJob:
         """The job as it is written to JSON."""
         return asdict(self)
 
-    def study(self, interface: str, periods: int = 1, approaches: Sequence[float] = (), grid: float = 1.0) -> Study:
+    def study(self, interface: str, periods: int = 1, grid: float = 1.0) -> Study:
         """Return the study of an interface.
 
         Parameters
@@ -156,8 +155,6 @@ class CandidateJob:
             Name of its section.
         periods
             Factor of the period at the same radius; longer ones do not slide on, as their load before is wanted.
-        approaches
-            Approaches (nm); all of them without any.
         grid
             Factor of the points.
         """
@@ -167,7 +164,7 @@ class CandidateJob:
             "surface": {"radius": RADIUS_PER_WIDTH * cell.width, "length": periods * cell.width},
             "counter_body": {"thickness": cell.thickness},
             "pairing": {"lattice_constant": cell.lattice_constant},
-            "vary": {"slide.approach": list(approaches or runs.approaches)},
+            "vary": {"slide.approach": list(runs.approaches)},
             "path": {"approach": [START - 1.0, START], "increment": 1.0},
             "slide": {"through": [0.0, reach], "increment": runs.increment},
             "increments": {"kind": "requested", "fold_width": runs.fold_width},
@@ -201,7 +198,7 @@ def simulate_candidate(job: CandidateJob) -> dict[str, xr.Dataset]:
     data = {}
     for interface in job.sections:
         fine = _summaries(job.study(interface), job.runs.slips)
-        coarse = _summaries(job.study(interface, approaches=[job.runs.grid_approach], grid=0.5), job.runs.slips)
+        coarse = _summaries(job.study(interface, grid=0.5), job.runs.slips)
         data[interface] = with_grid_change(fine, coarse)
     study = job.study(next(iter(job.sections)), periods=2)
     data[DOUBLED] = _summaries(study, job.runs.slips)
@@ -227,18 +224,9 @@ def _slide(run: Run, slips: int) -> xr.Dataset:
 
 
 def with_grid_change(fine: xr.Dataset, coarse: xr.Dataset) -> xr.Dataset:
-    """Return slides with the change of their summaries on a coarser grid; coarse: at one approach.
-
-    The change there stands for all approaches. That of the threshold law follows from all onsets moved by it.
-    """
-    approach = coarse.slide_approach.values[0]
-    changes = {
-        name: float((fine[name].sel(slide_approach=approach) - coarse[name].isel(slide_approach=0)).item())
-        for name in ONSET
-    }
-    moved = fit_thresholds(fine.assign({name: fine[name] - change for name, change in changes.items()}))
-    names = [name for name in (*ONSET, *THRESHOLD) if name in fine]
-    return fine.assign({f"{name}{GRID_CHANGE}": fine[name] - moved[name] for name in names})
+    """Return slides with the change of their summaries from those on half the points."""
+    names = [name for name in (*ONSET, *THRESHOLD) if name in fine and name in coarse]
+    return fine.assign({f"{name}{GRID_CHANGE}": fine[name] - coarse[name] for name in names})
 
 
 def _stamped(data: xr.Dataset, name: str, job: CandidateJob) -> xr.Dataset:
