@@ -13,7 +13,7 @@ from contactsim import dataset
 from contactsim.analysis.claim_data import data_text
 from contactsim.analysis.claims import judge_cases
 from contactsim.analysis.comparison import Comparison
-from contactsim.analysis.deciding import deciding_text
+from contactsim.analysis.deciding import Effort, deciding_text
 from contactsim.analysis.more_members import with_more_members
 from contactsim.analysis.uncertainty import estimate, student_factor
 from contactsim.analysis.unknown_places import unknown_places
@@ -130,7 +130,7 @@ def test_a_claim_takes_the_members_and_says_so():
     assert row["members"] == 40
     assert row["data"] == "`rough_line`: 4 members of 262144 points and 40 of 262144 (`rough_line_many`), 3 loads"
     assert data_text(claim(), [fine]) == "`rough_line`: 4 members of 262144 points, 3 loads"
-    assert "more members on both grids" in deciding_text(row | {"margin": 1.0, "seconds": 1.0})
+    assert "times the members on both grids" in deciding_text(row | {"margin": 1.0}, Effort(3600.0))
 
 
 def changed(name, **settings):

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from contactsim.analysis.rounding import short_number
+import pandas as pd
+
 from contactsim.analysis.uncertainty import MIN_MARGIN
+from contactsim.durations import duration_text
 
 
 def members_needed(row: Mapping[str, Any]) -> float:
@@ -32,22 +35,70 @@ def distance_to_edge(row: Mapping[str, Any]) -> float:
     return float(row["margin"]) * math.hypot(row["ensemble_error"], row["grid_error"])
 
 
-def deciding_text(row: Mapping[str, Any]) -> str:
+@dataclass(frozen=True)
+class Effort:
+    """What the study that decides a statement has cost.
+
+    Attributes
+    ----------
+    seconds
+        CPU time of all its members.
+    doubling
+        Factor of the CPU time on doubling the points; NaN where no coarse grid tells.
+    approaches
+        Number of approaches, of a study that has several.
+    """
+
+    seconds: float
+    doubling: float = math.nan
+    approaches: int = 1
+
+    @classmethod
+    def of_costs(cls, costs: pd.DataFrame) -> Effort:
+        """Return the effort by a study's table of costs."""
+        own = costs[~costs.measures_error]
+        coarse = costs[costs.measures_error & (costs.points * 2 == own.points.max())]
+        doubling = own.seconds.mean() / coarse.seconds.mean() if len(coarse) else math.nan
+        approaches = own.slide_approach.nunique() if "slide_approach" in own else 1
+        return cls(float(own.seconds.sum()), float(doubling), approaches)
+
+
+def deciding_text(row: Mapping[str, Any], effort: Effort) -> str:
     """Return in words what would decide a statement, and its cost; nothing where an error is not known.
 
-    row: as in `members_needed`, with `seconds`, the CPU time of the members there are, and `decided_over`, which is
-    "approaches" for a line through the onsets at several and "grids" for members on several grids
+    row: as in `members_needed`, with `decided_over`, which is "approaches" for a line through the onsets at several and
+    "grids" for members on several grids
     """
     if not math.isfinite(distance_to_edge(row)):
         return ""
-    needed, members = members_needed(row), row["members"]
     most = distance_to_edge(row) / MIN_MARGIN
     if row.get("decided_over") == "approaches":
-        return f"onsets at more approaches, until leaving out one of them changes the number by less than {most:.2g}"
+        each = _time(effort.seconds / effort.approaches)
+        return (
+            f"onsets at more approaches ({each} each), until leaving out one changes the number by less than {most:.2g}"
+        )
+    if math.isinf(members_needed(row)):
+        return f"an error of grid and increments below {most:.2g}; more members alone do not{_both(row, most, effort)}"
+    needed, members = members_needed(row), row["members"]
+    cost = (needed / members - 1) * effort.seconds
+    told = f", {_time(cost)} more" if cost > 0 else ""
     if row.get("decided_over") == "grids":
-        return f"more members on both grids, until the error is below {most:.2g}"
-    if math.isinf(needed):
-        return f"an error of grid and increments below {most:.2g}; more members alone do not"
-    hours = (needed / members - 1) * row["seconds"] / 3600
-    cost = f", {short_number(hours)} hours of one core more" if hours > 0 else ""
-    return f"{needed:.0f} members in place of {members:.0f}{cost}, if the number stays"
+        return f"{needed / members:.2g} times the members on both grids{told}, if the number stays"
+    return f"{needed:.0f} members in place of {members:.0f}{told}, if the number stays"
+
+
+def _both(row: Mapping[str, Any], most: float, effort: Effort) -> str:
+    """Return in words how often the points are doubled, with how many members, until the error is small enough."""
+    if not math.isfinite(effort.doubling):
+        return ""
+    ensemble_error = min(row["ensemble_error"], most / math.sqrt(2))  # the rest is left to the grid
+    doublings = math.ceil(math.log2(row["grid_error"] / math.sqrt(most**2 - ensemble_error**2)))
+    members = (row["ensemble_error"] / ensemble_error) ** 2 if ensemble_error else 1.0
+    more = f", {members:.2g} times the members" if members > 1 else ""
+    cost = _time(members * effort.seconds * effort.doubling**doublings)
+    return f" (at first order the points doubled {doublings} times{more}, {cost})"
+
+
+def _time(seconds: float) -> str:
+    """Return CPU time in words."""
+    return f"{duration_text(seconds)} of one core"

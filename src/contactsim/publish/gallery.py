@@ -20,7 +20,7 @@ from contactsim import dataset
 from contactsim.analysis.admissible import choices_table
 from contactsim.analysis.claims import SCALES
 from contactsim.analysis.dataset_summary import error_texts
-from contactsim.analysis.deciding import deciding_text
+from contactsim.analysis.deciding import Effort, deciding_text
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import printed
 from contactsim.code_digest.modules import source_digest
@@ -85,7 +85,7 @@ def decide_with(plan: Plan, folder: Path, claims: pd.DataFrame) -> pd.Series:
     for place, row in claims[claims.verdict == NOT_DECIDABLE].iterrows():
         if study := row["deciding_study"]:
             costs = pd.read_csv(folder / "costs" / f"{plan.dataset_name(study)}.csv")
-            texts[place] = deciding_text({**row, "seconds": costs.seconds[~costs.measures_error].sum()})
+            texts[place] = deciding_text(row, Effort.of_costs(costs))
     return texts
 
 

@@ -18,7 +18,7 @@ from contactsim.observables.adhesion import contact_length
 from contactsim.observables.dataset_forms import form_of
 from contactsim.observables.derived import combine_runs
 from contactsim.observables.friction import ONSET
-from contactsim.observables.threshold import APPROACH_ERROR, THRESHOLD, fit_thresholds
+from contactsim.observables.threshold import APPROACH_ERROR, THRESHOLD
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments
 from contactsim.paths.jumps import Jump
