@@ -70,10 +70,7 @@ def test_the_effort_of_a_study_is_read_from_its_costs():
 
 def test_a_line_through_few_onsets_wants_more_of_them():
     told = deciding_text(row(1.0, 0.0, 0.8) | {"decided_over": "approaches"}, Effort(90.0, approaches=9))
-    assert (
-        told
-        == "more approaches (10 s of one core each), until leaving out one changes the number by less than 0.5"
-    )
+    assert told == "more approaches (10 s of one core each), until leaving out one changes the number by less than 0.5"
 
 
 def test_nothing_is_told_where_an_error_is_not_known():

@@ -74,9 +74,7 @@ def deciding_text(row: Mapping[str, Any], effort: Effort) -> str:
     most = distance_to_edge(row) / MIN_MARGIN
     if row.get("decided_over") == "approaches":
         each = _time(effort.seconds / effort.approaches)
-        return (
-            f"onsets at more approaches ({each} each), until leaving out one changes the number by less than {most:.2g}"
-        )
+        return f"more approaches ({each} each), until leaving out one changes the number by less than {most:.2g}"
     if math.isinf(members_needed(row)):
         return f"an error of grid and increments below {most:.2g}; more members alone do not{_both(row, most, effort)}"
     needed, members = members_needed(row), row["members"]
