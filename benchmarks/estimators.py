@@ -22,15 +22,17 @@ SURFACES = {
 """Lines are those of Chapter 3. Surfaces have a quarter of the waves: 64 points per wavelength can then be solved."""
 GRIDS = {"lines": (4, 8, 16, 32, 64, 256), "surfaces": (4, 8, 16, 32, 64)}
 ESTIMATORS = ("counted", "corrected", "subgrid", "pairs")
+SPREAD_AT, ORDER_GRIDS = 16, (8, 16, 32)
+"""Points per shortest wavelength at which the spread of members is given, and those that the order is observed on."""
 SEED = 888
 """Of surfaces that no statement is judged on."""
 
 
 def estimates(kind: str, members: int) -> xr.Dataset:
-    """Return the means of κ and κ_r over the members by each estimator, (hurst, pressure, points)."""
+    """Return κ and κ_r of each member by each estimator, (estimator, hurst, pressure, points, member)."""
     grids, shape = GRIDS[kind], SURFACES[kind]
     waves = round(shape["length"] / shape["short_cutoff"])
-    sums = np.zeros((2, len(ESTIMATORS), len(HURST_EXPONENTS), len(PRESSURES), len(grids)))
+    found = np.zeros((2, len(ESTIMATORS), len(HURST_EXPONENTS), len(PRESSURES), len(grids), members))
     for place, hurst in enumerate(HURST_EXPONENTS):
         for member in range(members):
             surface = cs.SelfAffine(
@@ -39,13 +41,14 @@ def estimates(kind: str, members: int) -> xr.Dataset:
             loads = cs.pressures([pressure * GRADIENT for pressure in PRESSURES])
             scene = cs.Scene(cs.HalfSpace(contact_modulus=1.0), surface, cs.HardWall(), loads)
             for grid, points in enumerate(grids):
-                sums[:, :, place, :, grid] += _factors(cs.simulate(scene, points=waves * points, tolerance=1e-3))
-    dims = ("hurst", "pressure", "points")
-    coordinates = {"estimator": list(ESTIMATORS), "hurst": list(HURST_EXPONENTS), "pressure": list(PRESSURES)}
-    arrays = [
-        xr.DataArray(part / members, coordinates | {"points": list(grids)}, ("estimator", *dims)) for part in sums
-    ]
-    return xr.Dataset({"kappa": arrays[0], "kappa_r": arrays[1]})
+                data = cs.simulate(scene, points=waves * points, tolerance=1e-3)
+                found[:, :, place, :, grid, member] = _factors(data)
+    coordinates = {
+        "estimator": list(ESTIMATORS), "hurst": list(HURST_EXPONENTS), "pressure": list(PRESSURES),
+        "points": list(grids), "member": range(members),
+    }  # fmt: skip
+    kappa, kappa_r = (xr.DataArray(part, coordinates, list(coordinates)) for part in found)
+    return xr.Dataset({"kappa": kappa, "kappa_r": kappa_r})
 
 
 def _factors(data: xr.Dataset) -> np.ndarray:
@@ -69,31 +72,51 @@ def stated_error(values: xr.DataArray, is_surface: bool) -> xr.DataArray:
     return xr.where(values.points >= 16, np.maximum(change, abs(second - corrected)), change)
 
 
-def print_table(name: str, values: xr.DataArray, is_surface: bool) -> None:
-    """Print the distance of each estimator from the finest grid in per cent, and how often the error covers it."""
+def print_table(name: str, found: xr.DataArray, is_surface: bool) -> None:
+    """Print how far each estimator is from the finest grid, its spread and order, and how often its error covers that.
+
+    name: symbol of the factor; found: of each member
+    """
+    values = found.mean("member")
     finest = values.sel(estimator="subgrid").isel(points=-1)
-    print(f"| {name} by | H | p* | " + " | ".join(f"{count:d}" for count in values.points.values) + " |")
-    print("|---" * (3 + values.points.size) + "|")
-    distance = 100 * (values / finest - 1)
+    distances = 100 * (found / found.sel(estimator="subgrid").isel(points=-1) - 1)
+    print(f"| {name} by | H | p* | {' | '.join(str(count) for count in values.points.values)} | spread | order |")
+    print("|---" * (5 + values.points.size) + "|")
     for estimator in ESTIMATORS if name == "κ_r" else ESTIMATORS[:-1]:  # pairs have the counted area
         for hurst in HURST_EXPONENTS:
             for pressure in PRESSURES:
-                row = distance.sel(estimator=estimator, hurst=hurst, pressure=pressure)
-                cells = " | ".join(f"{number:+.2f}" for number in row.values)
-                print(f"| {estimator} | {hurst:g} | {pressure:g} | {cells} |")
-    inner = values.isel(points=slice(1, -1))
-    covers = abs(inner.sel(estimator="corrected") - finest) <= stated_error(values, is_surface).isel(
-        points=slice(1, -1)
+                place = {"estimator": estimator, "hurst": hurst, "pressure": pressure}
+                off = 100 * (values.sel(place) / finest.sel(hurst=hurst, pressure=pressure) - 1)
+                spread = float(distances.sel(place, points=SPREAD_AT).std("member", ddof=1))
+                cells = [estimator, f"{hurst:g}", f"{pressure:g}", *(f"{number:+.2f}" for number in off.values)]
+                print(f"| {' | '.join([*cells, f'{spread:.2f}', _order(values.sel(place))])} |")
+    corrected = values.sel(estimator="corrected")
+    between = corrected.points.values[1:-1].tolist()
+    errors = stated_error(values, is_surface)
+    covered = {
+        truth: int((abs(corrected - target) <= errors).sel(points=between).sum())
+        for truth, target in (("subgrid", finest), ("corrected", corrected.isel(points=-1)))
+    }
+    cases = errors.sel(points=between).size
+    print(
+        f"\nOn {between[0]} to {between[-1]} points the stated error covers the distance to the finest *subgrid* number"
+        f" in {covered['subgrid']} of {cases} cases, and to the finest *corrected* one in {covered['corrected']}.\n"
     )
-    print(f"\nThe stated error covers the distance in {int(covers.sum())} of {covers.size} cases.\n")
+
+
+def _order(values: xr.DataArray) -> str:
+    """Return the order by the changes between 8, 16 and 32 points; a dash where they turn their sign."""
+    coarse, middle, fine = values.sel(points=list(ORDER_GRIDS)).values
+    ratio = (coarse - middle) / (middle - fine)
+    return f"{np.log2(ratio):.1f}" if ratio > 0 else "–"
 
 
 def main() -> None:
     """Print the tables of κ and κ_r."""
     kind = sys.argv[1]
-    values = estimates(kind, int(sys.argv[2]) if len(sys.argv) > 2 else 6)
+    found = estimates(kind, int(sys.argv[2]) if len(sys.argv) > 2 else 6)
     for name, symbol in {"kappa": "κ", "kappa_r": "κ_r"}.items():
-        print_table(symbol, values[name], kind == "surfaces")
+        print_table(symbol, found[name], kind == "surfaces")
 
 
 if __name__ == "__main__":

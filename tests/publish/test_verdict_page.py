@@ -88,9 +88,9 @@ def test_changes_are_listed_with_their_reasons(verdicts):
     before = pd.DataFrame(earlier.items(), columns=["claim", "verdict"]).assign(statement=[None, None, "κ is 5."])
     reasons = pd.DataFrame({"claim": ["fails", "fails"], "reason": ["band", "grid"]})
     page = changes_page(before, verdicts, reasons)
-    assert "| κ is 3. | reproduced | not reproduced | band; grid |" in page
-    assert "| κ is 5. | not decidable | – | reason not yet given |" in page
-    assert "| κ is 4. | not reproduced |\n" in page[page.index("## New") : page.index("## As before")]
+    assert "| κ is 3. | reproduced | not reproduced | 77 | band; grid |" in page
+    assert "| κ is 5. | not decidable | – | – | reason not yet given |" in page
+    assert "| κ is 4. | not reproduced | > 99 |\n" in page[page.index("## New") : page.index("## As before")]
     assert "| κ is 2, a value that holds. | reproduced |" in page.split("## As before")[1]
 
 

@@ -95,22 +95,31 @@ def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFra
     statements = before.set_index("claim").get("statement", pd.Series(dtype=str)).dropna().to_dict()
     statements |= claims.set_index("claim").statement.map(lambda text: printed(plain_words(text))).to_dict()
     names = [*now.index, *earlier.index.difference(now.index, sort=False)]
+    margins = claims.set_index("claim").margin.map(short_number)
     rows = [
-        (statements.get(name, name), earlier.get(name, ABSENT), now.get(name, ABSENT), texts.get(name, ""))
+        (
+            statements.get(name, name),
+            earlier.get(name, ABSENT),
+            now.get(name, ABSENT),
+            margins.get(name, ABSENT),
+            texts.get(name, "reason not yet given"),
+        )
         for name in names
     ]
-    changed = [(*row[:3], row[3] or "reason not yet given") for row in rows if ABSENT != row[1] != row[2]]
-    new = [(row[0], row[2]) for row in rows if row[1] == ABSENT]
-    same = [row[:2] for row in rows if row[1] == row[2]]
+    changed = [row for row in rows if ABSENT != row[1] != row[2]]
+    new = [(row[0], *row[2:4]) for row in rows if row[1] == ABSENT]
+    same = [(*row[:2], row[3]) for row in rows if row[1] == row[2]]
     introduction = (
         "# Verdicts before and now\n\nBefore: one error decided, the number of the grid was taken as it was, and "
         "unknown states were dropped. Now: the rules of [how statements are judged](judging.md). A dash: no such "
-        f"statement any more. Of {len(rows) - len(new)} statements and findings {len(changed)} have another verdict or "
+        "statement any more, or a finding, which has no margin. Margins are in errors. "
+        f"Of {len(rows) - len(new)} statements and findings {len(changed)} have another verdict or "
         f"are gone; {len(new)} are new.\n"
     )
-    parts = [introduction, "## Changed\n", table(("statement", "before", "now", "what changed it"), changed)]
-    parts += ["## New\n", "Sentences that nothing judged before, and findings.\n", table(("statement", "now"), new)]
-    return "\n".join([*parts, "## As before\n", table(("statement", "verdict"), same)])
+    heads = ("statement", "before", "now", "margin", "what changed it")
+    parts = [introduction, "## Changed\n", table(heads, changed), "## New\n"]
+    parts += ["Sentences that nothing judged before, and findings.\n", table(("statement", "now", "margin"), new)]
+    return "\n".join([*parts, "## As before\n", table(("statement", "verdict", "margin"), same)])
 
 
 def write_verdict_pages(folder: Path) -> None:
