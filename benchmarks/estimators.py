@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 import contactsim as cs
+from contactsim.observables.edge_correction import EDGE_EXCESS
 
 PRESSURES = (1e-3, 1e-2, 1e-1)
 HURST_EXPONENTS = (0.2, 0.8)
@@ -21,7 +22,17 @@ SURFACES = {
 }
 """Lines are those of Chapter 3. Surfaces have a quarter of the waves: 64 points per wavelength can then be solved."""
 GRIDS = {"lines": (4, 8, 16, 32, 64, 256), "surfaces": (4, 8, 16, 32, 64)}
-ESTIMATORS = ("counted", "corrected", "subgrid", "pairs")
+ESTIMATORS = ("counted", "corrected", "subgrid", "pairs", "literature")
+PRINTED = {
+    ("lines", "kappa"): ESTIMATORS[:3],
+    ("lines", "kappa_r"): ESTIMATORS[:4],
+    ("surfaces", "kappa"): (*ESTIMATORS[:3], ESTIMATORS[4]),
+    ("surfaces", "kappa_r"): ESTIMATORS[:4],
+}
+"""Estimators in each table: pairs have the counted area, and the literature has a constant for areas of surfaces."""
+LITERATURE = 0.1181
+"""Part of a cell that Yastrebov et al. (2017) take off for each edge."""
+SYMBOLS = {"kappa": "κ", "kappa_r": "κ_r"}
 SPREAD_AT, ORDER_GRIDS = 16, (8, 16, 32)
 """Points per shortest wavelength at which the spread of members is given, and those that the order is observed on."""
 SEED = 888
@@ -54,8 +65,15 @@ def estimates(kind: str, members: int) -> xr.Dataset:
 def _factors(data: xr.Dataset) -> np.ndarray:
     """Return κ and κ_r by each estimator at each load, (2, estimator, load)."""
     area, gradient = "relative_contact_area", "rms_gradient_contact"
-    areas = [data[area], data[f"{area}_corrected"], data[f"{area}_subgrid"], data[area]]
-    slopes = [data[f"{gradient}{end}"] for end in ("", "_corrected", "_subgrid", "_pairs")]
+    edges = (data[area] - data[f"{area}_corrected"]) / EDGE_EXCESS[2 if "length_y" in data else 1]
+    areas = [
+        data[area],
+        data[f"{area}_corrected"],
+        data[f"{area}_subgrid"],
+        data[area],
+        data[area] - LITERATURE * edges,
+    ]
+    slopes = [data[f"{gradient}{end}"] for end in ("", "_corrected", "_subgrid", "_pairs", "_corrected")]
     pressure = data.mean_pressure.values
     kappa = np.array([part.values * GRADIENT / pressure for part in areas])
     return np.stack([kappa, np.array([part.values for part in slopes]) / GRADIENT * kappa])
@@ -72,27 +90,29 @@ def stated_error(values: xr.DataArray, is_surface: bool) -> xr.DataArray:
     return xr.where(values.points >= 16, np.maximum(change, abs(second - corrected)), change)
 
 
-def print_table(name: str, found: xr.DataArray, is_surface: bool) -> None:
+def print_table(kind: str, name: str, found: xr.DataArray) -> None:
     """Print how far each estimator is from the finest grid, its spread and order, and how often its error covers that.
 
-    name: symbol of the factor; found: of each member
+    kind: lines or surfaces; name: of the factor; found: of each member
     """
     values = found.mean("member")
     finest = values.sel(estimator="subgrid").isel(points=-1)
     distances = 100 * (found / found.sel(estimator="subgrid").isel(points=-1) - 1)
-    print(f"| {name} by | H | p* | {' | '.join(str(count) for count in values.points.values)} | spread | order |")
+    print(
+        f"| {SYMBOLS[name]} by | H | p* | {' | '.join(str(count) for count in values.points.values)} | spread | order |"
+    )
     print("|---" * (5 + values.points.size) + "|")
-    for estimator in ESTIMATORS if name == "κ_r" else ESTIMATORS[:-1]:  # pairs have the counted area
+    for estimator in PRINTED[kind, name]:
         for hurst in HURST_EXPONENTS:
             for pressure in PRESSURES:
                 place = {"estimator": estimator, "hurst": hurst, "pressure": pressure}
                 off = 100 * (values.sel(place) / finest.sel(hurst=hurst, pressure=pressure) - 1)
-                spread = float(distances.sel(place, points=SPREAD_AT).std("member", ddof=1))
+                spread = float(distances.sel(place | {"points": SPREAD_AT}).std("member", ddof=1))
                 cells = [estimator, f"{hurst:g}", f"{pressure:g}", *(f"{number:+.2f}" for number in off.values)]
                 print(f"| {' | '.join([*cells, f'{spread:.2f}', _order(values.sel(place))])} |")
     corrected = values.sel(estimator="corrected")
     between = corrected.points.values[1:-1].tolist()
-    errors = stated_error(values, is_surface)
+    errors = stated_error(values, kind == "surfaces")
     covered = {
         truth: int((abs(corrected - target) <= errors).sel(points=between).sum())
         for truth, target in (("subgrid", finest), ("corrected", corrected.isel(points=-1)))
@@ -115,8 +135,8 @@ def main() -> None:
     """Print the tables of κ and κ_r."""
     kind = sys.argv[1]
     found = estimates(kind, int(sys.argv[2]) if len(sys.argv) > 2 else 6)
-    for name, symbol in {"kappa": "κ", "kappa_r": "κ_r"}.items():
-        print_table(symbol, found[name], kind == "surfaces")
+    for name in SYMBOLS:
+        print_table(kind, name, found[name])
 
 
 if __name__ == "__main__":

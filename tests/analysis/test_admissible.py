@@ -83,7 +83,7 @@ def verdicts_in_cells(*verdicts):
     rows = [
         {"candidate": f"c{number}", "claim": "test", "value": 2.0, "margin": 9.0, "admitted": True}
         | dict.fromkeys(BANDS, verdict)
-        | {"admitted_by_signs": number > 1}
+        | {"admitted_by_signs": number > 1, "apart": number == 2}
         for number, verdict in enumerate(verdicts, start=1)
     ]
     return pd.DataFrame(rows, columns=list(CANDIDATE_COLUMNS))
@@ -106,7 +106,8 @@ def test_a_statement_that_fails_in_some_admitted_cells_depends_on_what_is_open_w
     assert (judged.admitted_decided, judged.admitted_by_signs_decided) == (3, 2)
     assert (judged.admitted_share, judged.admitted_by_signs_share) == (pytest.approx(1 / 3), 0.0)
     assert judged.choices == ""
-    words = "holds in 1 of the 3 admitted cells, and in none of the 2 that also have the signs of the text"
+    words = "holds in 1 of the 3 admitted cells, and in none of the 2 that also have the signs of the text, "
+    words += "and not in the one that is apart from its replicas"
     assert choices_text(judged) == f"{words}; as judged: reproduced"
 
 

@@ -25,7 +25,8 @@ def candidates(**marks):
     """A table of cells c1, c2, …: a letter of `VERDICTS` for each cell by claim; all are admitted."""
     rows = [
         {"candidate": f"c{number}", "claim": claim, "verdict": VERDICTS[mark], "admitted": True, "unsolved": 0}
-        | {"admitted_by_signs": number % 2 == 0, "width": 1e3, "thickness": 1e3, "lattice_constant": 2.0}
+        | {"admitted_by_signs": number % 2 == 0, "apart": number == 1}
+        | {"width": 1e3, "thickness": 1e3, "lattice_constant": 2.0}
         for claim, letters in marks.items()
         for number, mark in enumerate(letters, start=1)
     ]
@@ -45,6 +46,7 @@ def test_a_share_is_of_the_decided_drawn_candidates_of_a_set():
     table = candidates(a="yn?y")
     assert holding_candidates(table, "a", "admitted") == HoldingShare(3, 2)
     assert holding_candidates(table, "a", "admitted_by_signs") == HoldingShare(2, 1)
+    assert holding_candidates(table, "a", "apart") == HoldingShare(1, 1)
     named = table.assign(candidate=table.candidate.replace("c1", "default"))
     assert holding_candidates(named, "a", "admitted") == HoldingShare(2, 1)
     shares = shares_table(table).iloc[0]

@@ -97,7 +97,7 @@ def candidate_choices(candidates: pd.DataFrame, claim: str) -> list[Choice]:
 
 
 def candidate_entries(candidates: pd.DataFrame, claim: str) -> dict[str, object]:
-    """Return the shares of the candidates of both sets in which a claim holds, with their errors; NaN without any."""
+    """Return the shares of the candidates of each set in which a claim holds, with their errors; NaN without any."""
     entries: dict[str, object] = {}
     for group in SETS:
         held = holding_candidates(candidates, claim, group)

@@ -13,8 +13,8 @@ from contactsim.analysis.verdict import NOT_DECIDABLE, REPRODUCED
 
 FILE = Path(__file__).with_name("candidates.csv")
 """The candidates of Chapter 6 with their verdicts, measured by `snakemake export_candidates`."""
-SETS = ("admitted", "admitted_by_signs")
-"""Columns that say whether a candidate belongs to a set."""
+SETS = ("admitted", "admitted_by_signs", "apart")
+"""Columns that say whether a candidate belongs to a set; the last one is of those apart from their replicas."""
 DRAWN = r"c\d+"
 """Names of the candidates that are drawn; the cells of studies have other names, and enter no share."""
 

@@ -73,8 +73,12 @@ STUDIES = re.compile(r" in (\w+) (over|minus) (\w+)")
 """Both studies in the measure of a claim."""
 NAME = re.compile(r"[a-z]\w*")
 """A name of a quantity or a dimension, or a word, in the measure of a claim."""
-CELL_SETS = {"admitted": "admitted cell", "admitted_by_signs": "that also {} the signs of the text"}
-"""Sets of candidates in words."""
+CELL_SETS = {
+    "admitted": ("admitted cell", "admitted cells"),
+    "admitted_by_signs": ("that also has the signs of the text", "that also have the signs of the text"),
+    "apart": ("that is apart from its replicas", "that are apart from their replicas"),
+}
+"""Sets of candidates in words: one cell, and several."""
 MIN_SHARED = 5
 """Fewest cells whose share is given beside their number."""
 INDEX_LETTERS = {
@@ -151,11 +155,13 @@ def readings_text(row: Mapping[str, Any]) -> str:
     if not count:
         return "not decidable with any reading"
     held = round(count * float(row["choices_share"]))
-    return f"holds {_part_text('with', held, count, 'reading')} that {'is' if count == 1 else 'are'} decided"
+    return (
+        f"holds {_part_text('with', held, count, 'reading', 'readings')} that {'is' if count == 1 else 'are'} decided"
+    )
 
 
 def candidates_text(row: Mapping[str, Any]) -> str:
-    """Return in how many of the decided admitted cells a claim holds, in both sets; nothing without any.
+    """Return in how many of the decided admitted cells a claim holds, in all sets; nothing without any.
 
     The share and its binomial error follow where they are of `MIN_SHARED` cells or more.
     """
@@ -166,18 +172,16 @@ def candidates_text(row: Mapping[str, Any]) -> str:
             continue
         held = round(count * row[f"{group}_share"])
         share = f" ({row[f'{group}_share']:.0%} ± {row[f'{group}_error']:.0%})" if count >= MIN_SHARED else ""
-        noun = of_cells.format("has" if count == 1 else "have")
-        texts.append(f"{_part_text('in', held, int(count), noun)}{share}")
+        texts.append(f"{_part_text('in', held, int(count), *of_cells)}{share}")
     return f"holds {', and '.join(texts)}" if texts else ""
 
 
-def _part_text(word: str, held: int, count: int, noun: str) -> str:
+def _part_text(word: str, held: int, count: int, one: str, several: str) -> str:
     """Return a part of several things in words, such as "in 36 of the 38 admitted cells"."""
     if count == 1:
-        return f"{'' if held else 'not '}{word} the one {noun}"
+        return f"{'' if held else 'not '}{word} the one {one}"
     part = "all" if held == count else str(held or "none")
-    plural = noun if noun.startswith("that") else f"{noun}s"
-    return f"{word} {part} of the {count} {plural}"
+    return f"{word} {part} of the {count} {several}"
 
 
 def printed(text: str) -> str:

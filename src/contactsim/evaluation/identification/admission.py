@@ -100,7 +100,7 @@ def admit(candidates: pd.DataFrame, min_isolated: int) -> pd.DataFrame:
     drawn = candidates.candidate.str.fullmatch(DRAWN)
     few = candidates.candidate[apart & drawn].nunique() < min_isolated
     admitted = candidates.sound if few else apart
-    return candidates.assign(**dict(zip(SETS, (admitted, admitted & candidates.signs), strict=True)))
+    return candidates.assign(**dict(zip(SETS, (admitted, admitted & candidates.signs, apart), strict=True)))
 
 
 def has_signs_of_text(strong: xr.Dataset, limits: Limits) -> bool:
