@@ -7,7 +7,8 @@ import pytest
 
 from contactsim.analysis.causes import UNKNOWN
 from contactsim.analysis.claims import judge_claims
-from contactsim.publish.verdict_page import _open_text, changes_page, verdict_page
+from contactsim.publish.open_questions import undecided_text, undetermined_text
+from contactsim.publish.verdict_page import changes_page, verdict_page
 from contactsim.study.claim_plan import read_claim
 from support.claims import STUDIES, VALUE, claim, made_up, with_corrected
 from support.places import ROOT
@@ -94,6 +95,28 @@ def test_changes_are_listed_with_their_reasons(verdicts):
     assert "| κ is 2, a value that holds. | reproduced |" in page.split("## As before")[1]
 
 
+def test_what_all_cells_or_none_have_tells_nothing_about_the_cell():
+    verdicts = {"all": "yyy", "none": "nnn", "first": "ynn", "last": "nny", "few": "?yn"}
+    words = {"y": "reproduced", "n": "not reproduced", "?": "not decidable"}
+    rows = [
+        {
+            "candidate": f"c{number}",
+            "claim": claim,
+            "verdict": words[mark],
+            "width": 10.0**number,
+            "thickness": 100.0 * number,
+        }
+        | {"lattice_constant": 2.0 + number**2, "admitted": True, "admitted_by_signs": True, "apart": True}
+        for claim, marks in verdicts.items()
+        for number, mark in enumerate(marks, start=1)
+    ]
+    text = undetermined_text(pd.DataFrame(rows))
+    assert "Of the 5 statements that are decided in some of the 3 cells, 1 hold in all" in text
+    assert "1 in none, so that they tell nothing about the cell; 3 hold in some" in text
+    assert "at best 2 of 4 hold" in text
+    assert "`first` and `last`" in text
+
+
 WORDS = "κ < 3 & <b>more</b>\n\n# [here](http://x) | there"
 
 
@@ -109,8 +132,8 @@ def test_words_of_the_config_are_no_html_no_link_and_no_line_of_their_own(verdic
 def test_what_would_decide_is_counted():
     frame = pd.DataFrame({"claim": ["a", "b", "c"], "verdict": ["not decidable"] * 3, "chapter": "ch6"})
     text = "Of the 3 statements that are not decidable, 2 want more members or a finer grid, and 1 more onsets"
-    assert text in next(_open_text(frame.assign(decided_over=["", "approaches", ""])))
-    assert list(_open_text(frame.assign(verdict="reproduced"))) == []
+    assert text in next(undecided_text(frame.assign(decided_over=["", "approaches", ""])))
+    assert list(undecided_text(frame.assign(verdict="reproduced"))) == []
 
 
 def test_the_pages_in_docs_are_those_of_the_table():

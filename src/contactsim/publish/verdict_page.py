@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import pandas as pd
 
-from contactsim.analysis.admissible import choices_table
+from contactsim.analysis.admissible import choices_table, read_candidates
+from contactsim.analysis.candidate_shares import FILE
 from contactsim.analysis.causes import FAILING, UNKNOWN
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_number
@@ -16,6 +17,7 @@ from contactsim.analysis.verdict import FINDING, NOT_DECIDABLE
 from contactsim.analysis.wording import candidates_text, measure_text, printed, readings_text
 from contactsim.publish.gallery import counts_markdown
 from contactsim.publish.markdown import plain_words, table
+from contactsim.publish.open_questions import undecided_text, undetermined_text
 
 HEADS = ("statement", "reading", "allowed", "value ± errors", "verdict", "margin", "place", "half; double band")
 ESTIMATOR_HEADS = ("statement", "as in the thesis", "verdict (margin)", "corrected", "verdict (margin)", "counted")
@@ -53,7 +55,7 @@ def verdict_page(claims: pd.DataFrame) -> str:
 
     claims: table of verdicts with a column of chapters, of `contactsim.publish.gallery.read_verdicts`
     """
-    parts = [INTRODUCTION, counts_markdown(claims), *_open_text(claims)]
+    parts = [INTRODUCTION, counts_markdown(claims), *undecided_text(claims)]
     for chapter, rows in claims[claims.verdict != FINDING].groupby("chapter", sort=True):
         parts += _chapter_parts(str(chapter).removeprefix("ch"), rows)
     findings = claims[claims.verdict == FINDING].to_dict("records")
@@ -62,20 +64,8 @@ def verdict_page(claims: pd.DataFrame) -> str:
         parts.append(table(("number", "reading", "value ± errors"), map(_finding_cells, findings)))
     if choices := list(_choice_rows(claims)):
         heads = ("statement", "choice", "value ± errors", "verdict", "margin")
-        parts += ["## What the text leaves open\n", table(heads, choices)]
+        parts += ["## What the text leaves open\n", undetermined_text(read_candidates(FILE)), table(heads, choices)]
     return "\n".join(parts)
-
-
-def _open_text(claims: pd.DataFrame) -> Iterator[str]:
-    """Yield a sentence that counts what is not decidable by what would decide it, where there is such a statement."""
-    open_claims = claims[claims.verdict == NOT_DECIDABLE]
-    if not len(open_claims):
-        return
-    is_line = open_claims.get("decided_over", pd.Series("", open_claims.index)) == "approaches"
-    yield (
-        f"Of the {len(open_claims)} statements that are not decidable, {(~is_line).sum()} want more members or a "
-        f"finer grid, and {is_line.sum()} more onsets of sliding: a line through as few as the text has is not fixed.\n"
-    )
 
 
 def changes_page(before: pd.DataFrame, claims: pd.DataFrame, reasons: pd.DataFrame) -> str:
