@@ -119,7 +119,7 @@ def test_a_table_has_values_errors_names_and_scales_of_a_curve():
     assert table.y.iloc[2] == 3.0
     assert set(table.x_scale) == {"log"}
     assert set(table.y_scale) == {"linear"}
-    assert error_texts(table) == ["median error bar of a panel 5 %"]
+    assert error_texts(table) == ["median error bar 5 %"]
 
 
 def test_a_band_has_its_edges_as_errors_and_a_large_map_is_given_by_means_of_blocks():

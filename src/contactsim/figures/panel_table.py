@@ -53,7 +53,7 @@ def error_texts(table: pd.DataFrame) -> list[str]:
     """
     medians = (100 * table.relative_error.groupby(table.panel).median()).dropna()
     ends = list(dict.fromkeys(_percent(end) for end in (medians.min(), medians.max()))) if len(medians) else []
-    return [f"median error bar of a panel {' to '.join(ends)} %"] if ends else []
+    return [f"median error bar {' to '.join(ends)} %"] if ends else []
 
 
 def _percent(value: float) -> str:
