@@ -181,3 +181,12 @@ def test_a_cause_stands_with_a_failure_only():
     assert row(failing).cause == UNKNOWN
     rows = pd.DataFrame([row(), row(failing), row(failing, cause=CAUSE)]).assign(claim=["holds", "open", "explained"])
     assert claims_without_cause(rows) == ["open"]
+
+
+def test_a_reading_may_be_an_order_which_has_no_band():
+    trend = {"what is meant": {"a trend": {"reduce": "falling_steps", "along": "reduced_pressure"}}}
+    settings = claim(admissible=trend)
+    (reading,) = settings["admissible"].values()
+    assert (reading["reduce"], reading["expect"], reading["tolerance"]) == ("falling_steps", None, None)
+    falls = judge_claims({"test": settings}, {"rough_line": made_up(3.0, tilt=-0.1)}).iloc[0]
+    assert (falls.default_verdict, falls.verdict) == (NOT_REPRODUCED, DEPENDS)

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 
 from contactsim.analysis.causes import PERCENT, ROW_NUMBERS, Cause
 from contactsim.analysis.comparison import SECOND_STUDY, studies_of
+from contactsim.analysis.reductions import ORDERS
 from contactsim.errors import InputError
 from contactsim.study.claim_checks import (
     check_band,
@@ -237,7 +238,7 @@ def _changed_claim(
         dropped |= {"more_members"}
     if "expect" in changes:
         dropped |= {*EDGES}
-    elif {*EDGES} & set(changes):
+    elif {*EDGES} & set(changes) or changes.get("reduce") in ORDERS:  # an order has a sense and no band
         dropped |= {"expect", "tolerance", *EDGES}
     given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
     return _read_settings(place, given | changes, file, studies)
