@@ -23,7 +23,7 @@ SURFACES = {
 """Lines are those of Chapter 3. Surfaces have a quarter of the waves: 64 points per wavelength can then be solved."""
 GRIDS = {"lines": (4, 8, 16, 32, 64, 256), "surfaces": (4, 8, 16, 32, 64)}
 ESTIMATORS = ("counted", "corrected", "subgrid", "pairs", "literature")
-PRINTED = {
+TABLE_ESTIMATORS = {
     ("lines", "kappa"): ESTIMATORS[:3],
     ("lines", "kappa_r"): ESTIMATORS[:4],
     ("surfaces", "kappa"): (*ESTIMATORS[:3], ESTIMATORS[4]),
@@ -43,7 +43,7 @@ def estimates(kind: str, members: int) -> xr.Dataset:
     """Return κ and κ_r of each member by each estimator, (estimator, hurst, pressure, points, member)."""
     grids, shape = GRIDS[kind], SURFACES[kind]
     waves = round(shape["length"] / shape["short_cutoff"])
-    found = np.zeros((2, len(ESTIMATORS), len(HURST_EXPONENTS), len(PRESSURES), len(grids), members))
+    factors = np.zeros((2, len(ESTIMATORS), len(HURST_EXPONENTS), len(PRESSURES), len(grids), members))
     for place, hurst in enumerate(HURST_EXPONENTS):
         for member in range(members):
             surface = cs.SelfAffine(
@@ -53,12 +53,12 @@ def estimates(kind: str, members: int) -> xr.Dataset:
             scene = cs.Scene(cs.HalfSpace(contact_modulus=1.0), surface, cs.HardWall(), loads)
             for grid, points in enumerate(grids):
                 data = cs.simulate(scene, points=waves * points, tolerance=1e-3)
-                found[:, :, place, :, grid, member] = _factors(data)
+                factors[:, :, place, :, grid, member] = _factors(data)
     coordinates = {
         "estimator": list(ESTIMATORS), "hurst": list(HURST_EXPONENTS), "pressure": list(PRESSURES),
         "points": list(grids), "member": range(members),
     }  # fmt: skip
-    kappa, kappa_r = (xr.DataArray(part, coordinates, list(coordinates)) for part in found)
+    kappa, kappa_r = (xr.DataArray(part, coordinates, list(coordinates)) for part in factors)
     return xr.Dataset({"kappa": kappa, "kappa_r": kappa_r})
 
 
@@ -90,19 +90,19 @@ def stated_error(values: xr.DataArray, is_surface: bool) -> xr.DataArray:
     return xr.where(values.points >= 16, np.maximum(change, abs(second - corrected)), change)
 
 
-def print_table(kind: str, name: str, found: xr.DataArray) -> None:
+def print_table(kind: str, name: str, factors: xr.DataArray) -> None:
     """Print how far each estimator is from the finest grid, its spread and order, and how often its error covers that.
 
-    kind: lines or surfaces; name: of the factor; found: of each member
+    kind: lines or surfaces; name: of the factor; factors: of each member
     """
-    values = found.mean("member")
+    values = factors.mean("member")
     finest = values.sel(estimator="subgrid").isel(points=-1)
-    distances = 100 * (found / found.sel(estimator="subgrid").isel(points=-1) - 1)
+    distances = 100 * (factors / factors.sel(estimator="subgrid").isel(points=-1) - 1)
     print(
         f"| {SYMBOLS[name]} by | H | p* | {' | '.join(str(count) for count in values.points.values)} | spread | order |"
     )
     print("|---" * (5 + values.points.size) + "|")
-    for estimator in PRINTED[kind, name]:
+    for estimator in TABLE_ESTIMATORS[kind, name]:
         for hurst in HURST_EXPONENTS:
             for pressure in PRESSURES:
                 place = {"estimator": estimator, "hurst": hurst, "pressure": pressure}
@@ -134,9 +134,9 @@ def _order(values: xr.DataArray) -> str:
 def main() -> None:
     """Print the tables of κ and κ_r."""
     kind = sys.argv[1]
-    found = estimates(kind, int(sys.argv[2]) if len(sys.argv) > 2 else 6)
+    factors = estimates(kind, int(sys.argv[2]) if len(sys.argv) > 2 else 6)
     for name in SYMBOLS:
-        print_table(kind, name, found[name])
+        print_table(kind, name, factors[name])
 
 
 if __name__ == "__main__":

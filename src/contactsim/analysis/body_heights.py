@@ -39,11 +39,11 @@ def curve_of_body(data: xr.Dataset, height: float) -> Curve:
     """
     data, body = with_indentation(data), body_settings(data)
     pressure = converged(data.normalised_pressure, data).mean("member", skipna=False).values
-    given = pressure * float(np.mean(data.contact_modulus))
-    added = hard_wall.body_compression(given, height, body["youngs_modulus"], body["poisson_ratio"])
-    approach = data.indentation.values + added
-    known = np.isfinite(approach)
-    approach, pressure = approach[known], pressure[known]
+    mean_pressure = pressure * float(np.mean(data.contact_modulus))
+    compression = hard_wall.body_compression(mean_pressure, height, body["youngs_modulus"], body["poisson_ratio"])
+    approach = data.indentation.values + compression
+    is_known = np.isfinite(approach)
+    approach, pressure = approach[is_known], pressure[is_known]
     rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
     return approach[rises], pressure[rises]
 
@@ -86,7 +86,7 @@ def compare_heights(studies: Studies, heights: Sequence[float]) -> pd.DataFrame:
     members, length, rows = studies[0].member.values, float(np.max(studies[0].length)), []
     for height in heights:
         row = {"height": height, "is_exact": height == 0 or height >= length}
-        parts = [_without_member(studies, left) for left in members]
+        parts = [_without_member(studies, member) for member in members]
         without = [_differences(part, height) for part in parts] if members.size > 1 else [[np.nan] * 3]
         errors = np.sqrt((members.size - 1) * np.var(without, axis=0))
         for name, value, error in zip(DIFFERENCES, _differences(studies, height), errors, strict=True):

@@ -68,8 +68,8 @@ def shares_table(candidates: pd.DataFrame) -> pd.DataFrame:
     for claim in candidates.claim.unique():
         row: dict[str, object] = {"claim": claim}
         for group in SETS:
-            held = holding_candidates(candidates, claim, group)
-            numbers = {"decided": held.decided, "holding": held.holding, "share": held.share, "error": held.error}
+            share = holding_candidates(candidates, claim, group)
+            numbers = {"decided": share.decided, "holding": share.holding, "share": share.share, "error": share.error}
             row |= {f"{group}_{name}": value for name, value in numbers.items()}
         rows.append(row)
     return pd.DataFrame(rows)

@@ -10,6 +10,7 @@ import pandas as pd
 
 from contactsim.analysis.candidate_shares import SETS, drawn_candidates
 from contactsim.analysis.verdict import NOT_DECIDABLE, REPRODUCED
+from contactsim.grid import Array
 
 CELL = ("width", "thickness", "lattice_constant")
 """Lengths of a cell."""
@@ -39,6 +40,11 @@ def admitted_cells(candidates: pd.DataFrame, claim: str) -> pd.DataFrame:
     return drawn_candidates(candidates, claim, SETS[0])
 
 
+def measure_logarithm(cells: pd.DataFrame, exponents: Mapping[str, float]) -> Array:
+    """Return the logarithm of a measure of each cell, (cell,); exponents: of its lengths, as in `separate_cells`."""
+    return np.sum([power * np.log(cells[name].to_numpy()) for name, power in exponents.items()], axis=0)
+
+
 def separate_cells(cells: pd.DataFrame, exponents: Mapping[str, float]) -> CellRule | None:
     """Return the boundary that tells most of the decided cells apart; None unless the claim both holds and fails.
 
@@ -53,7 +59,7 @@ def separate_cells(cells: pd.DataFrame, exponents: Mapping[str, float]) -> CellR
     holds = (decided.verdict == REPRODUCED).to_numpy()
     if holds.all() or not holds.any():
         return None
-    logarithm = np.sum([power * np.log(decided[name].to_numpy()) for name, power in exponents.items()], axis=0)
+    logarithm = measure_logarithm(decided, exponents)
     order = np.argsort(logarithm)
     sorted_holds, sorted_logarithm = holds[order], logarithm[order]
     places = np.arange(1, len(holds))

@@ -20,14 +20,14 @@ FEW_SPLITS = 12
 """The same for quantities that are computed from the members of each half one by one, which takes long."""
 
 
-def half_splits(members: int, left: Array | None = None, most: int = MAX_SPLITS) -> list[tuple[Array, Array]]:
+def half_splits(members: int, remainder: Array | None = None, most: int = MAX_SPLITS) -> list[tuple[Array, Array]]:
     """Return splits of an ensemble into two halves: the places of both among the members that are left.
 
     Parameters
     ----------
     members
         Number of members.
-    left
+    remainder
         Members that are left of them, in ascending order; None for all.
     most
         Largest number of splits.
@@ -38,16 +38,16 @@ def half_splits(members: int, left: Array | None = None, most: int = MAX_SPLITS)
     the halves are the same without them, so a number does not change because other halves are drawn. One member is not
     split: it is both halves.
     """
-    left = np.arange(members) if left is None else left
-    places = np.arange(len(left))
-    if len(left) == 1:
+    remainder = np.arange(members) if remainder is None else remainder
+    places = np.arange(len(remainder))
+    if len(remainder) == 1:
         return [(places, places)]
     if math.comb(members, members // 2) <= most:
-        first_halves = [np.array(half) for half in itertools.combinations(places, len(left) // 2)]
+        first_halves = [np.array(half) for half in itertools.combinations(places, len(remainder) // 2)]
     else:
         random = np.random.default_rng(members)
         halves = [random.permutation(members)[: members // 2] for _ in range(most)]
-        first_halves = [np.flatnonzero(np.isin(left, half)) for half in halves]
+        first_halves = [np.flatnonzero(np.isin(remainder, half)) for half in halves]
     return [(first, np.setdiff1d(places, first)) for first in first_halves]
 
 
@@ -65,7 +65,7 @@ def joint_splits(
     most
         Largest number of splits.
     """
-    splits = [half_splits(members, left, most) for members, left in ensembles]
+    splits = [half_splits(members, remainder, most) for members, remainder in ensembles]
     for number in range(max(map(len, splits))):
         first, second = zip(*(own[number % len(own)] for own in splits), strict=True)
         yield list(first), list(second)

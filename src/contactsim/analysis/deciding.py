@@ -73,19 +73,20 @@ def deciding_text(row: Mapping[str, Any], effort: Effort) -> str:
         return ""
     most = distance_to_edge(row) / MIN_MARGIN
     if row.get("decided_over") == "approaches":
-        each = _time(effort.seconds / effort.approaches)
+        each = _time_text(effort.seconds / effort.approaches)
         return f"more approaches ({each} each), until leaving out one changes the number by less than {most:.2g}"
-    if math.isinf(members_needed(row)):
-        return f"an error of grid and increments below {most:.2g}; more members alone do not{_both(row, most, effort)}"
     needed, members = members_needed(row), row["members"]
+    if math.isinf(needed):
+        doublings = _doublings_text(row, most, effort)
+        return f"an error of grid and increments below {most:.2g}; more members alone do not{doublings}"
     cost = (needed / members - 1) * effort.seconds
-    told = f", {_time(cost)} more" if cost > 0 else ""
+    cost_text = f", {_time_text(cost)} more" if cost > 0 else ""
     if row.get("decided_over") == "grids":
-        return f"{needed / members:.2g} times the members on both grids{told}, if the number stays"
-    return f"{needed:.0f} members in place of {members:.0f}{told}, if the number stays"
+        return f"{needed / members:.2g} times the members on both grids{cost_text}, if the number stays"
+    return f"{needed:.0f} members in place of {members:.0f}{cost_text}, if the number stays"
 
 
-def _both(row: Mapping[str, Any], most: float, effort: Effort) -> str:
+def _doublings_text(row: Mapping[str, Any], most: float, effort: Effort) -> str:
     """Return in words how often the points are doubled, with how many members, until the error is small enough."""
     if not math.isfinite(effort.doubling):
         return ""
@@ -93,10 +94,10 @@ def _both(row: Mapping[str, Any], most: float, effort: Effort) -> str:
     doublings = math.ceil(math.log2(row["grid_error"] / math.sqrt(most**2 - ensemble_error**2)))
     members = (row["ensemble_error"] / ensemble_error) ** 2 if ensemble_error else 1.0
     more = f", {members:.2g} times the members" if members > 1 else ""
-    cost = _time(members * effort.seconds * effort.doubling**doublings)
+    cost = _time_text(members * effort.seconds * effort.doubling**doublings)
     return f" (at first order the points doubled {doublings} times{more}, {cost})"
 
 
-def _time(seconds: float) -> str:
+def _time_text(seconds: float) -> str:
     """Return CPU time in words."""
     return f"{duration_text(seconds)} of one core"

@@ -154,10 +154,9 @@ def readings_text(row: Mapping[str, Any]) -> str:
     count = int(row["choices_decided"])
     if not count:
         return "not decidable with any reading"
-    held = round(count * float(row["choices_share"]))
-    return (
-        f"holds {_part_text('with', held, count, 'reading', 'readings')} that {'is' if count == 1 else 'are'} decided"
-    )
+    holding = round(count * float(row["choices_share"]))
+    part = _part_text("with", holding, count, "reading that is decided", "readings that are decided")
+    return f"holds {part}"
 
 
 def candidates_text(row: Mapping[str, Any]) -> str:
@@ -170,18 +169,18 @@ def candidates_text(row: Mapping[str, Any]) -> str:
         count = row.get(f"{group}_decided", np.nan)
         if not count > 0:
             continue
-        held = round(count * row[f"{group}_share"])
+        holding = round(count * row[f"{group}_share"])
         share = f" ({row[f'{group}_share']:.0%} ± {row[f'{group}_error']:.0%})" if count >= MIN_SHARED else ""
-        texts.append(f"{_part_text('in', held, int(count), *of_cells)}{share}")
+        texts.append(f"{_part_text('in', holding, int(count), *of_cells)}{share}")
     return f"holds {', and '.join(texts)}" if texts else ""
 
 
-def _part_text(word: str, held: int, count: int, one: str, several: str) -> str:
+def _part_text(word: str, holding: int, count: int, singular: str, plural: str) -> str:
     """Return a part of several things in words, such as "in 36 of the 38 admitted cells"."""
     if count == 1:
-        return f"{'' if held else 'not '}{word} the one {one}"
-    part = "all" if held == count else str(held or "none")
-    return f"{word} {part} of the {count} {several}"
+        return f"{'' if holding else 'not '}{word} the one {singular}"
+    part = "all" if holding == count else str(holding or "none")
+    return f"{word} {part} of the {count} {plural}"
 
 
 def printed(text: str) -> str:

@@ -23,7 +23,7 @@ LARGEST_PRESSURE = 0.1
 """Largest p* of the thesis."""
 
 
-def factor_estimate(plan: Plan, study: str, data: xr.Dataset, place: dict[str, float], quantity: str) -> Estimate:
+def factor_estimate(plan: Plan, study: str, data: xr.Dataset, quantity: str, place: dict[str, float]) -> Estimate:
     """Return a factor at one load and Hurst exponent with its errors, found as those of statements are."""
     select = {dim: [value, value] for dim, value in place.items()}
     texts = dict.fromkeys(("source", "statement", "rationale"), "")
@@ -55,9 +55,11 @@ def factor_table(plan: Plan, folder: Path, study: str, more: Sequence[str] = ())
     columns = []
     for name in FACTORS:
         for hurst in exponents:
-            places = [{"hurst_exponent": hurst, "reduced_pressure": pressure} for pressure in pressures]
-            numbers = zip(sources, places, strict=True)
-            columns.append(pool_grid_errors([factor_estimate(plan, study, *number, name) for number in numbers]))
+            estimates = [
+                factor_estimate(plan, study, source, name, {"hurst_exponent": hurst, "reduced_pressure": pressure})
+                for source, pressure in zip(sources, pressures, strict=True)
+            ]
+            columns.append(pool_grid_errors(estimates))
     heads = [f"{symbol}, H = {hurst:g}" for symbol in FACTORS.values() for hurst in exponents]
     lines = [f"| p* | members | {' | '.join(heads)} |", "|---" * (len(heads) + 2) + "|"]
     for pressure, source, row in zip(pressures, sources, zip(*columns, strict=True), strict=True):

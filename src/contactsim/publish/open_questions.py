@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
 
-from contactsim.analysis.candidate_shares import (
-    DRAWN,
-    SETS,
-    holding_candidates,
-    incompatible_pairs,
-    statements_held,
-)
+from contactsim.analysis.candidate_shares import DRAWN, SETS, incompatible_pairs, shares_table, statements_held
+from contactsim.analysis.cell_rules import measure_logarithm
 from contactsim.analysis.verdict import NOT_DECIDABLE
 
 MEASURES = {
@@ -39,29 +34,20 @@ def undecided_text(claims: pd.DataFrame) -> Iterator[str]:
 def undetermined_text(candidates: pd.DataFrame) -> str:
     """Return what the statements tell about the cell, and what they do not; candidates: verdicts in all of them."""
     drawn = candidates[candidates.candidate.astype(str).str.fullmatch(DRAWN) & candidates[SETS[0]].astype(bool)]
-    held = [holding_candidates(drawn, claim, SETS[0]) for claim in drawn.claim.unique()]
-    held = [part for part in held if part.decided]
-    in_all, in_none = sum(part.share == 1 for part in held), sum(part.share == 0 for part in held)
+    shares = shares_table(drawn)[f"{SETS[0]}_share"].dropna()
+    in_all, in_none = int((shares == 1).sum()), int((shares == 0).sum())
     cells = statements_held(drawn)
     best = cells.loc[cells.share.idxmax()]
-    trends = [f"{_correlation(cells, powers):+.2f} with {words}" for words, powers in MEASURES.items()]
+    trends = [
+        f"{np.corrcoef(measure_logarithm(cells, exponents), cells.share)[0, 1]:+.2f} with {words}"
+        for words, exponents in MEASURES.items()
+    ]
     pairs = [f"`{row.first}` and `{row.second}`" for row in incompatible_pairs(drawn).itertuples()]
-    never = f" Each of two statements holds in some cells, and both in none: {_joined(pairs)}." if pairs else ""
+    apart = f" Statements that each hold in some cells, and together in none: {'; '.join(pairs)}." if pairs else ""
     return (
-        f"**The cell of the probe stays undetermined.** Of the {len(held)} statements that are decided in some of the "
-        f"{len(cells)} cells, {in_all} hold in all cells that decide them and {in_none} in none, so that they tell "
-        f"nothing about the cell; {len(held) - in_all - in_none} hold in some. No cell has all of them: at best "
+        f"**The cell of the probe stays undetermined.** Of the {len(shares)} statements that are decided in some of "
+        f"the {len(cells)} cells, {in_all} hold in all cells that decide them and {in_none} in none, so that they tell "
+        f"nothing about the cell; {len(shares) - in_all - in_none} hold in some. No cell has all of them: at best "
         f"{best.holding} of {best.decided} hold. The share that holds goes with no length alone; over the cells its "
-        f"correlation is {_joined(trends)} (logarithms).{never}\n"
+        f"correlation with the logarithm of a length or a ratio is {', '.join(trends)}.{apart}\n"
     )
-
-
-def _correlation(cells: pd.DataFrame, powers: dict[str, int]) -> float:
-    """Return the correlation of the share that holds with the logarithm of a measure of the cell."""
-    measure = sum(power * np.log(cells[name]) for name, power in powers.items())
-    return float(np.corrcoef(measure, cells.share)[0, 1])
-
-
-def _joined(parts: Sequence[str]) -> str:
-    """Return several parts as a list in a sentence."""
-    return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)

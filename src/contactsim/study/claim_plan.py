@@ -104,7 +104,7 @@ def _read_settings(
         check_without_study(settings, file, prefix)
         return settings
     alternatives, settings["admissible"] = settings["admissible"] or {}, None
-    given = dict(settings)
+    entries = dict(settings)
     cases, settings["cases"] = settings["cases"] or {}, None
     if cases and (settings["case"] is None or settings["case"] in cases):
         raise InputError(f"{prefix}.case", settings["case"], "a name of the claim's own case beside `cases`", file)
@@ -120,8 +120,8 @@ def _read_settings(
     check_band(settings, file, prefix)
     if settings["absent"] is not None and settings["reduce"] not in WITHOUT_INPUTS:
         raise InputError(f"{prefix}.absent", settings["absent"], f"with {', '.join(WITHOUT_INPUTS)} only", file)
-    settings["cases"] = read_cases(given, cases, file, f"{prefix}.cases", studies)
-    settings["admissible"] = read_alternatives(given, alternatives, file, f"{prefix}.admissible", studies)
+    settings["cases"] = read_cases(entries, cases, file, f"{prefix}.cases", studies)
+    settings["admissible"] = read_alternatives(entries, alternatives, file, f"{prefix}.admissible", studies)
     return settings
 
 
@@ -179,12 +179,12 @@ def _read_number(claim: Mapping, replaced: object, file: object, place: str, stu
     changes = {key: value for key, value in read(replaced, NUMBER_KEYS, file, place).items() if value is not None}
     if not changes:
         raise InputError(place, replaced, f"at least one of {', '.join(NUMBER_KEYS)}", file)
-    kept = set(NUMBER_KEYS) - {"absent"}
+    own_keys = set(NUMBER_KEYS) - {"absent"}
     for first, keys in (("study", DATA_KEYS), ("reduce", MEASURE_KEYS)):
-        kept -= {*keys} if first in changes else set()
+        own_keys -= {*keys} if first in changes else set()
     words = ("source", "statement", "rationale")
-    given = {key: claim[key] for key in (*words, *kept) if claim[key] is not None}
-    return _read_settings(place, given | changes, file, studies, is_finding=True)
+    entries = {key: claim[key] for key in (*words, *own_keys) if claim[key] is not None}
+    return _read_settings(place, entries | changes, file, studies, is_finding=True)
 
 
 def read_alternatives(
@@ -240,5 +240,5 @@ def _changed_claim(
         dropped |= {*EDGES}
     elif {*EDGES} & set(changes) or changes.get("reduce") in ORDERS:  # an order has a sense and no band
         dropped |= {"expect", "tolerance", *EDGES}
-    given = {key: value for key, value in claim.items() if key not in dropped and value is not None}
-    return _read_settings(place, given | changes, file, studies)
+    entries = {key: value for key, value in claim.items() if key not in dropped and value is not None}
+    return _read_settings(place, entries | changes, file, studies)

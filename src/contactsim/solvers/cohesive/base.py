@@ -117,15 +117,14 @@ def cannot_carry_load(problem: CohesiveProblem, gap: Array) -> bool:
     if problem.load is None:
         return False
     farthest = SEPARATION * problem.interaction_range
-    return bool(gap[0].min() > farthest) or (bool(gap[0].max() < -farthest) and _has_lost_repulsion(problem, gap))
-
-
-def _has_lost_repulsion(problem: CohesiveProblem, gap: Array) -> bool:
-    """Return True if slip has taken the repulsion of overlapping surfaces, as it does in a coupled law."""
-    unslipped = gap.copy()
-    unslipped[1:] = 0.0
-    repulsion = -float(problem.law.traction(unslipped)[0].max())
-    return repulsion > LOST_REPULSION * abs(float(problem.load or 0.0))
+    if gap[0].min() > farthest:
+        return True
+    if not gap[0].max() < -farthest:
+        return False
+    without_slip = np.zeros_like(gap)
+    without_slip[0] = gap[0]
+    repulsion = -float(problem.law.traction(without_slip)[0].max())
+    return repulsion > LOST_REPULSION * abs(problem.load)  # slip takes the repulsion of a coupled law
 
 
 def largest_change(problem: CohesiveProblem, change: Array, enough: float = 0.0) -> float:
